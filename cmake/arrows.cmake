@@ -1,0 +1,28 @@
+# The arrows of the house (docs/design.md): which room may include which. The configuration stops on
+# an include that must not exist, so a wrong arrow never reaches a compiler.
+
+function(taut_forbid folder pattern)
+    file(GLOB_RECURSE files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp ${PROJECT_SOURCE_DIR}/${folder}/*.cpp
+         ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+    foreach(file IN LISTS files)
+        file(STRINGS ${file} hits REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"](${pattern})")
+        if(hits)
+            message(FATAL_ERROR "${file} may not include: ${hits}\n(see cmake/arrows.cmake for the arrows)")
+        endif()
+    endforeach()
+endfunction()
+
+set(upper "taut/(scene|plan|linear|world|report|cli|taut)")
+taut_forbid(runtime          "${upper}")
+taut_forbid(runtime/base     "taut/runtime/(vulkan|opengl|cpu|compiler|device)|vulkan|volk|GL/|EGL/")
+taut_forbid(runtime/cpu      "taut/runtime/(vulkan|opengl)|vulkan/|volk|GL/|EGL/")
+taut_forbid(runtime/vulkan   "taut/runtime/(opengl|cpu)|GL/|EGL/")
+taut_forbid(runtime/opengl   "taut/runtime/(vulkan|cpu)|vulkan/|volk")
+taut_forbid(runtime/compiler "taut/runtime/(vulkan|opengl|cpu)|vulkan/|volk|GL/|EGL/")
+taut_forbid(src              "vulkan/|volk|GL/|EGL/")
+# scene and plan know of the runtime only its device-free values (runtime/base).
+taut_forbid(src/scene        "taut/(plan|linear|world|report|cli|taut/|kernels)|taut/runtime/(device|cpu|vulkan|opengl|compiler)")
+taut_forbid(src/plan         "taut/(linear|world|report|cli|taut/)|taut/runtime/(device|cpu|vulkan|opengl|compiler)")
+taut_forbid(src/linear       "taut/(plan|world|report|cli|taut/)|taut/runtime/(cpu|vulkan|opengl)")
+taut_forbid(src/world        "taut/(report|cli)|taut/runtime/(cpu|opengl)")
+taut_forbid(src/report       "taut/(cli)|taut/runtime/(cpu|opengl)")

@@ -1,0 +1,50 @@
+# Compiles every kernels/**/*.comp into tables (SPIR-V, GLSL text, bindings) and native code.
+# A kernel that glslang or spirv-val rejects stops the build; a kernel without a test stops the
+# configuration: tests/conformance/<stem>_test.cpp must exist.
+
+file(GLOB_RECURSE taut_kernel_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.comp)
+file(GLOB taut_kernel_shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/shared/*)
+set(taut_generated ${PROJECT_BINARY_DIR}/generated/taut/kernels)
+set(taut_kernel_sources)
+set(taut_kernel_stems)
+
+foreach(kernel IN LISTS taut_kernel_files)
+    cmake_path(GET kernel STEM stem)
+    if(stem IN_LIST taut_kernel_stems)
+        message(FATAL_ERROR "two kernels are called ${stem}.comp: the stem must be unique")
+    endif()
+    list(APPEND taut_kernel_stems ${stem})
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/tests/conformance/${stem}_test.cpp)
+        message(FATAL_ERROR "${kernel} has no test: expected tests/conformance/${stem}_test.cpp")
+    endif()
+    set(outputs ${taut_generated}/${stem}.hpp ${taut_generated}/${stem}.cpp ${taut_generated}/${stem}.native.cpp)
+    add_custom_command(
+        OUTPUT ${outputs}
+        COMMAND taut-kernelc ${kernel} ${PROJECT_SOURCE_DIR}/kernels ${taut_generated}
+        DEPENDS taut-kernelc ${kernel} ${taut_kernel_shared}
+        COMMENT "Kernel ${stem}"
+        VERBATIM)
+    # Bitwise equality between executors needs separate multiply and add, and no other liberties.
+    set_source_files_properties(${taut_generated}/${stem}.native.cpp PROPERTIES
+        OBJECT_DEPENDS ${kernel}
+        COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O3>;-ffp-contract=off;-fno-math-errno;-fno-trapping-math;-Wno-shadow;-Wno-conversion;-Wno-sign-conversion;-Wno-unused-parameter")
+    list(APPEND taut_kernel_sources ${outputs})
+endforeach()
+
+# The registry: find_kernel(name, variant, precision).
+set(registry "// Generated. Do not edit.\n#include \"taut/runtime/base/registry.hpp\"\n#include \"taut/runtime/base/error.hpp\"\n#include <string>\n\nnamespace taut::kernels {\n")
+foreach(stem IN LISTS taut_kernel_stems)
+    string(APPEND registry "namespace ${stem} { std::span<const KernelInfo> all(); }\n")
+endforeach()
+string(APPEND registry "}\n\nnamespace taut {\n\nstd::vector<const KernelInfo*> all_kernels()\n{\n    std::vector<const KernelInfo*> out;\n")
+foreach(stem IN LISTS taut_kernel_stems)
+    string(APPEND registry "    for (const KernelInfo& k : kernels::${stem}::all()) out.push_back(&k);\n")
+endforeach()
+string(APPEND registry "    return out;\n}\n\n} // namespace taut\n")
+file(CONFIGURE OUTPUT ${taut_generated}/registry.cpp CONTENT "${registry}" @ONLY)
+
+add_custom_command(
+    OUTPUT ${taut_generated}/builtin_includes.cpp
+    COMMAND taut-kernelc --includes ${PROJECT_SOURCE_DIR}/kernels ${taut_generated}/builtin_includes.cpp
+    DEPENDS taut-kernelc ${taut_kernel_shared}
+    VERBATIM)

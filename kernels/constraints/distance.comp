@@ -1,0 +1,54 @@
+// XPBD distance constraint, one invocation per constraint of one colour (no two share a vertex).
+//
+// Based on:
+//   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 18 at `dlambda`.
+//   Macklin et al. Small Steps in Physics Simulation. SCA 2019: one iteration per substep, where the
+//   multiplier starts at zero and needs no buffer (the variant without LAMBDA).
+// Departures: works on displacements of the substep (`delta`), not on positions, so that many
+//   substeps do not lose to rounding; coincident ends are skipped and counted.
+// Bytes per element: 16 constraint + 64 read + 32 written (float).
+//! variant lambda LAMBDA=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+
+PARAMS
+{
+    uint first;           // constraint of the colour's first element
+    uint count;
+    uint first_iteration; // 1: the multiplier starts at zero
+};
+
+READ(0, DistanceConstraint, constraint);
+READ(1, rvec4, position); // xyz m, w = inverse mass 1/kg
+UPDATE(2, rvec4, delta);  // displacement since the start of the substep, m
+READ(3, StepValues, step_values);
+COUNTERS(4, events);
+#if LAMBDA
+UPDATE(5, real, multiplier); // N s^2
+#endif
+
+KERNEL(count)
+{
+    DistanceConstraint c = constraint[first + i];
+    rvec4 xa = position[c.a];
+    rvec4 xb = position[c.b];
+    rvec3 da = rvec3(delta[c.a]);
+    rvec3 db = rvec3(delta[c.b]);
+    rvec3 d = (rvec3(xa) - rvec3(xb)) + (da - db);
+    real len = length(d);
+    real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
+    real weight = xa.w + xb.w;
+    bool usable = len > real(0) && weight > real(0);
+    real value = len - c.rest_length;
+#if LAMBDA
+    real before = first_iteration != 0u ? real(0) : multiplier[first + i];
+    real dlambda = usable ? -(value + scaled * before) / (weight + scaled) : real(0);
+    multiplier[first + i] = before + dlambda;
+#else
+    real dlambda = usable ? -value / (weight + scaled) : real(0);
+#endif
+    rvec3 push = usable ? d * (dlambda / len) : rvec3(real(0));
+    delta[c.a] = rvec4(da + xa.w * push, real(0));
+    delta[c.b] = rvec4(db - xb.w * push, real(0));
+    if (!usable && weight > real(0) && c.rest_length > real(0)) COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+}

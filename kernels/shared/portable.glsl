@@ -1,0 +1,78 @@
+// The only GLSL that knows which compiler reads it. Its C++ twin is runtime/cpu/portable.hpp.
+//
+// A kernel includes this first and then uses:
+//   PARAMS { uint count; };            values fixed per dispatch; 32-bit scalars only
+//   READ(slot, T, name)                storage buffer, read only
+//   WRITE(slot, T, name)               storage buffer, every element it owns is written
+//   UPDATE(slot, T, name)              storage buffer, read and written
+//   KERNEL(count) { ... i ... }        one invocation per element
+//   GROUP_KERNEL(size) { ... group ... PHASE_BEGIN ... lane ... PHASE_END ... }
+//   SHARED(T, name, n)                 work-group memory; what lives across phases
+//   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
+//   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
+//   CONST_REAL(name, value)            a constant at file scope
+// `real`, `rvec3`, `rvec4` are float or double, chosen when the kernel is compiled
+// (TAUT_REAL_DOUBLE). Write real(0.5) or 0.5f, vec3(p) not p.xyz, INOUT(T) for out parameters.
+#ifndef __cplusplus
+#ifndef TAUT_SHARED_PORTABLE_GLSL
+#define TAUT_SHARED_PORTABLE_GLSL
+
+#if TAUT_REAL_DOUBLE
+#define real double
+#define rvec3 dvec3
+#define rvec4 dvec4
+#else
+#define real float
+#define rvec3 vec3
+#define rvec4 vec4
+#endif
+
+#define INOUT(T) inout T
+#define PRECISE precise
+#define LAYOUT_STRUCT(name) struct name
+#define CONST_REAL(name, value) const real name = real(value)
+
+#ifdef VULKAN
+#define PARAMS layout(push_constant) uniform ParamsBlock
+#else
+#define PARAMS layout(std140, binding = 0) uniform ParamsBlock
+#endif
+
+#define READ(slot, T, name) layout(std430, binding = slot) readonly buffer name##_block { T name[]; }
+#define WRITE(slot, T, name) layout(std430, binding = slot) writeonly buffer name##_block { T name[]; }
+// coherent: phases of one group hand buffer contents to each other
+#define UPDATE(slot, T, name) layout(std430, binding = slot) coherent buffer name##_block { T name[]; }
+#define COUNTERS(slot, name) layout(std430, binding = slot) buffer name##_counters { uint name[]; }
+#define SHARED(T, name, n) shared T name[n]
+#define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
+
+// Groups beyond the limit of one dimension are folded into y (runtime: fold_groups).
+#define TAUT_GROUP (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
+
+#define KERNEL(count)                                               \
+    layout(local_size_x = TAUT_GROUP_SIZE) in;                      \
+    void element(uint i);                                           \
+    void main()                                                     \
+    {                                                               \
+        uint taut_i = TAUT_GROUP * uint(TAUT_GROUP_SIZE) + gl_LocalInvocationID.x; \
+        if (taut_i < uint(count)) element(taut_i);                  \
+    }                                                               \
+    void element(uint i)
+
+#define GROUP_KERNEL(size)            \
+    layout(local_size_x = size) in;   \
+    void body(uint group);            \
+    void main() { body(TAUT_GROUP); } \
+    void body(uint group)
+
+#define PHASE_BEGIN               \
+    {                             \
+        uint lane = gl_LocalInvocationID.x;
+#define PHASE_END            \
+    }                        \
+    memoryBarrierBuffer();   \
+    memoryBarrierShared();   \
+    barrier();
+
+#endif
+#endif

@@ -1,0 +1,71 @@
+#pragma once
+// GLSL text in, everything a device needs out: SPIR-V for Vulkan and OpenGL, flattened GLSL, and
+// the table of bindings and parameters read back from the SPIR-V. Used by the build (through
+// taut-kernelc) and at run time, for users' own kernels and for TAUT_KERNEL_DIR.
+
+#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/kernel_info.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace taut {
+
+/// One set of macros under which a kernel is compiled: `//! variant lambda LAMBDA=1`.
+struct KernelVariant
+{
+    std::string name; ///< "" for the base kernel
+    std::vector<std::pair<std::string, std::string>> defines;
+};
+
+struct KernelSource
+{
+    std::string name; ///< stem
+    std::string text; ///< as in the file; `#include "shared/..."` is resolved by `include_root`
+    std::filesystem::path include_root; ///< folder that holds shared/; empty: the built-in copies
+    KernelVariant variant;
+    Precision precision = Precision::float32;
+};
+
+/// Member of a record that a buffer holds, as the shader compiler laid it out.
+struct LayoutMember
+{
+    std::string record; ///< "DistanceConstraint"
+    std::string name;
+    std::uint32_t offset = 0;
+    std::uint32_t stride = 0; ///< of the whole record
+};
+
+/// Owns what its `info` points to. Neither copied nor moved.
+struct CompiledKernel
+{
+    CompiledKernel() = default;
+    CompiledKernel(const CompiledKernel&) = delete;
+    CompiledKernel& operator=(const CompiledKernel&) = delete;
+
+    KernelInfo info;
+    std::string name, variant, glsl;
+    std::vector<std::uint32_t> spirv_vulkan, spirv_opengl;
+    std::vector<BindingInfo> bindings;
+    std::vector<ParamInfo> params;
+    std::vector<LayoutMember> layouts;
+    std::vector<std::unique_ptr<std::string>> names; ///< storage behind string_views
+};
+
+/// The base variant and every `//! variant` line of a kernel text, each with all macros defined.
+/// Throws Error{kernel_compilation} for a malformed line.
+std::vector<KernelVariant> kernel_variants(std::string_view name, std::string_view text);
+
+/// Compiles, validates with SPIRV-Tools and reflects. Throws Error{kernel_compilation} with the
+/// compiler's words, each line naming file and line.
+std::shared_ptr<const CompiledKernel> compile_kernel(const KernelSource& source);
+
+/// Text of a built-in shared include ("shared/portable.glsl"), empty if there is none.
+std::string_view builtin_include(std::string_view path);
+
+} // namespace taut

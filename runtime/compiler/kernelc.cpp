@@ -1,0 +1,255 @@
+// taut-kernelc: the build's kernel compiler.
+//   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR     writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp
+//   taut-kernelc --includes INCLUDE_ROOT OUT_FILE     embeds kernels/shared/* as text
+
+#include "taut/runtime/compiler/compiler.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+// The tool resolves includes from the folder, never from an embedded copy.
+std::string_view taut::builtin_include(std::string_view) { return {}; }
+
+namespace {
+
+std::string read_text(const fs::path& path)
+{
+    std::ifstream file(path);
+    if (!file)
+        throw taut::Error(taut::ErrorCode::io, "cannot read " + path.string());
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Writes only when the text differs, so that an unchanged header rebuilds nothing.
+void write_text(const fs::path& path, const std::string& text)
+{
+    std::ifstream old(path);
+    if (old && std::string(std::istreambuf_iterator<char>(old), {}) == text)
+    {
+        fs::last_write_time(path, fs::file_time_type::clock::now());
+        return;
+    }
+    std::ofstream file(path);
+    file << text;
+    if (!file)
+        throw taut::Error(taut::ErrorCode::io, "cannot write " + path.string());
+}
+
+std::vector<std::string> shared_files(const fs::path& root)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(root / "shared"))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string identifier(const taut::CompiledKernel& k)
+{
+    return (k.variant.empty() ? "base" : k.variant) +
+           (k.info.precision == taut::Precision::float64 ? "_float64" : "_float32");
+}
+
+std::string words(const std::vector<std::uint32_t>& data)
+{
+    std::ostringstream out;
+    for (std::size_t i = 0; i < data.size(); ++i)
+        out << "0x" << std::hex << data[i] << (i % 12 == 11 ? ",\n" : ",");
+    return out.str();
+}
+
+/// A string literal in pieces: compilers limit the length of one.
+std::string literal(const std::string& text)
+{
+    std::istringstream lines(text);
+    std::string line, out;
+    while (std::getline(lines, line))
+    {
+        out += "    \"";
+        for (const char c : line)
+            out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+        out += "\\n\"\n";
+    }
+    return out.empty() ? "\"\"" : out;
+}
+
+using Kernels = std::vector<std::shared_ptr<const taut::CompiledKernel>>;
+
+std::string header_text(const std::string& stem, const Kernels& kernels)
+{
+    std::ostringstream out;
+    out << "#pragma once\n// Generated from kernels/**/" << stem << ".comp. Do not edit.\n\n"
+        << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <cstddef>\n#include <cstdint>\n#include <string_view>\n\n"
+        << "namespace taut::kernels::" << stem << " {\n\n";
+    const auto& params = kernels.front()->params;
+    if (!params.empty())
+    {
+        out << "/// Fixed per dispatch; the same block as in the kernel.\nstruct Params\n{\n";
+        for (const auto& p : params)
+            out << "    " << (p.type == "uint" ? "std::uint32_t" : p.type == "int" ? "std::int32_t" : "float") << " "
+                << p.name << " = 0;\n";
+        out << "};\nstatic_assert(sizeof(Params) == " << kernels.front()->info.param_bytes << ");\n";
+        for (const auto& p : params)
+            out << "static_assert(offsetof(Params, " << p.name << ") == " << p.offset << ");\n";
+    }
+    out << "\n/// Storage buffers in order of slot, over all variants.\n";
+    std::set<std::string> seen;
+    for (const auto& kernel : kernels)
+        for (const auto& b : kernel->bindings)
+            if (seen.insert(std::string(b.name)).second)
+                out << "inline constexpr std::uint32_t slot_" << b.name << " = " << b.slot << ";\n";
+    out << "\n/// Throws Error{unsupported} when there is no such variant.\n"
+        << "const KernelInfo& info(std::string_view variant = {}, Precision precision = Precision::float32);\n\n"
+        << "} // namespace taut::kernels::" << stem << "\n";
+    return out.str();
+}
+
+void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
+{
+    const std::string id = identifier(k);
+    out << "const std::uint32_t vulkan_" << id << "[] = {" << words(k.spirv_vulkan) << "};\n"
+        << "const std::uint32_t opengl_" << id << "[] = {" << words(k.spirv_opengl) << "};\n"
+        << "const char glsl_" << id << "[] =\n" << literal(k.glsl) << ";\n";
+    out << "const BindingInfo bindings_" << id << "[] = {\n";
+    for (const auto& b : k.bindings)
+        out << "    {\"" << b.name << "\", " << b.slot << ", static_cast<Access>(" << static_cast<int>(b.access) << "), "
+            << b.stride << "},\n";
+    out << "};\n";
+    if (!k.params.empty())
+    {
+        out << "const ParamInfo params_" << id << "[] = {\n";
+        for (const auto& p : k.params)
+            out << "    {\"" << p.name << "\", \"" << p.type << "\", " << p.offset << "},\n";
+        out << "};\n";
+    }
+    const char* real = k.info.precision == taut::Precision::float64 ? "double" : "float";
+    for (const auto& m : k.layouts)
+        out << "static_assert(offsetof(layout::" << m.record << "<" << real << ">, " << m.name << ") == " << m.offset
+            << " && sizeof(layout::" << m.record << "<" << real << ">) == " << m.stride << ");\n";
+}
+
+std::string source_text(const std::string& stem, const Kernels& kernels)
+{
+    std::ostringstream out;
+    out << "// Generated. Do not edit.\n#include \"taut/kernels/" << stem << ".hpp\"\n"
+        << "#define TAUT_HOST\n#include \"taut/kernels/shared/layouts.h\"\n"
+        << "#include \"taut/runtime/base/error.hpp\"\n#include <string>\n\nnamespace taut::kernels::" << stem << " {\n";
+    for (const auto& k : kernels)
+        out << "void native_" << identifier(*k) << "(const void*, void* const*, std::uint32_t, std::uint32_t);\n";
+    out << "namespace {\n";
+    for (const auto& k : kernels)
+        table_text(out, *k);
+    out << "const KernelInfo table[] = {\n";
+    for (const auto& k : kernels)
+    {
+        const std::string id = identifier(*k);
+        out << "    {\"" << stem << "\", \"" << k->variant << "\", Precision::float"
+            << (k->info.precision == taut::Precision::float64 ? "64" : "32") << ", "
+            << (k->info.group_kernel ? "true" : "false") << ", " << k->info.group_size << ", " << k->info.shared_bytes
+            << ", " << k->info.param_bytes << ",\n     bindings_" << id << ", "
+            << (k->params.empty() ? "{}" : "params_" + id) << ", vulkan_" << id << ", opengl_" << id << ", glsl_" << id
+            << ", native_" << id << "},\n";
+    }
+    out << "};\n} // namespace\n\nconst KernelInfo& info(std::string_view variant, Precision precision)\n{\n"
+        << "    for (const KernelInfo& kernel : table)\n"
+        << "        if (kernel.variant == variant && kernel.precision == precision)\n            return kernel;\n"
+        << "    throw Error(ErrorCode::unsupported, \"kernel " << stem
+        << " has no variant \\\"\" + std::string(variant) + \"\\\"\");\n}\n\n"
+        << "std::span<const KernelInfo> all() { return table; }\n\n} // namespace taut::kernels::" << stem << "\n";
+    return out.str();
+}
+
+void native_kernel(std::ostringstream& out, const std::string& path, const taut::CompiledKernel& k,
+                   const taut::KernelVariant& variant, const std::vector<std::string>& shared)
+{
+    const std::string id = identifier(k);
+    for (const std::string& file : shared)
+    {
+        std::string guard = "TAUT_SHARED_" + file;
+        std::transform(guard.begin(), guard.end(), guard.begin(),
+                       [](unsigned char c) { return std::isalnum(c) ? static_cast<char>(std::toupper(c)) : '_'; });
+        out << "#undef " << guard << "\n";
+    }
+    for (const auto& [name, value] : variant.defines)
+        out << "#define " << name << " " << value << "\n";
+    const bool is_double = k.info.precision == taut::Precision::float64;
+    out << "#define TAUT_REAL_DOUBLE " << (is_double ? 1 : 0) << "\n"
+        << "namespace " << id << " {\nusing namespace taut::native;\nusing real = " << (is_double ? "double" : "float")
+        << ";\nusing rvec3 = glm::vec<3, real>;\nusing rvec4 = glm::vec<4, real>;\nstruct Kernel\n{\n#include \"" << path
+        << "\"\n    void bind([[maybe_unused]] const void* params, void* const* buffers)\n    {\n";
+    if (!k.params.empty())
+        out << "        const Params& p = *static_cast<const Params*>(params);\n";
+    for (const auto& p : k.params)
+        out << "        " << p.name << " = p." << p.name << ";\n";
+    for (const auto& b : k.bindings)
+        out << "        " << b.name << " = static_cast<decltype(" << b.name << ")>(buffers[" << b.slot << "]);\n";
+    out << "    }\n};\n} // namespace " << id << "\n#undef TAUT_REAL_DOUBLE\n";
+    for (const auto& define : variant.defines)
+        out << "#undef " << define.first << "\n";
+    out << "void native_" << id << "(const void* p, void* const* b, std::uint32_t begin, std::uint32_t end)\n{\n"
+        << "    taut::native::run_" << (k.info.group_kernel ? "groups" : "elements") << "<" << id
+        << "::Kernel>(p, b, begin, end);\n}\n\n";
+}
+
+void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& out_dir)
+{
+    const std::string stem = kernel_path.stem().string();
+    const std::string text = read_text(kernel_path);
+    const bool uses_real = text.find("real") != std::string::npos || text.find("rvec") != std::string::npos ||
+                           text.find("layouts.h") != std::string::npos;
+    const auto shared = shared_files(root);
+    Kernels kernels;
+    std::ostringstream native;
+    native << "// Generated. Do not edit.\n#include \"taut/runtime/cpu/portable.hpp\"\n#include \"taut/kernels/" << stem
+           << ".hpp\"\n\nnamespace taut::kernels::" << stem << " {\n";
+    for (const auto& variant : taut::kernel_variants(stem, text))
+        for (const auto precision : {taut::Precision::float32, taut::Precision::float64})
+        {
+            if (precision == taut::Precision::float64 && !uses_real)
+                continue;
+            const auto kernel = taut::compile_kernel({stem, text, root, variant, precision});
+            native_kernel(native, fs::absolute(kernel_path).string(), *kernel, variant, shared);
+            kernels.push_back(kernel);
+        }
+    native << "} // namespace taut::kernels::" << stem << "\n";
+    fs::create_directories(out_dir);
+    write_text(out_dir / (stem + ".hpp"), header_text(stem, kernels));
+    write_text(out_dir / (stem + ".cpp"), source_text(stem, kernels));
+    write_text(out_dir / (stem + ".native.cpp"), native.str());
+}
+
+void embed_includes(const fs::path& root, const fs::path& out_file)
+{
+    std::ostringstream out;
+    out << "// Generated. Do not edit.\n#include \"taut/runtime/compiler/compiler.hpp\"\n\nnamespace taut {\n\n"
+        << "std::string_view builtin_include(std::string_view path)\n{\n";
+    for (const std::string& name : shared_files(root))
+        out << "    if (path == \"shared/" << name << "\")\n        return\n" << literal(read_text(root / "shared" / name)) << ";\n";
+    out << "    return {};\n}\n\n} // namespace taut\n";
+    write_text(out_file, out.str());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try
+{
+    if (argc == 4 && std::string_view(argv[1]) == "--includes")
+        embed_includes(argv[2], argv[3]);
+    else if (argc == 4)
+        compile(argv[1], argv[2], argv[3]);
+    else
+        return std::fprintf(stderr, "usage: taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR\n"), 2;
+    return 0;
+}
+catch (const std::exception& error)
+{
+    std::cerr << error.what() << "\n";
+    return 1;
+}

@@ -1,0 +1,78 @@
+#pragma once
+// C++ twin of kernels/shared/portable.glsl: what makes a kernel compile as native code.
+//
+// The build includes a kernel inside `struct Kernel { ... }`, once per variant and precision, in a
+// namespace of its own. So buffers are members, functions are member functions, and a breakpoint
+// set in the .comp file works.
+
+#define GLM_FORCE_XYZW_ONLY
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+
+namespace taut::native {
+
+using namespace glm;
+using uint = std::uint32_t;
+
+/// Runs the elements of a KERNEL. A local copy of the kernel lets the compiler keep buffer pointers
+/// and parameters in registers.
+template <typename Kernel>
+void run_elements(const void* params, void* const* buffers, std::uint32_t begin, std::uint32_t end)
+{
+    Kernel kernel;
+    kernel.bind(params, buffers);
+    const std::uint32_t count = kernel.element_count();
+    if (end > count)
+        end = count;
+    for (std::uint32_t i = begin; i < end; ++i)
+        kernel.element(i);
+}
+
+template <typename Kernel>
+void run_groups(const void* params, void* const* buffers, std::uint32_t begin, std::uint32_t end)
+{
+    Kernel kernel;
+    kernel.bind(params, buffers);
+    for (std::uint32_t group = begin; group < end; ++group)
+        kernel.body(group);
+}
+
+inline void count_event(std::uint32_t& counter)
+{
+    std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
+}
+
+} // namespace taut::native
+
+#define INOUT(T) T&
+#define PRECISE
+#define LAYOUT_STRUCT(name) struct name
+#define CONST_REAL(name, value) static constexpr real name = real(value)
+
+#define PARAMS struct
+#define READ(slot, T, name) const T* __restrict name
+#define WRITE(slot, T, name) T* __restrict name
+#define UPDATE(slot, T, name) T* __restrict name
+#define COUNTERS(slot, name) std::uint32_t* __restrict name
+#define SHARED(T, name, n) T name[n]
+#define COUNT_EVENT(buffer, index) taut::native::count_event(buffer[index])
+
+#define KERNEL(count)                                               \
+    std::uint32_t element_count() const { return std::uint32_t(count); } \
+    void element(const uint i)
+
+#define GROUP_KERNEL(size)                                \
+    static constexpr std::uint32_t taut_group_size = size; \
+    void body(const uint group)
+
+#define PHASE_BEGIN for (uint lane = 0; lane < taut_group_size; ++lane) {
+#define PHASE_END }

@@ -1,0 +1,114 @@
+#pragma once
+// A scene compiled for a device: passes, sizes, colours, barriers. Immutable values; touches no
+// device, can be printed, counted and compared.
+
+#include "taut/runtime/base/dispatch.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+/// What a plan needs to know of a device. world fills it from a Device; tests write it by hand.
+struct DeviceTraits
+{
+    std::uint64_t max_buffer_bytes = std::uint64_t(1) << 27;
+    std::uint64_t offset_alignment = 256;
+    std::uint32_t max_group_size = 128;
+    std::uint32_t max_shared_bytes = 16384;
+    bool float64 = true;
+    // Four measured costs, ns (docs/runtime.md says how).
+    double dispatch_ns = 2000;      ///< one more dispatch with its barrier
+    double group_barrier_ns = 500;  ///< one barrier inside a group of 64
+    double element_ns = 1;          ///< one distance constraint, the whole device working
+    double lane_element_ns = 10;    ///< the same, one group working alone, per constraint
+};
+
+struct PlanOptions
+{
+    bool residuals = false; ///< keep multipliers, so that residuals can be reported
+    /// Names of the effects that exist for this plan; empty: all of the table. For tests (G08).
+    std::vector<std::string> available_effects;
+    enum class SmallBodies { automatic, never, always } small_bodies = SmallBodies::automatic;
+};
+
+struct PlanBuffer
+{
+    std::string name;
+    std::string effect; ///< who asked for it
+    std::uint64_t bytes = 0;
+    std::vector<std::byte> initial; ///< empty = zero
+};
+
+/// What one effect costs in one time step.
+struct EffectCost
+{
+    std::string name;
+    std::vector<std::string> kernels; ///< "distance", "distance:lambda"
+    std::uint64_t dispatches_per_step = 0;
+    std::uint64_t bytes_allocated = 0;
+    std::uint64_t bytes_per_step = 0; ///< bytes of bindings touched, an upper bound of the traffic
+};
+
+/// Where the constraints of one kind went.
+struct ConstraintSet
+{
+    std::string kind;                        ///< "distance", "bending"
+    std::uint32_t buffer = kNoBuffer;        ///< records, in colour order
+    std::uint32_t multipliers = kNoBuffer;   ///< same order; kNoBuffer when none are kept
+    std::uint32_t count = 0;
+    std::vector<std::uint32_t> colour_start; ///< colours + 1
+};
+
+/// A pinned vertex that moves.
+struct MovingPin
+{
+    std::uint32_t vertex = 0; ///< in the plan's order
+    std::uint32_t body = 0, pin = 0;
+    glm::dvec3 rest{0};
+};
+
+struct Plan
+{
+    Precision precision = Precision::float32;
+    double timestep = 0;
+    std::uint32_t substeps = 1, iterations = 1;
+
+    std::vector<PlanBuffer> buffers;
+    std::vector<Dispatch> passes; ///< one whole time step; buffer numbers index `buffers`; label = effect
+    std::vector<bool> barrier_before;
+    std::vector<EffectCost> effects; ///< only those that the scene calls for, in order of the step
+
+    std::uint32_t vertex_count = 0;
+    std::vector<std::uint32_t> original;    ///< scene-wide vertex (bodies one after another) of each plan vertex
+    std::vector<std::uint32_t> body_start;  ///< first scene-wide vertex of each body, and the total
+    std::vector<ConstraintSet> constraints;
+    std::vector<MovingPin> moving_pins;
+    std::vector<std::string> warnings;      ///< words of the closed list, with their numbers
+
+    // Buffers the world writes and reads, kNoBuffer where the scene does not need them.
+    std::uint32_t position = kNoBuffer;     ///< rvec4: xyz m, w = inverse mass 1/kg
+    std::uint32_t low = kNoBuffer;          ///< rvec4: what position lost to rounding
+    std::uint32_t velocity = kNoBuffer;     ///< rvec4: m/s
+    std::uint32_t delta = kNoBuffer;        ///< rvec4: displacement of the last substep, m
+    std::uint32_t step_values = kNoBuffer;  ///< layout::StepValues<real>
+    std::uint32_t events = kNoBuffer;       ///< TAUT_EVENT_COUNT uint32
+    std::uint32_t pin_targets = kNoBuffer;  ///< 2 rvec4 per moving pin: start and end of the step
+    std::uint32_t force = kNoBuffer;        ///< rvec4 per vertex: N
+    std::uint32_t spheres = kNoBuffer;      ///< layout::SphereCollider<real>
+    std::uint32_t planes = kNoBuffer;       ///< layout::PlaneCollider<real>
+
+    std::uint64_t bytes_allocated() const;
+    std::uint64_t barrier_count() const;
+    std::map<std::string, std::uint64_t> constraint_counts() const;
+    std::map<std::string, std::uint64_t> colour_counts() const;
+};
+
+/// Compiles a resolved scene. Throws Error{bad_timestep, bad_input, degenerate_rest, limit, unsupported}.
+Plan make_plan(const Scene& resolved, const DeviceTraits& = {}, const PlanOptions& = {});
+
+} // namespace taut

@@ -1,0 +1,9 @@
+#pragma once
+// The one public include.
+
+#include "taut/plan/plan.hpp"
+#include "taut/report/report.hpp"
+#include "taut/runtime/device.hpp"
+#include "taut/scene/scene.hpp"
+#include "taut/version.hpp"
+#include "taut/world/world.hpp"

@@ -1,0 +1,94 @@
+#pragma once
+// The running simulation: owns device state, records a plan once and replays it every step.
+
+#include "taut/plan/plan.hpp"
+#include "taut/runtime/device.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+struct VkCommandBuffer_T;
+
+namespace taut {
+
+/// Everything that a continuation needs, as values: bitwise equal states continue bitwise equally (G09).
+/// Vertices are in the plan's order; `hi + lo` is the position.
+struct WorldState
+{
+    std::uint64_t step = 0;
+    std::vector<std::byte> position, low, velocity, delta, force; ///< raw device contents
+};
+
+/// What kernels counted since the last reset.
+struct Events
+{
+    std::uint64_t non_finite = 0, speed_clamped = 0, degenerate = 0, conflicts = 0;
+};
+
+/// Device time of one step, summed by effect.
+struct EffectTime
+{
+    std::string name;
+    std::uint64_t dispatches = 0;
+    double milliseconds = 0;
+};
+
+struct WorldOptions
+{
+    PlanOptions plan;
+};
+
+class World
+{
+public:
+    /// Resolves the scene if its bodies have no meshes yet, plans it for the device, uploads, records.
+    World(const Scene& scene, std::shared_ptr<Device> device, const WorldOptions& = {});
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+
+    /// Advances by one time step: one submission, returns without waiting.
+    void step();
+    /// The same with a timestamp around every dispatch; waits.
+    std::vector<EffectTime> step_timed();
+
+    std::uint64_t steps() const;
+    double time() const; ///< s
+    const Plan& plan() const;
+    const Scene& scene() const; ///< resolved
+    Device& device() const;
+
+    /// In the order of the scene: bodies one after another, vertices as in their meshes. Waits.
+    std::vector<glm::dvec3> positions() const;  ///< m, hi + lo
+    std::vector<glm::dvec3> velocities() const; ///< m/s
+    std::vector<glm::dvec3> displacements() const; ///< of the last substep, m
+    /// Multipliers of a constraint kind in the plan's order, N s^2; empty when none are kept.
+    std::vector<double> multipliers(std::string_view kind) const;
+    Events events() const;
+
+    WorldState state() const;
+    /// Throws Error{bad_input} when the state is of another plan or holds a value that is not finite.
+    void restore(const WorldState& state);
+
+    /// Force on one vertex [N] from now on; needs Scene::external_forces. A value that is not finite
+    /// throws Error{bad_input} and changes nothing (G05). Scene-wide vertex index.
+    void set_force(std::uint32_t vertex, const glm::dvec3& force);
+
+    /// For engines: the buffer of rvec4 positions in plan order, and the step as commands.
+    BufferPtr position_buffer() const;
+    /// Vulkan devices only (else Error{unsupported}). Updates the step values, then records one step
+    /// into the caller's command buffer; the caller submits it before the next call.
+    void record_into(VkCommandBuffer_T* commands);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Limits from the device; costs measured by four micro-runs, once per device and process.
+DeviceTraits measure_traits(Device& device);
+
+} // namespace taut
