@@ -16,6 +16,7 @@ PARAMS
     uint first;           // constraint of the colour's first element
     uint count;
     uint first_iteration; // 1: the multiplier starts at zero
+    uint report;          // 1: count degenerate constraints
 };
 
 READ(0, DistanceConstraint, constraint);
@@ -50,5 +51,6 @@ KERNEL(count)
     rvec3 push = usable ? d * (dlambda / len) : rvec3(real(0));
     delta[c.a] = rvec4(da + xa.w * push, real(0));
     delta[c.b] = rvec4(db - xb.w * push, real(0));
-    if (!usable && weight > real(0) && c.rest_length > real(0)) COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    if (report != 0u && !usable && weight > real(0) && c.rest_length > real(0))
+        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
 }

@@ -10,9 +10,11 @@
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
-//   CONST_REAL(name, value)            a constant at file scope
+//   REAL(0.1)                          a constant of type real with all its digits; GLSL cannot paste a
+//                                      suffix to a number, so flattening writes 0.1f or 0.1lf instead
 // `real`, `rvec3`, `rvec4` are float or double, chosen when the kernel is compiled
-// (TAUT_REAL_DOUBLE). Write real(0.5) or 0.5f, vec3(p) not p.xyz, INOUT(T) for out parameters.
+// (TAUT_REAL_DOUBLE). Write real(0.5) for numbers that float holds exactly and REAL(0.1) for others,
+// vec3(p) not p.xyz, INOUT(T) for out parameters.
 #ifndef __cplusplus
 #ifndef TAUT_SHARED_PORTABLE_GLSL
 #define TAUT_SHARED_PORTABLE_GLSL
@@ -30,7 +32,6 @@
 #define INOUT(T) inout T
 #define PRECISE precise
 #define LAYOUT_STRUCT(name) struct name
-#define CONST_REAL(name, value) const real name = real(value)
 
 #ifdef VULKAN
 #define PARAMS layout(push_constant) uniform ParamsBlock

@@ -49,8 +49,25 @@ std::string load_include(const std::filesystem::path& root, const std::string& p
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// REAL(0.1) becomes 0.1f or 0.1lf: the one thing that the GLSL preprocessor cannot do.
+std::string with_literals(std::string line, Precision precision)
+{
+    static constexpr std::string_view kMark = "REAL(";
+    for (auto at = line.find(kMark); at != std::string::npos; at = line.find(kMark, at))
+    {
+        const auto close = line.find(')', at);
+        if (close == std::string::npos || line.rfind("//", at) != std::string::npos)
+            break;
+        const std::string number = line.substr(at + kMark.size(), close - at - kMark.size());
+        const std::string literal = "(" + number + (precision == Precision::float64 ? "lf)" : "f)");
+        line.replace(at, close - at + 1, literal);
+        at += literal.size();
+    }
+    return line;
+}
+
 void flatten(Flat& out, const std::string& text, const std::string& file, const std::filesystem::path& root,
-             std::set<std::string>& seen)
+             Precision precision, std::set<std::string>& seen)
 {
     std::istringstream lines(text);
     std::string line;
@@ -59,12 +76,12 @@ void flatten(Flat& out, const std::string& text, const std::string& file, const 
         const auto quote = line.find('"');
         if (line.rfind("#include", 0) != 0 || quote == std::string::npos)
         {
-            out.add(line, file, number);
+            out.add(with_literals(line, precision), file, number);
             continue;
         }
         const std::string path = line.substr(quote + 1, line.find('"', quote + 1) - quote - 1);
         if (seen.insert(path).second)
-            flatten(out, load_include(root, path, file + ":" + std::to_string(number)), path, root, seen);
+            flatten(out, load_include(root, path, file + ":" + std::to_string(number)), path, root, precision, seen);
     }
 }
 
@@ -78,7 +95,7 @@ Flat preamble_and_text(const KernelSource& source)
     for (const auto& [name, value] : source.variant.defines)
         flat.add("#define " + name + " " + value, where, 4);
     std::set<std::string> seen;
-    flatten(flat, source.text, source.name + ".comp", source.include_root, seen);
+    flatten(flat, source.text, source.name + ".comp", source.include_root, source.precision, seen);
     return flat;
 }
 
@@ -117,7 +134,7 @@ std::vector<std::uint32_t> to_spirv(const Flat& flat, const std::string& name, b
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, client, vulkan ? 100 : 450);
     shader.setEnvClient(client, vulkan ? glslang::EShTargetVulkan_1_1 : glslang::EShTargetOpenGL_450);
     shader.setEnvTarget(glslang::EShTargetSpv, vulkan ? glslang::EShTargetSpv_1_3 : glslang::EShTargetSpv_1_0);
-    const auto rules = static_cast<EShMessages>(EShMsgSpvRules | (vulkan ? EShMsgVulkanRules : 0));
+    const auto rules = static_cast<EShMessages>(EShMsgSpvRules | (vulkan ? EShMsgVulkanRules : EShMsgDefault));
     if (!shader.parse(GetDefaultResources(), 450, false, rules))
         refuse("kernel " + name + " does not compile:\n" + explain(shader.getInfoLog(), flat));
     glslang::TProgram program;

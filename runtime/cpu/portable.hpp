@@ -56,7 +56,7 @@ inline void count_event(std::uint32_t& counter)
 #define INOUT(T) T&
 #define PRECISE
 #define LAYOUT_STRUCT(name) struct name
-#define CONST_REAL(name, value) static constexpr real name = real(value)
+#define REAL(x) real(x)
 
 #define PARAMS struct
 #define READ(slot, T, name) const T* __restrict name

@@ -1,0 +1,63 @@
+// Vertices against half-spaces. One invocation per vertex; loops over the planes.
+// The functions and their sources: shared/contact.glsl.
+//! variant friction FRICTION=1
+//! variant friction_kept FRICTION=1 KEPT=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/contact.glsl"
+
+PARAMS
+{
+    uint count;
+    uint colliders;
+    uint substep;
+    uint substeps;
+    uint first_iteration;
+    uint report; // 1: count held vertices below a surface
+};
+
+READ(0, rvec4, position);
+UPDATE(1, rvec4, delta);
+READ(2, PlaneCollider, plane);
+READ(3, StepValues, step_values);
+COUNTERS(4, events);
+#if KEPT
+UPDATE(5, rvec4, contact); // per collider and vertex: friction taken so far, w = normal push so far, m
+#endif
+
+KERNEL(count)
+{
+    rvec4 p = position[i];
+    rvec3 x = rvec3(p);
+    rvec3 d = rvec3(delta[i]);
+    bool moves = p.w > real(0);
+    for (uint j = 0u; j < colliders; ++j)
+    {
+        PlaneCollider c = plane[j];
+        rvec3 n = rvec3(c.normal_x, c.normal_y, c.normal_z);
+        real part = (c.offset_end - c.offset_start) / real(substeps);
+        real surface = c.offset_start + part * real(substep);
+        real before = (dot(n, x) - surface) - c.thickness;
+        real gap = before + (dot(n, d) - part);
+        real push = max(allowed_gap(before, step_values[0].depenetration) - gap, real(0));
+        if (report != 0u && !moves && push > real(0))
+            COUNT_EVENT(events, TAUT_EVENT_CONFLICT);
+        push = moves ? push : real(0);
+        d += n * push;
+#if FRICTION
+        rvec3 slide = (d - n * dot(n, d));
+        rvec3 shift = rvec3(c.shift_x, c.shift_y, c.shift_z) / real(substeps);
+        slide -= shift - n * dot(n, shift);
+#if KEPT
+        rvec4 kept = first_iteration != 0u ? rvec4(real(0)) : contact[j * count + i];
+        real height = kept.w + push;
+        rvec3 removal = friction_removal(slide + rvec3(kept), c.friction * height);
+        d -= removal - rvec3(kept);
+        contact[j * count + i] = rvec4(removal, height);
+#else
+        d -= friction_removal(slide, c.friction * push);
+#endif
+#endif
+    }
+    delta[i] = moves ? rvec4(d, real(0)) : delta[i];
+}

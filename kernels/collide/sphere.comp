@@ -1,0 +1,79 @@
+// Vertices against balls, swept over the substep so that fast ones do not tunnel. One invocation per
+// vertex; loops over the balls. The functions and their sources: shared/contact.glsl.
+//
+// In the frame of the ball the vertex moves on the segment from `a` to `e`. If `e` lies inside on the side
+// where the vertex came from, the nearest surface point decides; if the segment enters and ends on the
+// other side or outside again, the point of entry does.
+//! variant friction FRICTION=1
+//! variant friction_kept FRICTION=1 KEPT=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/contact.glsl"
+
+PARAMS
+{
+    uint count;
+    uint colliders;
+    uint substep;
+    uint substeps;
+    uint first_iteration;
+    uint report; // 1: count held vertices below a surface
+};
+
+READ(0, rvec4, position);
+UPDATE(1, rvec4, delta);
+READ(2, SphereCollider, sphere);
+READ(3, StepValues, step_values);
+COUNTERS(4, events);
+#if KEPT
+UPDATE(5, rvec4, contact); // per collider and vertex: friction taken so far, w = normal push so far, m
+#endif
+
+KERNEL(count)
+{
+    rvec4 p = position[i];
+    rvec3 x = rvec3(p);
+    rvec3 d = rvec3(delta[i]);
+    bool moves = p.w > real(0);
+    for (uint j = 0u; j < colliders; ++j)
+    {
+        SphereCollider c = sphere[j];
+        rvec3 from = rvec3(c.start_x, c.start_y, c.start_z);
+        rvec3 shift = (rvec3(c.end_x, c.end_y, c.end_z) - from) / real(substeps);
+        real r = c.radius + c.thickness;
+        rvec3 a = x - (from + shift * real(substep));
+        rvec3 travel = d - shift;
+        rvec3 e = a + travel;
+        real outside = dot(a, a) - r * r;
+        real along = dot(a, travel);
+        real square = dot(travel, travel);
+        real discriminant = along * along - square * outside;
+        real entry = square > real(0) ? (-along - sqrt(max(discriminant, real(0)))) / square : real(2);
+        bool enters = outside >= real(0) && along < real(0) && discriminant > real(0) && entry <= real(1);
+        bool far_side = enters && !(dot(a, e) > real(0) && dot(e, e) < r * r);
+        rvec3 towards = far_side ? a + travel * entry : e;
+        real size = length(towards);
+        // A vertex exactly at the centre leaves upwards: any direction is as good.
+        rvec3 n = size > real(0) ? towards / size : rvec3(real(0), real(1), real(0));
+        real gap = dot(n, e) - r;
+        real push = max(allowed_gap(sqrt(dot(a, a)) - r, step_values[0].depenetration) - gap, real(0));
+        if (report != 0u && !moves && push > real(0))
+            COUNT_EVENT(events, TAUT_EVENT_CONFLICT);
+        push = moves ? push : real(0);
+        d += n * push;
+#if FRICTION
+        rvec3 slide = d - shift;
+        slide -= n * dot(n, slide);
+#if KEPT
+        rvec4 kept = first_iteration != 0u ? rvec4(real(0)) : contact[j * count + i];
+        real height = kept.w + push;
+        rvec3 removal = friction_removal(slide + rvec3(kept), c.friction * height);
+        d -= removal - rvec3(kept);
+        contact[j * count + i] = rvec4(removal, height);
+#else
+        d -= friction_removal(slide, c.friction * push);
+#endif
+#endif
+    }
+    delta[i] = moves ? rvec4(d, real(0)) : delta[i];
+}

@@ -1,0 +1,87 @@
+// XPBD dihedral bending, one invocation per hinge of one colour (no two share a vertex).
+//
+// Based on:
+//   Bridson, Marino, Fedkiw. Simulation of Clothing with Folds and Wrinkles. SCA 2003: the four gradients.
+//   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 18 at `dlambda`.
+// Departures: the angle itself is the constraint, by a two-argument arctangent (acos loses half the
+//   digits near flat and has a singular gradient there); the difference to the rest angle is wrapped
+//   to (-pi, pi]; a wing whose height is below 1e-6 of its edges has no usable normal: skipped, counted.
+// Bytes per element: 24 constraint + 128 read + 64 written (float).
+//! variant lambda LAMBDA=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/angle.glsl"
+
+PARAMS
+{
+    uint first;
+    uint count;
+    uint first_iteration; // 1: the multiplier starts at zero
+    uint report;          // 1: count degenerate hinges
+};
+
+READ(0, BendingConstraint, constraint);
+READ(1, rvec4, position); // xyz m, w = inverse mass 1/kg
+UPDATE(2, rvec4, delta);  // displacement since the start of the substep, m
+READ(3, StepValues, step_values);
+COUNTERS(4, events);
+#if LAMBDA
+UPDATE(5, real, multiplier); // N m s^2
+#endif
+
+KERNEL(count)
+{
+    BendingConstraint c = constraint[first + i];
+    rvec4 p0 = position[c.edge0];
+    rvec4 p1 = position[c.edge1];
+    rvec4 p2 = position[c.wing0];
+    rvec4 p3 = position[c.wing1];
+    rvec3 d0 = rvec3(delta[c.edge0]);
+    rvec3 d1 = rvec3(delta[c.edge1]);
+    rvec3 d2 = rvec3(delta[c.wing0]);
+    rvec3 d3 = rvec3(delta[c.wing1]);
+    rvec3 e = (rvec3(p1) - rvec3(p0)) + (d1 - d0);
+    rvec3 a = (rvec3(p2) - rvec3(p0)) + (d2 - d0);
+    rvec3 b = (rvec3(p3) - rvec3(p0)) + (d3 - d0);
+    rvec3 n1 = cross(e, a);
+    rvec3 n2 = cross(b, e);
+    real e2 = dot(e, e);
+    real area1 = dot(n1, n1);
+    real area2 = dot(n2, n2);
+    bool usable = area1 > REAL(1e-12) * e2 * dot(a, a) && area2 > REAL(1e-12) * e2 * dot(b, b);
+
+    // Safe stand-ins keep every lane on one path; their result is dropped at `push`.
+    e2 = usable ? e2 : real(1);
+    area1 = usable ? area1 : real(1);
+    area2 = usable ? area2 : real(1);
+    real edge = sqrt(e2);
+    real angle = angle_of(dot(cross(n1, n2), e) / edge, dot(n1, n2));
+    real value = angle - c.rest_angle;
+    value = value > REAL(3.14159265358979323846) ? value - REAL(6.28318530717958647693) : value;
+    value = value < REAL(-3.14159265358979323846) ? value + REAL(6.28318530717958647693) : value;
+
+    rvec3 g2 = n1 * (-edge / area1);
+    rvec3 g3 = n2 * (-edge / area2);
+    real s2 = dot(a, e) / e2;
+    real s3 = dot(b, e) / e2;
+    rvec3 g0 = g2 * (s2 - real(1)) + g3 * (s3 - real(1));
+    rvec3 g1 = g2 * -s2 + g3 * -s3;
+
+    real weight = p0.w * dot(g0, g0) + p1.w * dot(g1, g1) + p2.w * dot(g2, g2) + p3.w * dot(g3, g3);
+    usable = usable && weight > real(0);
+    real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
+    real total = usable ? weight + scaled : real(1);
+#if LAMBDA
+    real before = first_iteration != 0u ? real(0) : multiplier[first + i];
+    real dlambda = usable ? -(value + scaled * before) / total : real(0);
+    multiplier[first + i] = before + dlambda;
+#else
+    real dlambda = usable ? -value / total : real(0);
+#endif
+    delta[c.edge0] = rvec4(d0 + g0 * (p0.w * dlambda), real(0));
+    delta[c.edge1] = rvec4(d1 + g1 * (p1.w * dlambda), real(0));
+    delta[c.wing0] = rvec4(d2 + g2 * (p2.w * dlambda), real(0));
+    delta[c.wing1] = rvec4(d3 + g3 * (p3.w * dlambda), real(0));
+    if (report != 0u && !usable && p0.w + p1.w + p2.w + p3.w > real(0))
+        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+}

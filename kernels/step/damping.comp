@@ -1,0 +1,20 @@
+// Velocity damping, dv/dt = -c v exactly over a substep. One invocation per vertex.
+//
+// Applied before gravity is added: the other order would scale gravity by exp(-c h) and bias the rest
+// state (a static error of 0.8 % at c = 2/s and 4 substeps).
+// Bytes per element: 16 read, 16 written (float).
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+
+PARAMS
+{
+    uint count;
+};
+
+UPDATE(0, rvec4, velocity); // m/s
+READ(1, StepValues, step_values);
+
+KERNEL(count)
+{
+    velocity[i] = rvec4(rvec3(velocity[i]) * step_values[0].damping_factor, real(0));
+}

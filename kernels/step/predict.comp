@@ -1,0 +1,35 @@
+// Inertial guess of a substep: displacement from velocity and gravity. One invocation per vertex.
+//
+// Based on: Macklin et al. Small Steps in Physics Simulation. SCA 2019, algorithm 1, line "predict".
+// Departures: the result is a displacement that also carries what the position lost to rounding
+//   (`low`), so constraints see the full position; speeds beyond max_speed are clamped and counted.
+// Bytes per element: 48 read, 16 written (float).
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+
+PARAMS
+{
+    uint count;
+};
+
+READ(0, rvec4, position); // w = inverse mass; 0 holds the vertex
+READ(1, rvec4, low);
+READ(2, rvec4, velocity); // m/s
+WRITE(3, rvec4, delta);   // m
+READ(4, StepValues, step_values);
+COUNTERS(5, events);
+
+KERNEL(count)
+{
+    real h = step_values[0].substep;
+    real limit = step_values[0].max_speed;
+    bool moves = position[i].w > real(0);
+    rvec3 v = rvec3(velocity[i]) +
+              rvec3(step_values[0].gravity_x, step_values[0].gravity_y, step_values[0].gravity_z) * h;
+    real speed = length(v);
+    bool fast = moves && !(speed <= limit);
+    v = fast ? v * (limit / speed) : v;
+    rvec3 rest = rvec3(low[i]);
+    delta[i] = rvec4(moves ? v * h + rest : rest, real(0));
+    if (fast) COUNT_EVENT(events, TAUT_EVENT_SPEED_CLAMP);
+}
