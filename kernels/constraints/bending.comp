@@ -8,30 +8,41 @@
 //   to (-pi, pi]; a wing whose height is below 1e-6 of its edges has no usable normal: skipped, counted.
 // Bytes per element: 24 constraint + 128 read + 64 written (float).
 //! variant lambda LAMBDA=1
+//! variant tail TAIL=1
+//! variant tail_lambda TAIL=1 LAMBDA=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/angle.glsl"
 
 PARAMS
 {
-    uint first;
-    uint count;
+    uint first;           // first constraint of the colour, or first colour in the tail variant
+    uint count;           // constraints, or colours in the tail variant
     uint first_iteration; // 1: the multiplier starts at zero
     uint report;          // 1: count degenerate hinges
 };
 
 READ(0, BendingConstraint, constraint);
 READ(1, rvec4, position); // xyz m, w = inverse mass 1/kg
-UPDATE(2, rvec4, delta);  // displacement since the start of the substep, m
 READ(3, StepValues, step_values);
 COUNTERS(4, events);
+#if TAIL
+GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
+READ(5, uint, colour_start);   // colours + 1 indices of constraints
+#else
+UPDATE(2, rvec4, delta);
+#endif
 #if LAMBDA
-UPDATE(5, real, multiplier); // N m s^2
+#if TAIL
+UPDATE(6, real, multiplier); // N m s^2
+#else
+UPDATE(5, real, multiplier);
+#endif
 #endif
 
-KERNEL(count)
+void project(uint k)
 {
-    BendingConstraint c = constraint[first + i];
+    BendingConstraint c = constraint[k];
     rvec4 p0 = position[c.edge0];
     rvec4 p1 = position[c.edge1];
     rvec4 p2 = position[c.wing0];
@@ -72,9 +83,9 @@ KERNEL(count)
     real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
     real total = usable ? weight + scaled : real(1);
 #if LAMBDA
-    real before = first_iteration != 0u ? real(0) : multiplier[first + i];
+    real before = first_iteration != 0u ? real(0) : multiplier[k];
     real dlambda = usable ? -(value + scaled * before) / total : real(0);
-    multiplier[first + i] = before + dlambda;
+    multiplier[k] = before + dlambda;
 #else
     real dlambda = usable ? -value / total : real(0);
 #endif
@@ -85,3 +96,22 @@ KERNEL(count)
     if (report != 0u && !usable && p0.w + p1.w + p2.w + p3.w > real(0))
         COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
 }
+
+#if TAIL
+// Small colours one after another in one group: the same sums in the same order as one dispatch each.
+GROUP_KERNEL(64)
+{
+    for (uint colour = 0u; colour < count; ++colour)
+    {
+        PHASE_BEGIN
+        for (uint k = colour_start[first + colour] + lane; k < colour_start[first + colour + 1u]; k += 64u)
+            project(k);
+        PHASE_END
+    }
+}
+#else
+KERNEL(count)
+{
+    project(first + i);
+}
+#endif

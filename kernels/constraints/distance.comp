@@ -8,29 +8,40 @@
 //   substeps do not lose to rounding; coincident ends are skipped and counted.
 // Bytes per element: 16 constraint + 64 read + 32 written (float).
 //! variant lambda LAMBDA=1
+//! variant tail TAIL=1
+//! variant tail_lambda TAIL=1 LAMBDA=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 
 PARAMS
 {
-    uint first;           // constraint of the colour's first element
-    uint count;
+    uint first;           // first constraint of the colour, or first colour in the tail variant
+    uint count;           // constraints, or colours in the tail variant
     uint first_iteration; // 1: the multiplier starts at zero
     uint report;          // 1: count degenerate constraints
 };
 
 READ(0, DistanceConstraint, constraint);
 READ(1, rvec4, position); // xyz m, w = inverse mass 1/kg
-UPDATE(2, rvec4, delta);  // displacement since the start of the substep, m
 READ(3, StepValues, step_values);
 COUNTERS(4, events);
+#if TAIL
+GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
+READ(5, uint, colour_start);   // colours + 1 indices of constraints
+#else
+UPDATE(2, rvec4, delta);
+#endif
 #if LAMBDA
-UPDATE(5, real, multiplier); // N s^2
+#if TAIL
+UPDATE(6, real, multiplier); // N s^2
+#else
+UPDATE(5, real, multiplier);
+#endif
 #endif
 
-KERNEL(count)
+void project(uint k)
 {
-    DistanceConstraint c = constraint[first + i];
+    DistanceConstraint c = constraint[k];
     rvec4 xa = position[c.a];
     rvec4 xb = position[c.b];
     rvec3 da = rvec3(delta[c.a]);
@@ -42,9 +53,9 @@ KERNEL(count)
     bool usable = len > real(0) && weight > real(0);
     real value = len - c.rest_length;
 #if LAMBDA
-    real before = first_iteration != 0u ? real(0) : multiplier[first + i];
+    real before = first_iteration != 0u ? real(0) : multiplier[k];
     real dlambda = usable ? -(value + scaled * before) / (weight + scaled) : real(0);
-    multiplier[first + i] = before + dlambda;
+    multiplier[k] = before + dlambda;
 #else
     real dlambda = usable ? -value / (weight + scaled) : real(0);
 #endif
@@ -54,3 +65,22 @@ KERNEL(count)
     if (report != 0u && !usable && weight > real(0) && c.rest_length > real(0))
         COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
 }
+
+#if TAIL
+// Small colours one after another in one group: the same sums in the same order as one dispatch each.
+GROUP_KERNEL(64)
+{
+    for (uint colour = 0u; colour < count; ++colour)
+    {
+        PHASE_BEGIN
+        for (uint k = colour_start[first + colour] + lane; k < colour_start[first + colour + 1u]; k += 64u)
+            project(k);
+        PHASE_END
+    }
+}
+#else
+KERNEL(count)
+{
+    project(first + i);
+}
+#endif

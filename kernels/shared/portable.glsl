@@ -41,8 +41,8 @@
 
 #define READ(slot, T, name) layout(std430, binding = slot) readonly buffer name##_block { T name[]; }
 #define WRITE(slot, T, name) layout(std430, binding = slot) writeonly buffer name##_block { T name[]; }
-// coherent: phases of one group hand buffer contents to each other
-#define UPDATE(slot, T, name) layout(std430, binding = slot) coherent buffer name##_block { T name[]; }
+#define UPDATE(slot, T, name) layout(std430, binding = slot) buffer name##_block { T name[]; }
+#define GROUP_UPDATE(slot, T, name) layout(std430, binding = slot) coherent buffer name##_block { T name[]; }
 #define COUNTERS(slot, name) layout(std430, binding = slot) buffer name##_counters { uint name[]; }
 #define SHARED(T, name, n) shared T name[n]
 #define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)

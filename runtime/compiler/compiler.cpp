@@ -220,7 +220,7 @@ std::shared_ptr<const CompiledKernel> compile_kernel(const KernelSource& source)
     info.name = kernel->name;
     info.variant = kernel->variant;
     info.precision = source.precision;
-    info.group_kernel = source.text.find("GROUP_KERNEL(") != std::string::npos;
+    info.group_kernel = reflection.group_kernel;
     info.group_size = reflection.group_size;
     info.shared_bytes = reflection.shared_bytes;
     info.param_bytes = reflection.param_bytes;

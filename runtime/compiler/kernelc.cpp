@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -98,12 +97,6 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
         for (const auto& p : params)
             out << "static_assert(offsetof(Params, " << p.name << ") == " << p.offset << ");\n";
     }
-    out << "\n/// Storage buffers in order of slot, over all variants.\n";
-    std::set<std::string> seen;
-    for (const auto& kernel : kernels)
-        for (const auto& b : kernel->bindings)
-            if (seen.insert(std::string(b.name)).second)
-                out << "inline constexpr std::uint32_t slot_" << b.name << " = " << b.slot << ";\n";
     out << "\n/// Throws Error{unsupported} when there is no such variant.\n"
         << "const KernelInfo& info(std::string_view variant = {}, Precision precision = Precision::float32);\n\n"
         << "} // namespace taut::kernels::" << stem << "\n";

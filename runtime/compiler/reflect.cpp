@@ -189,6 +189,9 @@ Reflection reflect(const std::string& name, std::span<const std::uint32_t> spirv
     const Module module = parse(spirv);
     Reflection out;
     out.group_size = module.group_size;
+    // portable.glsl gives the two kinds of kernel an entry function of different names.
+    for (const auto& [id, text] : module.names)
+        out.group_kernel = out.group_kernel || text.starts_with("body(");
     for (const Module::Variable& variable : module.variables)
     {
         const std::uint32_t pointee = module.types.at(variable.pointer_type).operands[1];

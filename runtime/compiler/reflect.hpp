@@ -34,6 +34,7 @@ struct Reflection
     std::uint32_t param_bytes = 0;
     std::uint32_t group_size = 0;
     std::uint32_t shared_bytes = 0;
+    bool group_kernel = false; ///< written with GROUP_KERNEL
 };
 
 /// `name` is used in messages. Throws Error{kernel_compilation} for what the kernel rules forbid:
