@@ -38,6 +38,7 @@ target_link_libraries(taut_deps_glslang INTERFACE ${TAUT_SPIRV_TOOLS} Threads::T
 
 # Vulkan through volk: headers and a loader that is opened at run time.
 find_path(TAUT_VOLK_INCLUDE volk.h REQUIRED)
+include(${CMAKE_CURRENT_LIST_DIR}/volk.cmake)
 add_library(taut_deps_vulkan INTERFACE)
 target_include_directories(taut_deps_vulkan SYSTEM INTERFACE ${Vulkan_INCLUDE_DIRS} ${TAUT_VOLK_INCLUDE})
 target_compile_definitions(taut_deps_vulkan INTERFACE VK_NO_PROTOTYPES)

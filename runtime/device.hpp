@@ -14,6 +14,8 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace taut {
@@ -180,8 +182,9 @@ public:
             : buffer(std::move(b)), offset(o), bytes(n) {}
     };
 
-    /// Adds one dispatch over `count` elements (or groups). `params` is the generated Params struct
-    /// of the kernel. Throws Error{bad_input} when bindings or parameters do not fit the kernel.
+    /// Adds one dispatch over `count` elements (or groups); a count of 0 is checked but adds nothing.
+    /// `params` is the generated Params struct of the kernel. Throws Error{bad_input} when bindings or
+    /// parameters do not fit the kernel.
     template <typename Params>
     Recorder& dispatch(const KernelInfo& kernel, std::vector<Binding> bindings, const Params& params,
                        std::uint32_t count, std::string_view label = {})
@@ -216,6 +219,7 @@ private:
 
     std::shared_ptr<Device> device_;
     std::vector<BufferPtr> buffers_;
+    std::unordered_map<const Buffer*, std::uint32_t> number_of_; ///< index in buffers_
     std::vector<Dispatch> dispatches_;
 };
 

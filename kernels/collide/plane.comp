@@ -17,7 +17,7 @@ PARAMS
 };
 
 READ(0, rvec4, position);
-UPDATE(1, rvec4, delta);
+UPDATE(1, rvec4, delta); // m, w = gap kept from colliders
 READ(2, PlaneCollider, plane);
 READ(3, StepValues, step_values);
 COUNTERS(4, events);
@@ -29,7 +29,9 @@ KERNEL(count)
 {
     rvec4 p = position[i];
     rvec3 x = rvec3(p);
-    rvec3 d = rvec3(delta[i]);
+    rvec4 guess = delta[i];
+    rvec3 d = rvec3(guess);
+    real gap_kept = guess.w;
     bool moves = p.w > real(0);
     for (uint j = 0u; j < colliders; ++j)
     {
@@ -37,7 +39,7 @@ KERNEL(count)
         rvec3 n = rvec3(c.normal_x, c.normal_y, c.normal_z);
         real part = (c.offset_end - c.offset_start) / real(substeps);
         real surface = c.offset_start + part * real(substep);
-        real before = (dot(n, x) - surface) - c.thickness;
+        real before = (dot(n, x) - surface) - gap_kept;
         real gap = before + (dot(n, d) - part);
         real push = max(allowed_gap(before, step_values[0].depenetration) - gap, real(0));
         if (report != 0u && !moves && push > real(0))
@@ -59,5 +61,5 @@ KERNEL(count)
 #endif
 #endif
     }
-    delta[i] = moves ? rvec4(d, real(0)) : delta[i];
+    delta[i] = moves ? rvec4(d, gap_kept) : guess;
 }

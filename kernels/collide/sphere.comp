@@ -21,7 +21,7 @@ PARAMS
 };
 
 READ(0, rvec4, position);
-UPDATE(1, rvec4, delta);
+UPDATE(1, rvec4, delta); // m, w = gap kept from colliders
 READ(2, SphereCollider, sphere);
 READ(3, StepValues, step_values);
 COUNTERS(4, events);
@@ -33,14 +33,16 @@ KERNEL(count)
 {
     rvec4 p = position[i];
     rvec3 x = rvec3(p);
-    rvec3 d = rvec3(delta[i]);
+    rvec4 guess = delta[i];
+    rvec3 d = rvec3(guess);
+    real gap_kept = guess.w;
     bool moves = p.w > real(0);
     for (uint j = 0u; j < colliders; ++j)
     {
         SphereCollider c = sphere[j];
         rvec3 from = rvec3(c.start_x, c.start_y, c.start_z);
         rvec3 shift = (rvec3(c.end_x, c.end_y, c.end_z) - from) / real(substeps);
-        real r = c.radius + c.thickness;
+        real r = c.radius + gap_kept;
         rvec3 a = x - (from + shift * real(substep));
         rvec3 travel = d - shift;
         rvec3 e = a + travel;
@@ -75,5 +77,5 @@ KERNEL(count)
 #endif
 #endif
     }
-    delta[i] = moves ? rvec4(d, real(0)) : delta[i];
+    delta[i] = moves ? rvec4(d, gap_kept) : guess;
 }

@@ -47,13 +47,13 @@ void project(uint k)
     rvec4 p1 = position[c.edge1];
     rvec4 p2 = position[c.wing0];
     rvec4 p3 = position[c.wing1];
-    rvec3 d0 = rvec3(delta[c.edge0]);
-    rvec3 d1 = rvec3(delta[c.edge1]);
-    rvec3 d2 = rvec3(delta[c.wing0]);
-    rvec3 d3 = rvec3(delta[c.wing1]);
-    rvec3 e = (rvec3(p1) - rvec3(p0)) + (d1 - d0);
-    rvec3 a = (rvec3(p2) - rvec3(p0)) + (d2 - d0);
-    rvec3 b = (rvec3(p3) - rvec3(p0)) + (d3 - d0);
+    rvec4 d0 = delta[c.edge0];
+    rvec4 d1 = delta[c.edge1];
+    rvec4 d2 = delta[c.wing0];
+    rvec4 d3 = delta[c.wing1];
+    rvec3 e = rvec3(p1 - p0) + rvec3(d1 - d0);
+    rvec3 a = rvec3(p2 - p0) + rvec3(d2 - d0);
+    rvec3 b = rvec3(p3 - p0) + rvec3(d3 - d0);
     rvec3 n1 = cross(e, a);
     rvec3 n2 = cross(b, e);
     real e2 = dot(e, e);
@@ -89,10 +89,10 @@ void project(uint k)
 #else
     real dlambda = usable ? -value / total : real(0);
 #endif
-    delta[c.edge0] = rvec4(d0 + g0 * (p0.w * dlambda), real(0));
-    delta[c.edge1] = rvec4(d1 + g1 * (p1.w * dlambda), real(0));
-    delta[c.wing0] = rvec4(d2 + g2 * (p2.w * dlambda), real(0));
-    delta[c.wing1] = rvec4(d3 + g3 * (p3.w * dlambda), real(0));
+    delta[c.edge0] = d0 + rvec4(g0 * (p0.w * dlambda), real(0));
+    delta[c.edge1] = d1 + rvec4(g1 * (p1.w * dlambda), real(0));
+    delta[c.wing0] = d2 + rvec4(g2 * (p2.w * dlambda), real(0));
+    delta[c.wing1] = d3 + rvec4(g3 * (p3.w * dlambda), real(0));
     if (report != 0u && !usable && p0.w + p1.w + p2.w + p3.w > real(0))
         COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
 }

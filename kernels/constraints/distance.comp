@@ -44,9 +44,9 @@ void project(uint k)
     DistanceConstraint c = constraint[k];
     rvec4 xa = position[c.a];
     rvec4 xb = position[c.b];
-    rvec3 da = rvec3(delta[c.a]);
-    rvec3 db = rvec3(delta[c.b]);
-    rvec3 d = (rvec3(xa) - rvec3(xb)) + (da - db);
+    rvec4 da = delta[c.a];
+    rvec4 db = delta[c.b];
+    rvec3 d = rvec3(xa - xb) + rvec3(da - db);
     real len = length(d);
     real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
     real weight = xa.w + xb.w;
@@ -60,8 +60,8 @@ void project(uint k)
     real dlambda = usable ? -value / (weight + scaled) : real(0);
 #endif
     rvec3 push = usable ? d * (dlambda / len) : rvec3(real(0));
-    delta[c.a] = rvec4(da + xa.w * push, real(0));
-    delta[c.b] = rvec4(db - xb.w * push, real(0));
+    delta[c.a] = da + rvec4(xa.w * push, real(0));
+    delta[c.b] = db - rvec4(xb.w * push, real(0));
     if (report != 0u && !usable && weight > real(0) && c.rest_length > real(0))
         COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
 }

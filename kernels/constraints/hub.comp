@@ -37,8 +37,8 @@ GROUP_KERNEL(64)
         DistanceConstraint c = constraint[k];
         rvec4 xa = position[c.a];
         rvec4 xb = position[c.b];
-        rvec3 db = rvec3(delta[c.b]);
-        rvec3 d = (rvec3(xa) - rvec3(xb)) + (rvec3(delta[c.a]) - db);
+        rvec4 db = delta[c.b];
+        rvec3 d = rvec3(xa - xb) + rvec3(delta[c.a] - db);
         real len = length(d);
         real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
         real weight = xa.w * real(count) + xb.w;
@@ -52,7 +52,7 @@ GROUP_KERNEL(64)
         real dlambda = usable ? -value / (weight + scaled) : real(0);
 #endif
         rvec3 push = usable ? d * (dlambda / len) : rvec3(real(0));
-        delta[c.b] = rvec4(db - xb.w * push, real(0));
+        delta[c.b] = db - rvec4(xb.w * push, real(0));
         sum += xa.w * push;
         if (report != 0u && !usable && weight > real(0) && c.rest_length > real(0))
             COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
@@ -70,7 +70,7 @@ GROUP_KERNEL(64)
     if (lane == 0u)
     {
         uint hub = constraint[first].a;
-        delta[hub] = rvec4(rvec3(delta[hub]) + rvec3(partial[0]), real(0));
+        delta[hub] = delta[hub] + partial[0];
     }
     PHASE_END
 }

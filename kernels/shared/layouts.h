@@ -39,7 +39,6 @@ LAYOUT_STRUCT(PlaneCollider)
     real offset_end;   // m
     real shift_x, shift_y, shift_z; // displacement over the step, m (drags by friction)
     real friction;     // Coulomb coefficient, >= 0
-    real thickness;    // m, gap kept in front of the surface
 };
 
 /// Ball of radius `radius` that moves in a straight line during a time step.
@@ -49,8 +48,6 @@ LAYOUT_STRUCT(SphereCollider)
     real end_x, end_y, end_z;       // m
     real radius;                    // m
     real friction;
-    real thickness; // m
-    real unused;
 };
 
 /// What changes from step to step. One element, written by the host before each step.

@@ -17,7 +17,7 @@ PARAMS
 };
 
 UPDATE(0, rvec4, position); // xyz m, w = inverse mass
-UPDATE(1, rvec4, low);      // m
+UPDATE(1, rvec4, low);      // m, w = gap kept from colliders
 WRITE(2, rvec4, velocity);  // m/s
 UPDATE(3, rvec4, delta);    // m
 READ(4, StepValues, step_values);
@@ -27,7 +27,8 @@ KERNEL(count)
 {
     rvec4 p = position[i];
     rvec3 x = rvec3(p);
-    rvec3 lost = rvec3(low[i]);
+    rvec4 kept = low[i];
+    rvec3 lost = rvec3(kept);
     rvec3 d = rvec3(delta[i]);
     real size = abs(d.x) + abs(d.y) + abs(d.z) + abs(x.x) + abs(x.y) + abs(x.z);
     bool finite = size < REAL(1e18); // squares of coordinates must stay finite in float
@@ -37,11 +38,11 @@ KERNEL(count)
     PRECISE rvec3 part = sum - x;
     PRECISE rvec3 error = (x - (sum - part)) + (d - part);
     position[i] = rvec4(sum, p.w);
-    low[i] = rvec4(error, real(0));
+    low[i] = rvec4(error, kept.w);
     velocity[i] = rvec4(finite ? (d - lost) * step_values[0].inverse_substep : rvec3(real(0)), real(0));
     if (!finite)
     {
-        delta[i] = rvec4(lost, real(0));
+        delta[i] = kept;
         COUNT_EVENT(events, TAUT_EVENT_NON_FINITE);
     }
 }

@@ -21,5 +21,5 @@ KERNEL(count)
     rvec3 to = rvec3(pin_target[2u * i + 1u]);
     real t = real(substep + 1u) / real(substeps);
     rvec3 target = substep + 1u == substeps ? to : from + (to - from) * t;
-    delta[v] = rvec4(target - rvec3(position[v]), real(0));
+    delta[v] = rvec4(target - rvec3(position[v]), delta[v].w);
 }

@@ -4,6 +4,7 @@
 // Departures: the result is a displacement that also carries what the position lost to rounding
 //   (`low`), so constraints see the full position; speeds beyond max_speed are clamped and counted.
 // Bytes per element: 48 read, 16 written (float).
+//! variant kept KEPT=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 
@@ -13,11 +14,14 @@ PARAMS
 };
 
 READ(0, rvec4, position); // w = inverse mass; 0 holds the vertex
-READ(1, rvec4, low);
+READ(1, rvec4, low);      // w = gap kept from colliders, m; carried on in delta.w
 READ(2, rvec4, velocity); // m/s
 WRITE(3, rvec4, delta);   // m
 READ(4, StepValues, step_values);
 COUNTERS(5, events);
+#if KEPT
+WRITE(6, rvec4, predicted); // the guess itself, for the primal residual
+#endif
 
 KERNEL(count)
 {
@@ -29,7 +33,11 @@ KERNEL(count)
     real speed = length(v);
     bool fast = moves && !(speed <= limit);
     v = fast ? v * (limit / speed) : v;
-    rvec3 rest = rvec3(low[i]);
-    delta[i] = rvec4(moves ? v * h + rest : rest, real(0));
+    rvec4 rest = low[i];
+    rvec4 guess = moves ? rvec4(v * h, real(0)) + rest : rest;
+    delta[i] = guess;
+#if KEPT
+    predicted[i] = guess;
+#endif
     if (fast) COUNT_EVENT(events, TAUT_EVENT_SPEED_CLAMP);
 }

@@ -62,6 +62,7 @@ inline void count_event(std::uint32_t& counter)
 #define READ(slot, T, name) const T* __restrict name
 #define WRITE(slot, T, name) T* __restrict name
 #define UPDATE(slot, T, name) T* __restrict name
+#define GROUP_UPDATE(slot, T, name) T* __restrict name
 #define COUNTERS(slot, name) std::uint32_t* __restrict name
 #define SHARED(T, name, n) T name[n]
 #define COUNT_EVENT(buffer, index) taut::native::count_event(buffer[index])

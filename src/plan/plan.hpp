@@ -62,6 +62,10 @@ struct ConstraintSet
     std::uint32_t multipliers = kNoBuffer;   ///< same order; kNoBuffer when none are kept
     std::uint32_t count = 0;
     std::vector<std::uint32_t> colour_start; ///< colours + 1
+    std::uint32_t colour_table = kNoBuffer;  ///< colour_start on the device, for passes over many small colours
+    /// After the colours, one range each: a hub with constraints that share no other vertex.
+    std::vector<std::uint32_t> hub_start;    ///< hubs + 1; empty without hubs
+    std::uint32_t colour_count() const { return colour_start.empty() ? 0 : static_cast<std::uint32_t>(colour_start.size() - 1); }
 };
 
 /// A pinned vertex that moves.
@@ -92,9 +96,10 @@ struct Plan
 
     // Buffers the world writes and reads, kNoBuffer where the scene does not need them.
     std::uint32_t position = kNoBuffer;     ///< rvec4: xyz m, w = inverse mass 1/kg
-    std::uint32_t low = kNoBuffer;          ///< rvec4: what position lost to rounding
+    std::uint32_t low = kNoBuffer;          ///< rvec4: what position lost to rounding; w = gap kept from colliders, m
     std::uint32_t velocity = kNoBuffer;     ///< rvec4: m/s
     std::uint32_t delta = kNoBuffer;        ///< rvec4: displacement of the last substep, m
+    std::uint32_t predicted = kNoBuffer;   ///< rvec4: inertial guess of `delta`; only with residuals
     std::uint32_t step_values = kNoBuffer;  ///< layout::StepValues<real>
     std::uint32_t events = kNoBuffer;       ///< TAUT_EVENT_COUNT uint32
     std::uint32_t pin_targets = kNoBuffer;  ///< 2 rvec4 per moving pin: start and end of the step

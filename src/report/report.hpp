@@ -45,6 +45,9 @@ struct StepReport
     std::uint64_t position_hash = 0; ///< FNV-1a over the raw position and low words in plan order
 };
 
+/// Coordinates beyond this count as diverged, m.
+inline constexpr double kDivergedExtent = 1e12;
+
 StepReport measure(const World& world);
 
 } // namespace taut

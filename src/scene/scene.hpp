@@ -2,6 +2,7 @@
 // The description of a simulation: plain values with defaults and SI units. Touches no device.
 // docs/scene.md lists every key of the file format; the names are the same here.
 
+#include "taut/runtime/base/error.hpp"
 #include "taut/scene/mesh.hpp"
 
 #include <glm/gtc/quaternion.hpp>
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace taut {
@@ -34,6 +36,11 @@ struct Keyframe
     double rotate_degrees = 0;             ///< about rotate_axis through rotate_centre
     glm::dvec3 rotate_centre{0};           ///< m, world
 };
+
+/// Where `rest` [m, world] is at `time` [s]: turned about the centre, then translated. Translation,
+/// centre and axis times angle are linear between keys (with one axis: the angle is), constant
+/// outside. Keys must ascend in time (check() says so); no keys: `rest`.
+glm::dvec3 pose(const std::vector<Keyframe>& motion, double time, const glm::dvec3& rest);
 
 /// Which vertices of a body are held, and how they move. Empty motion: held in place.
 struct Pin
@@ -142,6 +149,7 @@ struct SceneIssue
     bool error = true;
     std::string field; ///< "bodies[0].pins[1].box"
     std::string text;
+    ErrorCode code = ErrorCode::bad_input; ///< what resolve() throws for it: bad_timestep, io, ...
 };
 
 /// Checks every value and range. Does not read mesh files.

@@ -65,6 +65,8 @@ public:
     std::vector<glm::dvec3> positions() const;  ///< m, hi + lo
     std::vector<glm::dvec3> velocities() const; ///< m/s
     std::vector<glm::dvec3> displacements() const; ///< of the last substep, m
+    /// Inertial guess of the displacements of the last substep, m; empty unless residuals are kept.
+    std::vector<glm::dvec3> predictions() const;
     /// Multipliers of a constraint kind in the plan's order, N s^2; empty when none are kept.
     std::vector<double> multipliers(std::string_view kind) const;
     Events events() const;

@@ -1,0 +1,96 @@
+# `cmake --install`: the program, the library, its headers in the layout of the include root
+# (taut/<room>/x.hpp), and what find_package(taut) and pkg-config need.
+
+include(CMakePackageConfigHelpers)
+set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
+
+# ---------------------------------------------------------------- headers
+foreach(room scene plan linear world report)
+    if(EXISTS ${PROJECT_SOURCE_DIR}/src/${room})
+        install(DIRECTORY src/${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/${room}
+                FILES_MATCHING PATTERN "*.hpp")
+    endif()
+endforeach()
+install(FILES src/taut/taut.hpp ${PROJECT_BINARY_DIR}/generated/taut/version.hpp
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut)
+install(FILES runtime/device.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime)
+# cpu/portable.hpp is what a kernel's native form includes. Of the graphics rooms only what an engine
+# needs to bring its own device; everything else there is private.
+foreach(header compiler/compiler.hpp cpu/portable.hpp vulkan/vulkan_device.hpp vulkan/interop.hpp)
+    if(EXISTS ${PROJECT_SOURCE_DIR}/runtime/${header})
+        cmake_path(GET header PARENT_PATH room)
+        install(FILES runtime/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime/${room})
+    endif()
+endforeach()
+install(DIRECTORY runtime/base/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime/base
+        FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY ${taut_generated}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/kernels
+        FILES_MATCHING PATTERN "*.hpp")
+install(FILES kernels/shared/layouts.h kernels/shared/portable.glsl
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/kernels/shared)
+
+# ---------------------------------------------------------------- library and program
+install(TARGETS taut EXPORT taut-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET taut-cli)
+    install(TARGETS taut-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(EXPORT taut-targets NAMESPACE taut:: DESTINATION ${taut_cmake_dir})
+
+# A static library cannot hold the libraries under it, so a consumer links them too. The config file
+# finds them again by name, in the order in which the linker needs them; a hint says where the build
+# found them.
+set(taut_link_names)
+set(taut_link_folders)
+foreach(library IN LISTS taut_glslang_libraries TAUT_SPIRV_TOOLS_OPT TAUT_SPIRV_TOOLS)
+    if(library)
+        cmake_path(GET library STEM LAST_ONLY stem)
+        string(REGEX REPLACE "^lib" "" stem "${stem}")
+        cmake_path(GET library PARENT_PATH folder)
+        list(APPEND taut_link_names ${stem})
+        list(APPEND taut_link_folders ${folder})
+    endif()
+endforeach()
+list(REMOVE_DUPLICATES taut_link_folders)
+
+configure_package_config_file(cmake/taut-config.cmake.in ${PROJECT_BINARY_DIR}/taut-config.cmake
+                              INSTALL_DESTINATION ${taut_cmake_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/taut-config-version.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/taut-config.cmake ${PROJECT_BINARY_DIR}/taut-config-version.cmake
+        DESTINATION ${taut_cmake_dir})
+
+# ---------------------------------------------------------------- pkg-config
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+    set(taut_pc_prefix ${CMAKE_INSTALL_PREFIX})
+    set(taut_pc_libdir ${CMAKE_INSTALL_LIBDIR})
+else() # relative to the file itself, so that the tree can be moved
+    file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+    string(REGEX REPLACE "/$" "" up "${up}")
+    set(taut_pc_prefix "\${pcfiledir}/${up}")
+    set(taut_pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+endif()
+if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+    set(taut_pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
+else()
+    set(taut_pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+set(taut_pc_libs)
+foreach(folder IN LISTS taut_link_folders)
+    if(NOT folder IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES AND NOT folder MATCHES "^(/usr)?/lib")
+        list(APPEND taut_pc_libs -L${folder})
+    endif()
+endforeach()
+foreach(name IN LISTS taut_link_names)
+    list(APPEND taut_pc_libs -l${name})
+endforeach()
+list(APPEND taut_pc_libs -lassimp -pthread)
+if(CMAKE_DL_LIBS)
+    list(APPEND taut_pc_libs -l${CMAKE_DL_LIBS})
+endif()
+if(TAUT_SANITIZE)
+    list(APPEND taut_pc_libs -fsanitize=${TAUT_SANITIZE})
+endif()
+list(JOIN taut_pc_libs " " taut_pc_libs)
+configure_file(cmake/taut.pc.in ${PROJECT_BINARY_DIR}/taut.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/taut.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

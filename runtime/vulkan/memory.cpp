@@ -1,0 +1,134 @@
+#include "taut/runtime/vulkan/memory.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace taut::vulkan {
+namespace {
+
+constexpr VkDeviceSize kFirstBlock = VkDeviceSize{16} << 20;
+constexpr VkDeviceSize kLargestBlock = VkDeviceSize{64} << 20;
+
+VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment)
+{
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+} // namespace
+
+int find_memory_type(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t bits,
+                     VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred)
+{
+    int fallback = -1;
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+    {
+        const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
+        if ((bits & (1u << i)) == 0 || (flags & wanted) != wanted)
+            continue;
+        if ((flags & preferred) == preferred)
+            return static_cast<int>(i);
+        if (fallback < 0)
+            fallback = static_cast<int>(i);
+    }
+    return fallback;
+}
+
+Memory::Memory(const VolkDeviceTable& vk, VkDevice device, const VkPhysicalDeviceMemoryProperties& properties,
+               Health& health)
+    : vk_(vk), device_(device), properties_(properties), health_(health), next_bytes_(kFirstBlock)
+{
+}
+
+Memory::~Memory()
+{
+    for (const auto& block : blocks_)
+        vk_.vkFreeMemory(device_, block->memory, nullptr);
+}
+
+Memory::Block& Memory::add_block(std::uint32_t type, VkDeviceSize bytes)
+{
+    VkMemoryAllocateInfo info = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    info.allocationSize = bytes;
+    info.memoryTypeIndex = type;
+    auto block = std::make_unique<Block>();
+    health_.check(vk_.vkAllocateMemory(device_, &info, nullptr, &block->memory), "vkAllocateMemory");
+    block->bytes = bytes;
+    block->type = type;
+    block->free.emplace(0, bytes);
+    return *blocks_.emplace_back(std::move(block));
+}
+
+bool Memory::take(Block& block, const VkMemoryRequirements& requirements, Allocation& out)
+{
+    for (auto it = block.free.begin(); it != block.free.end(); ++it)
+    {
+        const auto [start, bytes] = *it;
+        const VkDeviceSize offset = align_up(start, requirements.alignment);
+        if (offset + requirements.size > start + bytes)
+            continue;
+        block.free.erase(it);
+        if (offset > start)
+            block.free.emplace(start, offset - start);
+        const VkDeviceSize end = offset + requirements.size;
+        if (end < start + bytes)
+            block.free.emplace(end, start + bytes - end);
+        out = {block.memory, offset, requirements.size};
+        return true;
+    }
+    return false;
+}
+
+Allocation Memory::allocate(const VkMemoryRequirements& requirements)
+{
+    const std::lock_guard lock(mutex_);
+    const int type = find_memory_type(properties_, requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    if (type < 0)
+        throw Error(ErrorCode::out_of_memory, "the Vulkan device has no memory type for storage buffers");
+    Allocation out;
+    for (const auto& block : blocks_)
+        if (block->type == static_cast<std::uint32_t>(type) && take(*block, requirements, out))
+            return out;
+    // Beyond half a block, sharing would waste more than it saves.
+    const bool own_block = requirements.size > kLargestBlock / 2;
+    const VkDeviceSize bytes = own_block ? requirements.size : std::max(next_bytes_, align_up(requirements.size, kFirstBlock));
+    Block& block = add_block(static_cast<std::uint32_t>(type), bytes);
+    if (!own_block)
+        next_bytes_ = std::min(kLargestBlock, next_bytes_ * 2);
+    [[maybe_unused]] const bool taken = take(block, requirements, out);
+    assert(taken);
+    return out;
+}
+
+void Memory::release(const Allocation& allocation)
+{
+    const std::lock_guard lock(mutex_);
+    const auto owner = std::find_if(blocks_.begin(), blocks_.end(),
+                                    [&](const auto& block) { return block->memory == allocation.memory; });
+    assert(owner != blocks_.end());
+    auto& free = (*owner)->free;
+    auto it = free.emplace(allocation.offset, allocation.bytes).first;
+    if (const auto next = std::next(it); next != free.end() && it->first + it->second == next->first)
+    {
+        it->second += next->second;
+        free.erase(next);
+    }
+    if (it != free.begin())
+        if (const auto previous = std::prev(it); previous->first + previous->second == it->first)
+        {
+            previous->second += it->second;
+            it = free.erase(it);
+            it = previous;
+        }
+    if (it->second != (*owner)->bytes)
+        return;
+    vk_.vkFreeMemory(device_, allocation.memory, nullptr);
+    blocks_.erase(owner);
+}
+
+std::uint64_t Memory::block_count() const
+{
+    const std::lock_guard lock(mutex_);
+    return blocks_.size();
+}
+
+} // namespace taut::vulkan

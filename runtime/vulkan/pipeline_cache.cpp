@@ -1,0 +1,107 @@
+#include "taut/runtime/vulkan/pipeline_cache.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace taut::vulkan {
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'T', 'A', 'U', 'T', 'P', 'I', 'P', 'E'};
+constexpr std::uint32_t kVersion = 1;
+
+struct Header
+{
+    std::array<char, 8> magic = kMagic;
+    std::uint32_t version = kVersion;
+    std::uint32_t vendor = 0;
+    std::uint32_t device = 0;
+    std::uint32_t driver_version = 0;
+    std::array<std::uint8_t, VK_UUID_SIZE> cache_uuid = {};
+    std::uint64_t bytes = 0;
+    std::uint64_t hash = 0;
+};
+static_assert(sizeof(Header) == 56, "written to a file as it is: no padding");
+
+/// FNV-1a.
+std::uint64_t hash_of(std::span<const std::byte> bytes)
+{
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const std::byte b : bytes)
+        hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
+    return hash;
+}
+
+Header header_for(const VkPhysicalDeviceProperties& device, std::span<const std::byte> contents)
+{
+    Header header;
+    header.vendor = device.vendorID;
+    header.device = device.deviceID;
+    header.driver_version = device.driverVersion;
+    std::copy_n(device.pipelineCacheUUID, VK_UUID_SIZE, header.cache_uuid.begin());
+    header.bytes = contents.size();
+    header.hash = hash_of(contents);
+    return header;
+}
+
+/// No two writers share it, in this process or another.
+std::string temporary_name(const std::string& path)
+{
+    static std::atomic<unsigned> number = 0;
+    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+    return path + "." + std::to_string(now) + "-" + std::to_string(number++) + ".tmp";
+}
+
+} // namespace
+
+std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device)
+{
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file)
+        return {};
+    const auto size = static_cast<std::int64_t>(file.tellg());
+    if (size < static_cast<std::int64_t>(sizeof(Header)))
+        return {};
+    Header found;
+    std::vector<std::byte> contents(static_cast<std::size_t>(size) - sizeof(Header));
+    file.seekg(0);
+    file.read(reinterpret_cast<char*>(&found), sizeof(Header));
+    file.read(reinterpret_cast<char*>(contents.data()), static_cast<std::streamsize>(contents.size()));
+    if (!file)
+        return {};
+    const Header expected = header_for(device, contents);
+    if (std::memcmp(&found, &expected, sizeof(Header)) != 0)
+        return {};
+    return contents;
+}
+
+bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device,
+                         std::span<const std::byte> contents) noexcept
+{
+    try
+    {
+        const std::string temporary = temporary_name(path);
+        const Header header = header_for(device, contents);
+        std::ofstream file(temporary, std::ios::binary);
+        file.write(reinterpret_cast<const char*>(&header), sizeof(Header));
+        file.write(reinterpret_cast<const char*>(contents.data()), static_cast<std::streamsize>(contents.size()));
+        file.close();
+        std::error_code error;
+        if (file)
+            std::filesystem::rename(temporary, path, error);
+        if (file && !error)
+            return true;
+        std::filesystem::remove(temporary, error);
+    }
+    catch (...)
+    {
+    }
+    return false;
+}
+
+} // namespace taut::vulkan

@@ -1,0 +1,21 @@
+#pragma once
+// The pipeline cache on disk. Only a file that this very driver wrote for this very device is believed.
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace taut::vulkan {
+
+/// Contents of the file, without its header. Empty when the file is missing, truncated, damaged, of another
+/// version of the format, or of another device or driver.
+std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device);
+
+/// Writes to a temporary name and renames. False when that failed; a cache is no reason to stop.
+bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device,
+                         std::span<const std::byte> contents) noexcept;
+
+} // namespace taut::vulkan

@@ -1,0 +1,89 @@
+// taut check: everything that is wrong with a scene, by field. Runs nothing.
+
+#include "taut/cli/command.hpp"
+#include "taut/cli/output.hpp"
+#include "taut/plan/plan.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/scene/scene.hpp"
+#include "taut/version.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+namespace taut::cli {
+namespace {
+
+bool any_error(const std::vector<SceneIssue>& issues)
+{
+    return std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; });
+}
+
+/// From the file to the plan, as far as it goes. A file that cannot be read is not an issue of the
+/// scene and is thrown on.
+std::vector<SceneIssue> find_issues(const std::string& file)
+{
+    std::vector<SceneIssue> issues;
+    try
+    {
+        const Scene scene = load_scene(file);
+        issues = check(scene);
+        if (any_error(issues))
+            return issues;
+        // resolve() repeats the warnings of check().
+        std::vector<SceneIssue> warnings;
+        const Scene resolved = resolve(scene, &warnings);
+        for (const SceneIssue& w : warnings)
+            if (std::none_of(issues.begin(), issues.end(),
+                             [&](const SceneIssue& i) { return i.field == w.field && i.text == w.text; }))
+                issues.push_back(w);
+        for (const std::string& warning : make_plan(resolved).warnings)
+            issues.push_back({false, "", warning});
+    }
+    catch (const Error& error)
+    {
+        if (error.code() == ErrorCode::io || error.code() == ErrorCode::out_of_memory)
+            throw;
+        issues.push_back({true, "", error.what()});
+    }
+    return issues;
+}
+
+int check_scene(const std::string& file, bool json)
+{
+    const std::vector<SceneIssue> issues = find_issues(file);
+    const bool bad = any_error(issues);
+    if (json)
+    {
+        Json list = Json::array();
+        for (const SceneIssue& issue : issues)
+            list.push_back({{"error", issue.error}, {"field", issue.field}, {"text", issue.text}});
+        std::cout << to_text({{"taut", TAUT_VERSION}, {"scene", file}, {"sound", !bad}, {"issues", list}});
+        return bad ? kBadInput : kDone;
+    }
+    for (const SceneIssue& issue : issues)
+        std::cout << (issue.error ? "error: " : "warning: ") << (issue.field.empty() ? "" : issue.field + ": ")
+                  << issue.text << "\n";
+    if (!bad)
+        std::cout << file << " is a sound scene" << (issues.empty() ? ".\n" : ", with the warnings above.\n");
+    return bad ? kBadInput : kDone;
+}
+
+} // namespace
+
+void add_check(CLI::App& app, Command& chosen)
+{
+    struct Options
+    {
+        std::string scene;
+        bool json = false;
+    };
+    CLI::App* command = app.add_subcommand("check", "Say what is wrong with a scene, by field");
+    const auto options = std::make_shared<Options>();
+    command->add_option("scene", options->scene, "Scene file (JSON)")->required();
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([&chosen, options] {
+        chosen = [options] { return check_scene(options->scene, options->json); };
+    });
+}
+
+} // namespace taut::cli

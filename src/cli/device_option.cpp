@@ -1,0 +1,52 @@
+#include "taut/cli/device_option.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+
+namespace taut::cli {
+namespace {
+
+std::string environment(const char* name)
+{
+    const char* value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+/// Empty when nothing should be kept, or when there is no place for it: a cache never stops a run.
+std::string pipeline_cache()
+{
+    const std::string chosen = environment("TAUT_PIPELINE_CACHE");
+    if (!chosen.empty())
+        return chosen == "off" ? "" : chosen;
+    fs::path folder = environment("XDG_CACHE_HOME");
+    if (folder.empty() && !environment("HOME").empty())
+        folder = fs::path(environment("HOME")) / ".cache";
+    if (folder.empty())
+        return "";
+    folder /= "taut";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    return error ? "" : (folder / "pipelines.bin").string();
+}
+
+} // namespace
+
+void add_device_option(CLI::App& command, std::string& selector)
+{
+    command.add_option("--device", selector,
+                       "auto, vulkan, vulkan:1, part of a device's name, opengl, opengl:spirv, cpu, cpu:serial "
+                       "(default: TAUT_DEVICE, else auto)");
+}
+
+std::shared_ptr<Device> open_device(const std::string& selector)
+{
+    OpenOptions options;
+    const std::string wanted = selector.empty() ? environment("TAUT_DEVICE") : selector;
+    if (wanted.rfind("cpu", 0) != 0 && wanted.rfind("opengl", 0) != 0)
+        options.pipeline_cache = pipeline_cache();
+    return Device::open(selector, options);
+}
+
+} // namespace taut::cli

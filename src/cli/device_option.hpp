@@ -1,0 +1,19 @@
+#pragma once
+// The option --device, and how the program opens what it names.
+
+#include "taut/cli/command.hpp"
+#include "taut/runtime/device.hpp"
+
+#include <memory>
+#include <string>
+
+namespace taut::cli {
+
+/// Adds --device to a command.
+void add_device_option(CLI::App& command, std::string& selector);
+
+/// Opens with the program's pipeline cache: the file that TAUT_PIPELINE_CACHE names ("off": none), else
+/// taut/pipelines.bin under XDG_CACHE_HOME or ~/.cache. Throws Error{no_device}.
+std::shared_ptr<Device> open_device(const std::string& selector);
+
+} // namespace taut::cli

@@ -1,0 +1,89 @@
+// The program `taut`. Everything that goes wrong ends here in one sentence on standard error.
+
+#include "taut/cli/command.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/version.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+namespace {
+
+using namespace taut;
+
+int exit_status(ErrorCode code)
+{
+    switch (code)
+    {
+    case ErrorCode::no_device: return cli::kNoDevice;
+    case ErrorCode::device_lost: return cli::kNotSound;
+    default: return cli::kBadInput;
+    }
+}
+
+int complain(const std::string& sentence, int status)
+{
+    std::cout.flush();
+    std::fprintf(stderr, "taut: %s\n", sentence.c_str());
+    return status;
+}
+
+/// Arguments to a command; kDone in `status` with an empty command after --help or --version.
+cli::Command parse(int argc, char** argv, int& status)
+{
+    CLI::App app("Simulates cloth: one set of compute kernels on Vulkan, OpenGL and the CPU.", "taut");
+    app.set_version_flag("--version", "taut " TAUT_VERSION);
+    app.require_subcommand(1);
+    cli::Command chosen;
+    cli::add_run(app, chosen);
+    cli::add_plan(app, chosen);
+    cli::add_check(app, chosen);
+    cli::add_devices(app, chosen);
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::Success& wish) // --help, --version
+    {
+        app.exit(wish);
+        return {};
+    }
+    catch (const CLI::ParseError& error)
+    {
+        status = complain(std::string(error.what()) + " (taut --help lists commands and options)", cli::kBadInput);
+        return {};
+    }
+    return chosen;
+}
+
+int execute(const cli::Command& command)
+{
+    try
+    {
+        const int status = command();
+        std::cout.flush();
+        return std::cout ? status : complain("standard output could not be written.", cli::kBadInput);
+    }
+    catch (const Error& error)
+    {
+        return complain(error.what(), exit_status(error.code()));
+    }
+    catch (const std::bad_alloc&)
+    {
+        return complain("the host has no memory left for this scene; use a smaller one.", cli::kBadInput);
+    }
+    catch (const std::exception& error)
+    {
+        return complain(std::string("internal error: ") + error.what(), cli::kNotSound);
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    int status = taut::cli::kDone;
+    const taut::cli::Command command = parse(argc, argv, status);
+    return command ? execute(command) : status;
+}

@@ -1,0 +1,107 @@
+#include "taut/cli/output.hpp"
+
+#include "taut/runtime/base/error.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+
+namespace fs = std::filesystem;
+
+namespace taut::cli {
+
+void write_file(const fs::path& file, std::string_view text)
+{
+    // The process id keeps two runs into one folder from writing the same temporary file.
+    const fs::path temporary = file.string() + ".tmp" + std::to_string(getpid());
+    const auto refuse = [&] {
+        const std::string why = std::strerror(errno);
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw Error(ErrorCode::io, "cannot write " + file.string() + ": " + why + ".");
+    };
+    {
+        std::ofstream stream(temporary, std::ios::binary);
+        if (!stream)
+            refuse();
+        stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+        stream.close();
+        if (!stream)
+            refuse();
+    }
+    if (std::rename(temporary.c_str(), file.c_str()) != 0)
+        refuse();
+}
+
+void make_folder(const fs::path& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
+        throw Error(ErrorCode::io, "cannot make the folder " + folder.string() + ": " +
+                                       (error ? error.message() : "a file of this name is in the way") +
+                                       "; choose another with --out.");
+}
+
+std::string to_text(const Json& json)
+{
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string table(const std::vector<std::vector<std::string>>& rows)
+{
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows)
+        for (std::size_t column = 0; column < row.size(); ++column)
+        {
+            if (column == widths.size())
+                widths.push_back(0);
+            widths[column] = std::max(widths[column], row[column].size());
+        }
+    std::string text;
+    for (const auto& row : rows)
+    {
+        for (std::size_t column = 0; column < row.size(); ++column)
+        {
+            const std::string space(widths[column] - row[column].size(), ' ');
+            text += column == 0 ? row[column] + space : "  " + space + row[column];
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string bytes_text(std::uint64_t bytes)
+{
+    if (bytes < 1024)
+        return std::to_string(bytes) + " B";
+    const char* const units[] = {"KiB", "MiB", "GiB", "TiB"};
+    double value = static_cast<double>(bytes) / 1024;
+    std::size_t unit = 0;
+    for (; value >= 1024 && unit < 3; ++unit)
+        value /= 1024;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f %s", value, units[unit]);
+    return text;
+}
+
+std::string number(double value, int digits)
+{
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    return text;
+}
+
+void warn(const std::string& sentence)
+{
+    std::cout.flush();
+    std::fprintf(stderr, "taut: warning: %s\n", sentence.c_str());
+}
+
+} // namespace taut::cli

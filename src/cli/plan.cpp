@@ -1,0 +1,103 @@
+// taut plan: what a step of a scene would run. Runs nothing of it.
+
+#include "taut/plan/plan.hpp"
+#include "taut/cli/command.hpp"
+#include "taut/cli/device_option.hpp"
+#include "taut/cli/output.hpp"
+#include "taut/version.hpp"
+#include "taut/world/world.hpp"
+
+#include <iostream>
+
+namespace taut::cli {
+namespace {
+
+struct PlanCommand
+{
+    std::string scene, device;
+    bool json = false;
+};
+
+std::string join(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+Json to_json(const PlanCommand& options, const Plan& plan, const std::string& device)
+{
+    Json effects = Json::array();
+    for (const EffectCost& effect : plan.effects)
+        effects.push_back({{"name", effect.name},
+                           {"kernels", effect.kernels},
+                           {"dispatches_per_step", effect.dispatches_per_step},
+                           {"bytes_allocated", effect.bytes_allocated},
+                           {"bytes_per_step", effect.bytes_per_step}});
+    Json json = {{"taut", TAUT_VERSION}, {"scene", options.scene}};
+    json["device"] = device.empty() ? Json(nullptr) : Json(device);
+    json["precision"] = to_string(plan.precision);
+    json["substeps"] = plan.substeps;
+    json["iterations"] = plan.iterations;
+    json["vertices"] = plan.vertex_count;
+    json["constraints"] = plan.constraint_counts();
+    json["effects"] = effects;
+    json["dispatches_per_step"] = plan.passes.size();
+    json["barriers_per_step"] = plan.barrier_count();
+    json["bytes_allocated"] = plan.bytes_allocated();
+    json["colours"] = plan.colour_counts();
+    json["warnings"] = plan.warnings;
+    return json;
+}
+
+std::string to_table(const Plan& plan)
+{
+    std::vector<std::vector<std::string>> rows = {{"effect", "dispatches", "allocated", "moved", "kernels"}};
+    for (const EffectCost& effect : plan.effects)
+        rows.push_back({effect.name, std::to_string(effect.dispatches_per_step), bytes_text(effect.bytes_allocated),
+                        bytes_text(effect.bytes_per_step), join(effect.kernels)});
+    std::string text = table(rows) + "\n";
+    text += std::to_string(plan.vertex_count) + " vertices, " + std::string(to_string(plan.precision)) + ", " +
+            std::to_string(plan.substeps) + " substeps of " + std::to_string(plan.iterations) + " iterations\n";
+    const auto colours = plan.colour_counts();
+    for (const auto& [kind, count] : plan.constraint_counts())
+    {
+        const auto found = colours.find(kind);
+        text += std::to_string(count) + " " + kind + " constraints in " +
+                std::to_string(found == colours.end() ? 0 : found->second) + " colours\n";
+    }
+    text += "a step: " + std::to_string(plan.passes.size()) + " dispatches, " +
+            std::to_string(plan.barrier_count()) + " barriers, " + bytes_text(plan.bytes_allocated()) + " allocated\n";
+    return text;
+}
+
+int show_plan(const PlanCommand& options)
+{
+    const Scene scene = resolve(load_scene(options.scene));
+    DeviceTraits traits;
+    std::string name;
+    if (!options.device.empty())
+    {
+        const auto device = open_device(options.device);
+        traits = measure_traits(*device);
+        name = device->info().name;
+    }
+    const Plan plan = make_plan(scene, traits);
+    std::cout << (options.json ? to_text(to_json(options, plan, name)) : to_table(plan));
+    return kDone;
+}
+
+} // namespace
+
+void add_plan(CLI::App& app, Command& chosen)
+{
+    CLI::App* command = app.add_subcommand("plan", "Show what a step would run: passes, barriers, bytes, per effect");
+    const auto options = std::make_shared<PlanCommand>();
+    command->add_option("scene", options->scene, "Scene file (JSON)")->required();
+    add_device_option(*command, options->device);
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([&chosen, options] { chosen = [options] { return show_plan(*options); }; });
+}
+
+} // namespace taut::cli

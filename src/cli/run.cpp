@@ -1,0 +1,252 @@
+// taut run: simulates a scene; writes meshes, a report and pictures.
+
+#include "taut/cli/command.hpp"
+#include "taut/cli/device_option.hpp"
+#include "taut/cli/interrupt.hpp"
+#include "taut/cli/mesh_sequence.hpp"
+#include "taut/cli/pictures.hpp"
+#include "taut/cli/progress.hpp"
+#include "taut/cli/run_result.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <optional>
+
+namespace fs = std::filesystem;
+
+namespace taut::cli {
+namespace {
+
+struct RunCommand
+{
+    std::string scene, device;
+    fs::path folder;
+    std::optional<std::uint32_t> frames, every;
+    bool json = false, no_picture = false;
+};
+
+std::uint64_t frame_count(const RunCommand& options, const Scene& scene)
+{
+    if (options.frames)
+        return *options.frames;
+    // 4 s of 1/60 s are 240 frames, whatever the last bit of the quotient says.
+    const double frames = std::ceil(scene.duration / scene.timestep - 1e-6);
+    if (!(frames < std::numeric_limits<std::uint32_t>::max()))
+        throw Error(ErrorCode::bad_input, options.scene + ": duration " + number(scene.duration) + " s has more than " +
+                                              "4294967295 time steps; shorten it or give --frames.");
+    return static_cast<std::uint64_t>(std::max(frames, 0.0));
+}
+
+/// About thirty meshes a simulated second, unless --every says otherwise; 0 = none.
+std::uint64_t mesh_interval(const RunCommand& options, const Scene& scene)
+{
+    if (options.every)
+        return *options.every;
+    return static_cast<std::uint64_t>(std::max(1.0, std::round(1.0 / (30 * scene.timestep))));
+}
+
+/// What an earlier run left: a folder with a report always holds the run of that report.
+void forget_older_run(const fs::path& folder)
+{
+    for (const char* name : {"report.json", "picture.png", "contact_sheet.png"})
+    {
+        std::error_code error;
+        fs::remove(folder / name, error);
+        if (error)
+            throw Error(ErrorCode::io, "cannot replace " + (folder / name).string() + ": " + error.message() + ".");
+    }
+}
+
+/// The loop over frames, with what it keeps on the way.
+class Runner
+{
+public:
+    Runner(const RunCommand& options, World& world, std::uint64_t frames)
+        : options_(options), world_(world), frames_(frames), every_(mesh_interval(options, world.scene())),
+          snapshot_frames_(options.no_picture ? std::vector<std::uint64_t>{} : snapshot_frames(frames)),
+          meshes_(world.scene(), options.folder)
+    {
+    }
+
+    /// True if it was interrupted.
+    bool run()
+    {
+        const InterruptGuard guard;
+        Progress progress(frames_);
+        keep();
+        while (done_ < frames_ && !guard.interrupted() && finite_)
+        {
+            step();
+            if (done_ < frames_ && finite_ && !guard.interrupted())
+                keep();
+            progress.update(done_);
+        }
+        if (done_ > 0)
+            keep_last();
+        meshes_.remove_older();
+        return done_ < frames_ && guard.interrupted();
+    }
+
+    std::uint64_t done() const { return done_; }
+    std::size_t mesh_count() const { return meshes_.count(); }
+    const std::vector<double>& step_ms() const { return step_ms_; }
+    const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+
+private:
+    void step()
+    {
+        const auto start = std::chrono::steady_clock::now();
+        world_.step();
+        world_.device().wait();
+        step_ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        ++done_;
+        finite_ = world_.events().non_finite == 0;
+    }
+
+    /// The mesh and the snapshot of a frame, where they are due.
+    void keep()
+    {
+        const bool mesh = every_ != 0 && done_ % every_ == 0;
+        const bool snapshot = std::binary_search(snapshot_frames_.begin(), snapshot_frames_.end(), done_);
+        write(mesh, snapshot);
+    }
+
+    /// The frame at which it ended, due or not.
+    void keep_last() { write(every_ != 0, !options_.no_picture); }
+
+    void write(bool mesh, bool snapshot)
+    {
+        if (!mesh && !snapshot)
+            return;
+        std::vector<glm::dvec3> positions = world_.positions();
+        if (mesh)
+            meshes_.write(positions, done_, world_.time());
+        if (snapshot)
+            snapshots_.push_back({world_.time(), std::move(positions)});
+    }
+
+    const RunCommand& options_;
+    World& world_;
+    std::uint64_t frames_, every_, done_ = 0;
+    bool finite_ = true;
+    std::vector<std::uint64_t> snapshot_frames_;
+    std::vector<double> step_ms_;
+    std::vector<Snapshot> snapshots_;
+    MeshSequence meshes_;
+};
+
+/// Device times of three further frames, the median by effect. The world is put back afterwards, so
+/// that timestamps never touch what was simulated.
+std::vector<EffectTime> time_passes(World& world)
+{
+    const WorldState before = world.state();
+    std::vector<EffectTime> passes = world.step_timed();
+    std::vector<std::vector<double>> times(passes.size());
+    for (int sample = 0; sample < 3; ++sample)
+    {
+        const std::vector<EffectTime> again = sample == 0 ? passes : world.step_timed();
+        for (std::size_t p = 0; p < passes.size(); ++p)
+            times[p].push_back(again[p].milliseconds);
+    }
+    for (std::size_t p = 0; p < passes.size(); ++p)
+    {
+        std::sort(times[p].begin(), times[p].end());
+        passes[p].milliseconds = times[p][1];
+    }
+    world.restore(before);
+    return passes;
+}
+
+/// Residuals need multipliers, which a run does not keep. So they are measured on a copy of the world
+/// that keeps them and goes one frame further.
+void measure_residuals(const World& world, const std::shared_ptr<Device>& device, StepReport& report)
+{
+    WorldOptions options;
+    options.plan.residuals = true;
+    World copy(world.scene(), device, options);
+    copy.restore(world.state());
+    copy.step();
+    const StepReport further = measure(copy);
+    report.primal_residual = further.primal_residual;
+    report.dual_residual = further.dual_residual;
+}
+
+RunResult describe(const RunCommand& options, const World& world, const Runner& runner)
+{
+    RunResult result;
+    result.scene = options.scene;
+    result.folder = options.folder.string();
+    result.device = world.device().info();
+    result.precision = world.plan().precision;
+    result.frames = runner.done();
+    result.vertices = world.plan().vertex_count;
+    result.constraints = world.plan().constraint_counts();
+    result.colours = world.plan().colour_counts();
+    result.report = measure(world);
+    result.step_ms = runner.step_ms();
+    result.messages = world.plan().warnings;
+    result.meshes = runner.mesh_count();
+    return result;
+}
+
+RunResult simulate(const RunCommand& options, const Scene& scene, const std::shared_ptr<Device>& device)
+{
+    World world(scene, device);
+    const std::uint64_t frames = frame_count(options, scene);
+    make_folder(options.folder);
+    forget_older_run(options.folder);
+    Runner runner(options, world, frames);
+    const bool interrupted = runner.run();
+
+    RunResult result = describe(options, world, runner);
+    result.frames_wanted = frames;
+    if (interrupted && sound(result.report.status))
+        result.report.status = Status::interrupted;
+    if (!options.no_picture && sound(result.report.status))
+        result.pictures = draw_pictures(world.scene(), runner.snapshots(), options.folder);
+    if (result.report.status == Status::completed)
+    {
+        measure_residuals(world, device, result.report);
+        result.passes = time_passes(world);
+    }
+    return result;
+}
+
+int run(RunCommand options)
+{
+    std::vector<SceneIssue> issues;
+    const Scene scene = resolve(load_scene(options.scene), &issues);
+    if (options.folder.empty())
+        options.folder = fs::path("out") / fs::path(options.scene).stem();
+    const auto device = open_device(options.device);
+    RunResult result = simulate(options, scene, device);
+    for (const SceneIssue& issue : issues)
+        result.messages.push_back((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
+    const std::string report = to_text(to_json(result));
+    write_file(options.folder / "report.json", report);
+    std::cout << (options.json ? report : summary(result));
+    return sound(result.report.status) ? kDone : kNotSound;
+}
+
+} // namespace
+
+void add_run(CLI::App& app, Command& chosen)
+{
+    CLI::App* command = app.add_subcommand("run", "Simulate a scene; write meshes, a report and pictures");
+    const auto options = std::make_shared<RunCommand>();
+    command->add_option("scene", options->scene, "Scene file (JSON)")->required();
+    add_device_option(*command, options->device);
+    command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)");
+    command->add_option("--out", options->folder, "Folder for what is written (default: out/<scene>)");
+    command->add_option("--every", options->every,
+                        "Frames from one mesh file to the next, 0 = no meshes (default: 30 files a second)");
+    command->add_flag("--no-picture", options->no_picture, "Draw no pictures");
+    command->add_flag("--json", options->json, "Print the report as one JSON object");
+    command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });
+}
+
+} // namespace taut::cli

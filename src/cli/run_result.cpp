@@ -1,0 +1,100 @@
+#include "taut/cli/run_result.hpp"
+
+#include "taut/version.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace taut::cli {
+namespace {
+
+/// Nearest rank; 0 of nothing.
+double percentile(std::vector<double> values, double share)
+{
+    if (values.empty())
+        return 0;
+    std::sort(values.begin(), values.end());
+    const double rank = std::ceil(share * static_cast<double>(values.size()));
+    return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+std::string hex(std::uint64_t value)
+{
+    char text[24];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    return text;
+}
+
+Json passes_json(const std::vector<EffectTime>& passes)
+{
+    Json list = Json::array();
+    for (const EffectTime& pass : passes)
+        list.push_back({{"name", pass.name}, {"ms", pass.milliseconds}, {"dispatches", pass.dispatches}});
+    return list;
+}
+
+} // namespace
+
+bool sound(Status status)
+{
+    return status == Status::completed || status == Status::interrupted || status == Status::converged;
+}
+
+Json to_json(const RunResult& result)
+{
+    const StepReport& report = result.report;
+    Json json = {{"taut", TAUT_VERSION}, {"scene", result.scene}};
+    json["device"] = result.device.name;
+    json["executor"] = result.device.executor;
+    json["precision"] = to_string(result.precision);
+    json["frames"] = result.frames;
+    json["simulated_seconds"] = report.time;
+    json["vertices"] = result.vertices;
+    json["constraints"] = result.constraints;
+    json["colours"] = result.colours;
+    json["status"] = to_string(report.status);
+    json["warnings"] = report.warnings;
+    json["messages"] = result.messages;
+    json["step_ms"] = {{"median", percentile(result.step_ms, 0.5)}, {"p95", percentile(result.step_ms, 0.95)}};
+    json["passes"] = passes_json(result.passes);
+    json["max_stretch"] = report.max_stretch;
+    json["rms_stretch"] = report.rms_stretch;
+    json["penetration"] = report.penetration;
+    json["kinetic_energy"] = report.kinetic_energy;
+    json["potential_energy"] = report.potential_energy;
+    json["momentum_error"] = report.momentum_error;
+    json["primal_residual"] = report.primal_residual;
+    json["dual_residual"] = report.dual_residual;
+    json["position_hash"] = hex(report.position_hash);
+    json["folder"] = result.folder;
+    json["meshes"] = result.meshes;
+    json["pictures"] = result.pictures;
+    return json;
+}
+
+std::string summary(const RunResult& result)
+{
+    const StepReport& report = result.report;
+    std::string text = std::string(to_string(report.status)) + ": " + std::to_string(result.frames) + " of " +
+                       std::to_string(result.frames_wanted) + " frames, " + number(report.time) + " s, on " +
+                       result.device.name + " (" + result.device.executor + ")\n";
+    text += "step    " + number(percentile(result.step_ms, 0.5), 3) + " ms median, " +
+            number(percentile(result.step_ms, 0.95), 3) + " ms at the 95th percentile, " +
+            std::to_string(result.vertices) + " vertices\n";
+    text += "errors  stretch " + number(100 * report.max_stretch, 3) + " % largest, " +
+            number(100 * report.rms_stretch, 3) + " % rms; penetration " + number(1000 * report.penetration, 3) +
+            " mm; residuals " + number(report.primal_residual, 2) + " primal, " + number(report.dual_residual, 2) +
+            " dual\n";
+    for (const auto& [word, count] : report.warnings)
+        text += "warning " + word + " (" + std::to_string(count) + ")\n";
+    for (const std::string& message : result.messages)
+        text += "warning " + message + "\n";
+    text += "meshes  " + std::to_string(result.meshes) + " files " + result.folder + "/mesh_*.obj\n";
+    text += "report  " + result.folder + "/report.json\n";
+    for (const std::string& picture : result.pictures)
+        text += "picture " + result.folder + "/" + picture + "\n";
+    return text;
+}
+
+} // namespace taut::cli

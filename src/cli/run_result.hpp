@@ -1,0 +1,39 @@
+#pragma once
+// What `taut run` found out, and how it prints that.
+
+#include "taut/cli/output.hpp"
+#include "taut/report/report.hpp"
+
+#include <string>
+#include <vector>
+
+namespace taut::cli {
+
+struct RunResult
+{
+    std::string scene;  ///< as given
+    std::string folder; ///< as given or chosen
+    DeviceInfo device;
+    Precision precision = Precision::float32;
+    std::uint64_t frames = 0; ///< done, one time step each
+    std::uint64_t frames_wanted = 0;
+    std::uint64_t vertices = 0;
+    std::map<std::string, std::uint64_t> constraints, colours; ///< by kind
+    StepReport report;
+    std::vector<double> step_ms;      ///< wall time of each frame, ms
+    std::vector<EffectTime> passes;   ///< device time of one frame by effect; empty after an interruption
+    std::vector<std::string> messages; ///< what scene and plan warn of, in sentences
+    std::size_t meshes = 0;           ///< files written
+    std::vector<std::string> pictures; ///< files written, relative to the folder
+};
+
+/// Did it run, and is what came out sound?
+bool sound(Status status);
+
+/// The keys are documented in docs/program.md.
+Json to_json(const RunResult& result);
+
+/// For people: a few lines.
+std::string summary(const RunResult& result);
+
+} // namespace taut::cli

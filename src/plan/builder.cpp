@@ -1,0 +1,113 @@
+#include "taut/plan/builder.hpp"
+
+#include "taut/plan/material.hpp"
+#include "taut/plan/topology.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+/// Grids keep their rows, which parity colours want; other meshes follow a space-filling curve.
+std::vector<std::uint32_t> body_order(const Body& body)
+{
+    const std::size_t count = body.mesh.positions.size();
+    if (body.mesh.grid_columns == 0 && !body.mesh.triangles.empty())
+        return locality_order(body.mesh.positions);
+    std::vector<std::uint32_t> order(count);
+    for (std::uint32_t v = 0; v < count; ++v)
+        order[v] = v;
+    return order;
+}
+
+std::vector<bool> held_vertices(const Body& body)
+{
+    std::vector<bool> held(body.mesh.positions.size(), false);
+    for (const Pin& pin : body.pins)
+        for (const std::uint32_t v : pin.vertices)
+            held.at(v) = true;
+    return held;
+}
+
+} // namespace
+
+PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOptions& o)
+    : scene(s), traits(t), options(o)
+{
+    plan.precision = s.method.precision == "double" ? Precision::float64 : Precision::float32;
+    plan.timestep = s.timestep;
+    plan.substeps = s.method.substeps;
+    plan.iterations = s.method.iterations;
+    plan.body_start.push_back(0);
+    for (const Body& body : s.bodies)
+        plan.body_start.push_back(plan.body_start.back() + static_cast<std::uint32_t>(body.mesh.positions.size()));
+    plan.vertex_count = plan.body_start.back();
+    plan.original.reserve(plan.vertex_count);
+    plan_index.resize(plan.vertex_count);
+    for (std::size_t b = 0; b < s.bodies.size(); ++b)
+    {
+        const Body& body = s.bodies[b];
+        const std::vector<double> masses = vertex_masses(body);
+        const std::vector<bool> held = held_vertices(body);
+        const auto& from = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+        for (const std::uint32_t v : body_order(body))
+        {
+            plan_index[plan.body_start[b] + v] = static_cast<std::uint32_t>(plan.original.size());
+            plan.original.push_back(plan.body_start[b] + v);
+            inverse_mass.push_back(held[v] ? 0.0 : 1.0 / masses[v]);
+            start.push_back(from[v]);
+            gap.push_back(body.material.thickness);
+        }
+    }
+}
+
+std::uint32_t PlanBuilder::add_buffer(std::string_view effect, std::string_view name, std::uint64_t bytes)
+{
+    if (bytes > traits.max_buffer_bytes)
+        throw Error(ErrorCode::limit, "effect " + std::string(effect) + ": buffer " + std::string(name) + " needs " +
+                                          std::to_string(bytes) + " bytes, the device binds at most " +
+                                          std::to_string(traits.max_buffer_bytes) +
+                                          "; use a smaller mesh or another device");
+    plan.buffers.push_back({std::string(name), std::string(effect), bytes, {}});
+    cost_of(effect).bytes_allocated += bytes;
+    return static_cast<std::uint32_t>(plan.buffers.size() - 1);
+}
+
+EffectCost& PlanBuilder::cost_of(std::string_view effect)
+{
+    for (EffectCost& cost : plan.effects)
+        if (cost.name == effect)
+            return cost;
+    plan.effects.push_back({std::string(effect), {}, 0, 0, 0});
+    return plan.effects.back();
+}
+
+void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,
+                               std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements)
+{
+    if (count == 0)
+        return;
+    Dispatch pass;
+    pass.kernel = &kernel;
+    pass.params.assign(params.begin(), params.end());
+    pass.count = count;
+    pass.label = std::string(effect);
+    EffectCost& cost = cost_of(effect);
+    for (std::size_t slot = 0; slot < uses.size(); ++slot)
+    {
+        const PlanBuffer& buffer = plan.buffers[uses[slot].buffer];
+        pass.bindings.push_back({uses[slot].buffer, 0, buffer.bytes});
+        const BindingInfo& binding = kernel.bindings[slot];
+        const std::uint64_t touched = std::min<std::uint64_t>(buffer.bytes, elements * uses[slot].touched * binding.stride);
+        if (binding.access != Access::count)
+            cost.bytes_per_step += touched * (binding.access == Access::update ? 2 : 1);
+    }
+    const std::string word = std::string(kernel.name) + (kernel.variant.empty() ? "" : ":" + std::string(kernel.variant));
+    if (std::find(cost.kernels.begin(), cost.kernels.end(), word) == cost.kernels.end())
+        cost.kernels.push_back(word);
+    ++cost.dispatches_per_step;
+    plan.passes.push_back(std::move(pass));
+}
+
+} // namespace taut

@@ -1,0 +1,242 @@
+// The table of effects: what a step can contain, when a scene calls for it, what it adds.
+
+#include "taut/plan/builder.hpp"
+#include "taut/plan/constraints.hpp"
+#include "taut/kernels/damping.hpp"
+#include "taut/kernels/external_force.hpp"
+#include "taut/kernels/finish.hpp"
+#include "taut/kernels/pin_motion.hpp"
+#include "taut/kernels/plane.hpp"
+#include "taut/kernels/predict.hpp"
+#include "taut/kernels/sphere.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+bool has_bodies(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.mesh.positions.empty(); });
+}
+
+bool has_collider(const Scene& scene, ColliderKind kind)
+{
+    return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                                            [&](const Collider& c) { return c.kind == kind; });
+}
+
+std::uint32_t collider_count(const Scene& scene, ColliderKind kind)
+{
+    return static_cast<std::uint32_t>(std::count_if(scene.colliders.begin(), scene.colliders.end(),
+                                                    [&](const Collider& c) { return c.kind == kind; }));
+}
+
+bool has_friction(const Scene& scene, ColliderKind kind)
+{
+    return std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                       [&](const Collider& c) { return c.kind == kind && c.friction > 0; });
+}
+
+// ---------------------------------------------------------------- motion: the state and its two passes
+
+void prepare_motion(PlanBuilder& b)
+{
+    const std::uint64_t n = b.plan.vertex_count;
+    with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        using Vec = glm::vec<4, Real>;
+        std::vector<Vec> position, low, velocity;
+        for (std::uint32_t v = 0; v < n; ++v)
+        {
+            const glm::vec<3, Real> high(b.start[v]);
+            position.emplace_back(high, static_cast<Real>(b.inverse_mass[v]));
+            low.emplace_back(glm::vec<3, Real>(b.start[v] - glm::dvec3(high)), static_cast<Real>(b.gap[v]));
+        }
+        velocity.resize(n, Vec(0));
+        for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+            for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
+                if (b.inverse_mass[b.plan_index[v]] > 0)
+                    velocity[b.plan_index[v]] = Vec(glm::vec<3, Real>(b.scene.bodies[body].velocity), Real(0));
+        b.plan.position = b.add_buffer<Vec>("motion", "position", position);
+        b.plan.low = b.add_buffer<Vec>("motion", "low", low);
+        b.plan.velocity = b.add_buffer<Vec>("motion", "velocity", velocity);
+        b.plan.delta = b.add_buffer("motion", "delta", n * sizeof(Vec));
+        b.plan.step_values = b.add_buffer("motion", "step values", sizeof(layout::StepValues<Real>));
+    });
+    b.plan.events = b.add_buffer("motion", "events", TAUT_EVENT_COUNT * sizeof(std::uint32_t));
+    if (b.options.residuals)
+        b.plan.predicted = b.add_buffer("motion", "predicted", n * 4 * b.real_size());
+}
+
+void record_predict(PlanBuilder& b, const Moment&)
+{
+    std::vector<Use> uses = {{b.plan.position}, {b.plan.low}, {b.plan.velocity}, {b.plan.delta}, {b.plan.step_values, 0}, {b.plan.events, 0}};
+    const bool keep = b.plan.predicted != kNoBuffer;
+    if (keep)
+        uses.push_back({b.plan.predicted});
+    b.dispatch("motion", "predict", keep ? "kept" : "", uses, kernels::predict::Params{b.plan.vertex_count}, b.plan.vertex_count);
+}
+
+void record_finish(PlanBuilder& b, const Moment&)
+{
+    const Use uses[] = {{b.plan.position}, {b.plan.low}, {b.plan.velocity}, {b.plan.delta}, {b.plan.step_values, 0}, {b.plan.events, 0}};
+    b.dispatch("motion", "finish", "", uses, kernels::finish::Params{b.plan.vertex_count}, b.plan.vertex_count);
+}
+
+// ---------------------------------------------------------------- forces
+
+void record_damping(PlanBuilder& b, const Moment&)
+{
+    const Use uses[] = {{b.plan.velocity}, {b.plan.step_values, 0}};
+    b.dispatch("damping", "damping", "", uses, kernels::damping::Params{b.plan.vertex_count}, b.plan.vertex_count);
+}
+
+void prepare_external_force(PlanBuilder& b)
+{
+    b.plan.force = b.add_buffer("external_force", "force", b.plan.vertex_count * 4 * b.real_size());
+}
+
+void record_external_force(PlanBuilder& b, const Moment&)
+{
+    const Use uses[] = {{b.plan.position}, {b.plan.force}, {b.plan.velocity}, {b.plan.step_values, 0}};
+    b.dispatch("external_force", "external_force", "", uses, kernels::external_force::Params{b.plan.vertex_count},
+               b.plan.vertex_count);
+}
+
+// ---------------------------------------------------------------- held vertices that move
+
+bool wants_pin_motion(const Scene& scene)
+{
+    for (const Body& body : scene.bodies)
+        for (const Pin& pin : body.pins)
+            if (!pin.motion.empty() && !pin.vertices.empty())
+                return true;
+    return false;
+}
+
+std::uint32_t pin_vertices_buffer(const Plan& plan)
+{
+    for (std::uint32_t i = 0; i < plan.buffers.size(); ++i)
+        if (plan.buffers[i].name == "pin vertices")
+            return i;
+    return kNoBuffer;
+}
+
+void prepare_pin_motion(PlanBuilder& b)
+{
+    std::vector<bool> taken(b.plan.vertex_count, false); // the first pin of a vertex wins
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (std::uint32_t p = 0; p < b.scene.bodies[body].pins.size(); ++p)
+            for (const std::uint32_t own : b.scene.bodies[body].pins[p].vertices)
+            {
+                const std::uint32_t v = b.vertex(body, own);
+                const bool moves = !taken[v] && !b.scene.bodies[body].pins[p].motion.empty();
+                taken[v] = true;
+                if (!moves)
+                    continue;
+                b.plan.moving_pins.push_back({v, body, p, b.start[v]});
+                vertices.push_back(v);
+            }
+    b.add_buffer<std::uint32_t>("pin_motion", "pin vertices", vertices);
+    b.plan.pin_targets = b.add_buffer("pin_motion", "pin targets", vertices.size() * 8 * b.real_size());
+}
+
+void record_pin_motion(PlanBuilder& b, const Moment& moment)
+{
+    const auto count = static_cast<std::uint32_t>(b.plan.moving_pins.size());
+    const Use uses[] = {{pin_vertices_buffer(b.plan)}, {b.plan.pin_targets, 2}, {b.plan.position}, {b.plan.delta}};
+    b.dispatch("pin_motion", "pin_motion", "", uses, kernels::pin_motion::Params{count, moment.substep, b.plan.substeps}, count);
+}
+
+// ---------------------------------------------------------------- colliders
+
+void prepare_plane(PlanBuilder& b)
+{
+    const std::uint64_t count = collider_count(b.scene, ColliderKind::plane);
+    b.plan.planes = b.add_buffer("plane", "planes", count * with_real(b.plan.precision, [](auto zero) {
+        return sizeof(layout::PlaneCollider<decltype(zero)>);
+    }));
+}
+
+void prepare_sphere(PlanBuilder& b)
+{
+    const std::uint64_t count = collider_count(b.scene, ColliderKind::sphere);
+    b.plan.spheres = b.add_buffer("sphere", "spheres", count * with_real(b.plan.precision, [](auto zero) {
+        return sizeof(layout::SphereCollider<decltype(zero)>);
+    }));
+}
+
+/// With one iteration a substep, what friction took so far is zero and needs no buffer.
+std::uint32_t friction_buffer(PlanBuilder& b, std::string_view shape, std::uint32_t colliders)
+{
+    const std::string name = std::string(shape) + " friction";
+    for (std::uint32_t i = 0; i < b.plan.buffers.size(); ++i)
+        if (b.plan.buffers[i].name == name)
+            return i;
+    return b.add_buffer("friction", name, std::uint64_t(colliders) * b.plan.vertex_count * 4 * b.real_size());
+}
+
+template <typename Params>
+void record_contact(PlanBuilder& b, const Moment& moment, std::string_view shape, ColliderKind kind, std::uint32_t buffer)
+{
+    const std::uint32_t colliders = collider_count(b.scene, kind);
+    std::vector<Use> uses = {{b.plan.position}, {b.plan.delta}, {buffer, 0}, {b.plan.step_values, 0}, {b.plan.events, 0}};
+    std::string_view variant;
+    if (has_friction(b.scene, kind))
+    {
+        variant = b.plan.iterations > 1 ? "friction_kept" : "friction";
+        if (b.plan.iterations > 1)
+            uses.push_back({friction_buffer(b, shape, colliders), colliders});
+    }
+    b.dispatch(shape, shape, variant, uses,
+               Params{b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
+               b.plan.vertex_count);
+}
+
+void record_plane(PlanBuilder& b, const Moment& moment)
+{
+    record_contact<kernels::plane::Params>(b, moment, "plane", ColliderKind::plane, b.plan.planes);
+}
+
+void record_sphere(PlanBuilder& b, const Moment& moment)
+{
+    record_contact<kernels::sphere::Params>(b, moment, "sphere", ColliderKind::sphere, b.plan.spheres);
+}
+
+bool any_stretch(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [](const Body& b) { return b.material.stretch_stiffness > 0 || !b.springs.empty(); });
+}
+
+bool any_bending(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
+        return b.material.bending_stiffness > 0 && !b.mesh.triangles.empty();
+    });
+}
+
+constexpr Effect kEffects[] = {
+    {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr, record_damping},
+    {"external_force", Stage::force, [](const Scene& s) { return has_bodies(s) && s.external_forces; },
+     prepare_external_force, record_external_force},
+    {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
+    {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
+    {"distance", Stage::solve, any_stretch, prepare_distance, record_distance},
+    {"bending", Stage::solve, any_bending, prepare_bending, record_bending},
+    {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); }, prepare_plane, record_plane},
+    {"sphere", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::sphere); }, prepare_sphere, record_sphere},
+    {"motion", Stage::finish, has_bodies, nullptr, record_finish},
+};
+
+} // namespace
+
+std::span<const Effect> effect_table() { return kEffects; }
+
+} // namespace taut

@@ -1,0 +1,150 @@
+// Based on: Van Gelder, Approximate Simulation of Elastic Membranes by Triangulated Spring Meshes, 1998
+//   (k = Y (A0 + A1) / L^2); Seung and Nelson, Defects in flexible membranes, 1988 (both moduli of the
+//   equilateral lattice); Bridson, Marino, Fedkiw, Simulation of Clothing with Folds and Wrinkles, 2003
+//   (the dihedral angle as the bending strain).
+// Departures: Poisson's ratio is left out of k (a spring mesh has its own, near 1/3). The hinge has the
+//   factor 1, k = B |e|^2 / (A0 + A1): exact for the equilateral lattice, and a cylinder along a grid of
+//   right triangles then has 1/2 B kappa^2 (1 - 1/n) per area; the factor 3 often seen triples it.
+#include "taut/plan/material.hpp"
+
+#include "taut/plan/topology.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+double triangle_area(const Mesh& mesh, std::uint32_t triangle)
+{
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const std::vector<glm::dvec3>& x = mesh.positions;
+    return 0.5 * glm::length(glm::cross(x[b] - x[a], x[c] - x[a]));
+}
+
+double area_of(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
+{
+    const std::vector<glm::dvec3>& x = mesh.positions;
+    return 0.5 * glm::length(glm::cross(x[b] - x[a], x[c] - x[a]));
+}
+
+/// Vertices without cloth still need inertia: the mean of the others, or a strip as large as the shape says.
+void fill_missing(std::vector<double>& mass, const Body& body)
+{
+    double total = 0;
+    std::size_t have = 0;
+    for (double m : mass)
+    {
+        total += m;
+        have += m > 0;
+    }
+    const double alone = body.material.density * body.shape.length * body.shape.width;
+    const double value = have > 0 ? total / static_cast<double>(have) : alone;
+    std::replace_if(mass.begin(), mass.end(), [](double m) { return !(m > 0); }, value);
+}
+
+void append_edges(std::vector<StretchElement>& out, const Mesh& mesh, double modulus)
+{
+    for (const MeshEdge& edge : mesh_edges(mesh))
+    {
+        const double length = glm::distance(mesh.positions[edge.a], mesh.positions[edge.b]);
+        double area = 0;
+        for (std::uint32_t t : edge.triangles)
+            area += triangle_area(mesh, t);
+        if (edge.triangles.empty() || (length > 0 && !(area > 0)))
+            continue;
+        out.push_back({edge.a, edge.b, length, length > 0 ? length * length / (modulus * area) : 0.0});
+    }
+}
+
+void append_links(std::vector<StretchElement>& out, const Mesh& mesh, double modulus)
+{
+    for (const auto& [a, b] : mesh.links)
+    {
+        const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
+        if (length > 0 && !(mesh.link_width > 0))
+            continue;
+        out.push_back({a, b, length, length > 0 ? length / (modulus * mesh.link_width) : 0.0});
+    }
+}
+
+} // namespace
+
+std::vector<double> vertex_masses(const Body& body)
+{
+    const Mesh& mesh = body.mesh;
+    if (!body.vertex_masses.empty())
+    {
+        assert(body.vertex_masses.size() == mesh.positions.size());
+        return body.vertex_masses;
+    }
+    std::vector<double> mass(mesh.positions.size(), 0.0);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::uint32_t v : mesh.triangles[t])
+            mass[v] += body.material.density * triangle_area(mesh, t) / 3;
+    for (const auto& [a, b] : mesh.links)
+    {
+        const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
+        const double half = 0.5 * body.material.density * length * mesh.link_width;
+        mass[a] += half;
+        mass[b] += half;
+    }
+    fill_missing(mass, body);
+    return mass;
+}
+
+std::vector<StretchElement> stretch_elements(const Body& body)
+{
+    std::vector<StretchElement> out;
+    const double modulus = body.material.stretch_stiffness;
+    if (modulus > 0)
+    {
+        append_edges(out, body.mesh, modulus);
+        append_links(out, body.mesh, modulus);
+    }
+    for (const Body::Spring& s : body.springs)
+        out.push_back({s.a, s.b, s.rest_length, s.compliance});
+    return out;
+}
+
+std::vector<BendElement> bend_elements(const Body& body, std::size_t* dropped)
+{
+    std::vector<BendElement> out;
+    std::size_t lost = 0;
+    const double rigidity = body.material.bending_stiffness;
+    if (rigidity > 0)
+        for (const Hinge& h : mesh_hinges(body.mesh))
+        {
+            const std::vector<glm::dvec3>& x = body.mesh.positions;
+            const glm::dvec3 e = x[h.edge1] - x[h.edge0];
+            const double area0 = area_of(body.mesh, h.edge0, h.edge1, h.wing0);
+            const double area1 = area_of(body.mesh, h.edge0, h.edge1, h.wing1);
+            if (!(area0 > 0) || !(area1 > 0) || h.wing0 == h.wing1)
+            {
+                ++lost;
+                continue;
+            }
+            out.push_back({h.edge0, h.edge1, h.wing0, h.wing1,
+                           dihedral_angle(x[h.edge0], x[h.edge1], x[h.wing0], x[h.wing1]),
+                           (area0 + area1) / (rigidity * glm::dot(e, e))});
+        }
+    if (dropped)
+        *dropped = lost;
+    return out;
+}
+
+double dihedral_angle(const glm::dvec3& x0, const glm::dvec3& x1, const glm::dvec3& x2, const glm::dvec3& x3)
+{
+    const glm::dvec3 e = x1 - x0;
+    const glm::dvec3 n1 = glm::cross(e, x2 - x0);
+    const glm::dvec3 n2 = glm::cross(x3 - x0, e);
+    const double length = glm::length(e);
+    if (!(length > 0))
+        return 0;
+    return std::atan2(glm::dot(glm::cross(n1, n2), e) / length, glm::dot(n1, n2));
+}
+
+} // namespace taut

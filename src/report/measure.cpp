@@ -1,0 +1,312 @@
+// What a world looks like from outside, in fp64 on the host.
+//
+// Based on: Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 8 (primal) and eq. 9 (dual).
+// Departures: the primal residual leaves out vertices that touch a collider, whose contact forces have
+//   no multiplier on record.
+
+#include "taut/report/hinge.hpp"
+#include "taut/report/model.hpp"
+#include "taut/report/report.hpp"
+
+#include <glm/geometric.hpp>
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace taut {
+namespace {
+
+using DistanceRecord = layout::DistanceConstraint<double>;
+using BendingRecord = layout::BendingConstraint<double>;
+
+DistanceRecord widen(const layout::DistanceConstraint<float>& c) { return {c.a, c.b, c.rest_length, c.compliance}; }
+BendingRecord widen(const layout::BendingConstraint<float>& c)
+{
+    return {c.edge0, c.edge1, c.wing0, c.wing1, c.rest_angle, c.compliance};
+}
+DistanceRecord widen(const DistanceRecord& c) { return c; }
+BendingRecord widen(const BendingRecord& c) { return c; }
+
+template <typename Narrow>
+auto decode_as(const std::vector<std::byte>& bytes)
+{
+    std::vector<decltype(widen(Narrow{}))> out(bytes.size() / sizeof(Narrow));
+    for (std::size_t k = 0; k < out.size(); ++k)
+    {
+        Narrow record;
+        std::memcpy(&record, bytes.data() + k * sizeof(Narrow), sizeof(Narrow));
+        out[k] = widen(record);
+    }
+    return out;
+}
+
+/// The records of a constraint kind as the device got them: vertices in plan order.
+template <template <typename> typename Record>
+std::vector<Record<double>> records(const Plan& plan, std::string_view kind)
+{
+    for (const ConstraintSet& set : plan.constraints)
+        if (set.kind == kind)
+        {
+            const auto& bytes = plan.buffers[set.buffer].initial;
+            return plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes) : decode_as<Record<float>>(bytes);
+        }
+    return {};
+}
+
+/// A world's state with its model. Vertices scene-wide.
+struct View
+{
+    explicit View(const World& w)
+        : world(w), plan(w.plan()), model(make_model(w.scene())), x(w.positions()), v(w.velocities()),
+          distance(records<layout::DistanceConstraint>(w.plan(), "distance")),
+          bending(records<layout::BendingConstraint>(w.plan(), "bending"))
+    {
+    }
+
+    std::size_t scene_vertex(std::uint32_t plan_vertex) const { return plan.original[plan_vertex]; }
+    const glm::dvec3& at(std::uint32_t plan_vertex) const { return x[scene_vertex(plan_vertex)]; }
+    double length(const DistanceRecord& c) const { return glm::length(at(c.a) - at(c.b)); }
+    reference::HingeAngle<double> angle(const BendingRecord& c) const
+    {
+        std::array<reference::Vec<double>, 4> corners;
+        const std::uint32_t ids[] = {c.edge0, c.edge1, c.wing0, c.wing1};
+        for (std::size_t k = 0; k < 4; ++k)
+            corners[k] = {at(ids[k]).x, at(ids[k]).y, at(ids[k]).z};
+        return reference::hinge_angle(corners);
+    }
+
+    const World& world;
+    const Plan& plan;
+    PhysicalModel model;
+    std::vector<glm::dvec3> x, v;
+    std::vector<DistanceRecord> distance;
+    std::vector<BendingRecord> bending;
+};
+
+void measure_stretch(const View& view, StepReport& out)
+{
+    double sum = 0;
+    std::size_t counted = 0;
+    bool first = true;
+    for (const DistanceRecord& c : view.distance)
+    {
+        if (!(c.rest_length > 0))
+            continue;
+        const double stretch = (view.length(c) - c.rest_length) / c.rest_length;
+        out.max_stretch = first ? stretch : std::max(out.max_stretch, stretch);
+        first = false;
+        sum += std::max(stretch, 0.0) * std::max(stretch, 0.0);
+        ++counted;
+    }
+    out.rms_stretch = counted > 0 ? std::sqrt(sum / static_cast<double>(counted)) : 0;
+}
+
+void measure_energy(const View& view, StepReport& out)
+{
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        if (view.model.pinned[i])
+            continue;
+        out.kinetic_energy += 0.5 * view.model.mass[i] * glm::dot(view.v[i], view.v[i]);
+        out.max_speed = std::max(out.max_speed, glm::length(view.v[i]));
+    }
+    out.potential_energy = gravity_energy(view.model, view.x);
+    for (const DistanceRecord& c : view.distance)
+        if (c.compliance > 0)
+            out.potential_energy += 0.5 * std::pow(view.length(c) - c.rest_length, 2) / c.compliance;
+    for (const BendingRecord& c : view.bending)
+        if (c.compliance > 0)
+            out.potential_energy += 0.5 * std::pow(reference::angle_difference(view.angle(c).angle, c.rest_angle), 2) / c.compliance;
+}
+
+/// Signed distance of a point to a collider's surface at a time, m.
+double surface_gap(const Collider& c, double time, const glm::dvec3& x)
+{
+    const glm::dvec3 place = pose(c.motion, time, c.point);
+    return c.kind == ColliderKind::plane ? glm::dot(glm::normalize(c.normal), x - place) : glm::length(x - place) - c.radius;
+}
+
+void measure_penetration(const View& view, StepReport& out)
+{
+    for (const Collider& c : view.world.scene().colliders)
+        for (std::size_t i = 0; i < view.x.size(); ++i)
+            if (!view.model.pinned[i])
+                out.penetration = std::max(out.penetration, -surface_gap(c, view.world.time(), view.x[i]));
+}
+
+/// Momentum against the impulse of gravity; only a free, undamped body without contacts has one to keep.
+void measure_momentum(const View& view, StepReport& out)
+{
+    const Scene& scene = view.world.scene();
+    out.momentum_error = -1;
+    const bool pins = std::any_of(view.model.pinned.begin(), view.model.pinned.end(), [](bool p) { return p; });
+    if (pins || !scene.colliders.empty() || scene.damping > 0 || scene.external_forces || view.x.empty())
+        return;
+    glm::dvec3 now(0), before(0);
+    double mass = 0;
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        now += view.model.mass[i] * view.v[i];
+        before += view.model.mass[i] * view.model.velocity[i];
+        mass += view.model.mass[i];
+    }
+    const glm::dvec3 expected = before + mass * scene.gravity * view.world.time();
+    const double speed = std::max(glm::length(now) / mass, std::sqrt(glm::length(scene.gravity) * view.model.diameter));
+    out.momentum_error = speed > 0 ? glm::length(now - expected) / (mass * speed) : glm::length(now - expected) / mass;
+}
+
+bool touches(const View& view, std::size_t i)
+{
+    for (const Collider& c : view.world.scene().colliders)
+        if (surface_gap(c, view.world.time(), view.x[i]) <= view.model.gap[i] + 1e-6 * view.model.diameter)
+            return true;
+    return false;
+}
+
+/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of the distance constraints.
+double distance_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
+{
+    const std::vector<double> lambda = view.world.multipliers("distance");
+    double worst = 0;
+    for (std::size_t k = 0; k < view.distance.size(); ++k)
+    {
+        const DistanceRecord& c = view.distance[k];
+        const double length = view.length(c);
+        if (!(length > 0))
+            continue;
+        const glm::dvec3 n = (view.at(c.a) - view.at(c.b)) / length;
+        impulse[view.scene_vertex(c.a)] += n * lambda[k];
+        impulse[view.scene_vertex(c.b)] -= n * lambda[k];
+        if (c.rest_length > 0)
+            worst = std::max(worst, std::abs(length - c.rest_length + c.compliance / (h * h) * lambda[k]) / c.rest_length);
+    }
+    return worst;
+}
+
+double bending_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
+{
+    const std::vector<double> lambda = view.world.multipliers("bending");
+    double worst = 0;
+    for (std::size_t k = 0; k < view.bending.size(); ++k)
+    {
+        const BendingRecord& c = view.bending[k];
+        const auto angle = view.angle(c);
+        if (!angle.valid)
+            continue;
+        const std::uint32_t ids[] = {c.edge0, c.edge1, c.wing0, c.wing1};
+        for (std::size_t j = 0; j < 4; ++j)
+            impulse[view.scene_vertex(ids[j])] +=
+                glm::dvec3(angle.gradient[j].x, angle.gradient[j].y, angle.gradient[j].z) * lambda[k];
+        const double value = reference::angle_difference(angle.angle, c.rest_angle);
+        worst = std::max(worst, std::abs(value + c.compliance / (h * h) * lambda[k]));
+    }
+    return worst;
+}
+
+void measure_residuals(const View& view, StepReport& out)
+{
+    out.primal_residual = out.dual_residual = -1;
+    if (view.plan.predicted == kNoBuffer || view.world.steps() == 0)
+        return;
+    const double h = view.plan.timestep / view.plan.substeps;
+    const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
+    std::vector<glm::dvec3> impulse(view.x.size(), glm::dvec3(0));
+    out.dual_residual = std::max(distance_residual(view, h, impulse), bending_residual(view, h, impulse));
+    const double gravity = glm::length(view.model.gravity);
+    double worst = 0;
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        if (view.model.pinned[i] || touches(view, i))
+            continue;
+        const double mass = view.model.mass[i];
+        const glm::dvec3 r = mass * (moved[i] - guess[i]) - impulse[i];
+        worst = std::max(worst, glm::length(r) / (mass * (gravity > 0 ? gravity : 1.0) * h * h));
+    }
+    out.primal_residual = worst;
+}
+
+std::uint64_t hash_of(const WorldState& state)
+{
+    std::uint64_t hash = 14695981039346656037ull;
+    for (const auto* bytes : {&state.position, &state.low})
+        for (const std::byte b : *bytes)
+            hash = (hash ^ static_cast<std::uint64_t>(b)) * 1099511628211ull;
+    return hash;
+}
+
+void judge(const View& view, StepReport& out)
+{
+    const Events events = view.world.events();
+    const std::pair<Warning, std::uint64_t> counts[] = {{Warning::degenerate, events.degenerate},
+                                                        {Warning::speed_clamp, events.speed_clamped},
+                                                        {Warning::conflict, events.conflicts}};
+    for (const auto& [warning, count] : counts)
+        if (count > 0)
+            out.warnings[std::string(to_string(warning))] += count;
+    bool finite = true;
+    double extent = 0;
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        finite = finite && std::isfinite(view.x[i].x) && std::isfinite(view.x[i].y) && std::isfinite(view.x[i].z) &&
+                 std::isfinite(glm::length(view.v[i]));
+        extent = std::max(extent, glm::length(view.x[i]));
+    }
+    if (!finite || events.non_finite > 0)
+        out.status = Status::non_finite;
+    else if (extent > kDivergedExtent)
+        out.status = Status::diverged;
+}
+
+} // namespace
+
+std::string_view to_string(Status status)
+{
+    switch (status)
+    {
+    case Status::completed: return "completed";
+    case Status::interrupted: return "interrupted";
+    case Status::diverged: return "diverged";
+    case Status::non_finite: return "non_finite";
+    case Status::converged: return "converged";
+    case Status::iteration_limit: return "iteration_limit";
+    case Status::stagnated: return "stagnated";
+    case Status::indefinite_matrix: return "indefinite_matrix";
+    case Status::indefinite_preconditioner: return "indefinite_preconditioner";
+    case Status::zero_right_hand_side: return "zero_right_hand_side";
+    }
+    return "unknown";
+}
+
+std::string_view to_string(Warning warning)
+{
+    switch (warning)
+    {
+    case Warning::degenerate: return "degenerate";
+    case Warning::speed_clamp: return "speed_clamp";
+    case Warning::conflict: return "conflict";
+    case Warning::precision: return "precision";
+    }
+    return "unknown";
+}
+
+StepReport measure(const World& world)
+{
+    const View view(world);
+    StepReport out;
+    out.step = world.steps();
+    out.time = world.time();
+    measure_stretch(view, out);
+    measure_energy(view, out);
+    measure_penetration(view, out);
+    measure_momentum(view, out);
+    measure_residuals(view, out);
+    out.position_hash = hash_of(world.state());
+    judge(view, out);
+    return out;
+}
+
+} // namespace taut

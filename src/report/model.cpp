@@ -1,0 +1,209 @@
+#include "taut/report/model.hpp"
+
+#include "taut/report/hinge.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace taut {
+namespace {
+
+using reference::Vec;
+
+Vec<double> vec(const glm::dvec3& a)
+{
+    return {a.x, a.y, a.z};
+}
+
+std::array<Vec<double>, 4> corners(const BendElement& h, std::span<const glm::dvec3> x)
+{
+    return {vec(x[h.edge0]), vec(x[h.edge1]), vec(x[h.wing0]), vec(x[h.wing1])};
+}
+
+void append_vertices(PhysicalModel& model, const Body& body)
+{
+    const std::vector<glm::dvec3>& rest = body.mesh.positions;
+    const std::vector<double> mass = vertex_masses(body);
+    const std::vector<glm::dvec3>& start = body.start_positions.empty() ? rest : body.start_positions;
+    assert(start.size() == rest.size());
+    model.mass.insert(model.mass.end(), mass.begin(), mass.end());
+    model.start.insert(model.start.end(), start.begin(), start.end());
+    model.gap.resize(model.mass.size(), body.material.thickness);
+    model.velocity.resize(model.mass.size(), body.velocity);
+    model.pinned.resize(model.mass.size(), false);
+}
+
+void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first)
+{
+    for (StretchElement s : stretch_elements(body))
+    {
+        s.a += first;
+        s.b += first;
+        model.springs.push_back(s);
+    }
+    std::size_t dropped = 0;
+    for (BendElement h : bend_elements(body, &dropped))
+    {
+        h.edge0 += first;
+        h.edge1 += first;
+        h.wing0 += first;
+        h.wing1 += first;
+        model.hinges.push_back(h);
+    }
+    model.dropped_hinges += dropped;
+}
+
+/// The first pin that names a vertex holds it.
+void append_pins(PhysicalModel& model, const Body& body, std::uint32_t first)
+{
+    std::map<std::uint32_t, const Pin*> held;
+    for (const Pin& pin : body.pins)
+        for (std::uint32_t v : pin.vertices)
+            held.emplace(v, &pin);
+    for (const auto& [v, pin] : held)
+    {
+        model.pins.push_back({first + v, pin->motion});
+        model.pinned[first + v] = true;
+        model.velocity[first + v] = glm::dvec3(0);
+    }
+}
+
+double rest_diameter(const Scene& scene)
+{
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    glm::dvec3 low(kFar), high(-kFar);
+    for (const Body& body : scene.bodies)
+        for (const glm::dvec3& x : body.mesh.positions)
+        {
+            low = glm::min(low, x);
+            high = glm::max(high, x);
+        }
+    return low.x <= high.x ? glm::distance(low, high) : 0;
+}
+
+} // namespace
+
+PhysicalModel make_model(const Scene& resolved)
+{
+    PhysicalModel model;
+    model.gravity = resolved.gravity;
+    model.damping = resolved.damping;
+    model.max_speed = resolved.max_speed;
+    model.timestep = resolved.timestep;
+    model.duration = resolved.duration;
+    model.colliders = resolved.colliders;
+    model.diameter = rest_diameter(resolved);
+    for (const Body& body : resolved.bodies)
+    {
+        const auto first = static_cast<std::uint32_t>(model.mass.size());
+        model.body_start.push_back(first);
+        append_vertices(model, body);
+        append_elements(model, body, first);
+        append_pins(model, body, first);
+    }
+    model.body_start.push_back(static_cast<std::uint32_t>(model.mass.size()));
+    return model;
+}
+
+double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
+{
+    double energy = 0;
+    for (const StretchElement& s : model.springs)
+    {
+        const double stretch = glm::distance(x[s.a], x[s.b]) - s.rest_length;
+        if (stretch != 0)
+            energy += 0.5 * stretch * stretch / s.compliance;
+    }
+    for (const BendElement& h : model.hinges)
+    {
+        const auto hinge = reference::hinge_angle(corners(h, x));
+        const double angle = hinge.valid ? reference::angle_difference(hinge.angle, h.rest_angle) : 0;
+        if (angle != 0)
+            energy += 0.5 * angle * angle / h.compliance;
+    }
+    return energy;
+}
+
+double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
+{
+    double energy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        energy -= model.mass[i] * glm::dot(model.gravity, x[i]);
+    return energy;
+}
+
+void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<glm::dvec3>& out)
+{
+    for (std::size_t i = 0; i < x.size(); ++i)
+        out[i] += model.mass[i] * model.gravity;
+    for (const StretchElement& s : model.springs)
+    {
+        const glm::dvec3 d = x[s.a] - x[s.b];
+        const double length = glm::length(d);
+        if (!(length > 0) || !(s.compliance > 0))
+            continue;
+        const glm::dvec3 f = ((length - s.rest_length) / (s.compliance * length)) * d;
+        out[s.a] -= f;
+        out[s.b] += f;
+    }
+    for (const BendElement& h : model.hinges)
+    {
+        const auto hinge = reference::hinge_angle(corners(h, x));
+        if (!hinge.valid || !(h.compliance > 0))
+            continue;
+        const double torque = -reference::angle_difference(hinge.angle, h.rest_angle) / h.compliance;
+        const std::uint32_t vertex[4] = {h.edge0, h.edge1, h.wing0, h.wing1};
+        for (std::size_t c = 0; c < 4; ++c)
+        {
+            const Vec<double>& g = hinge.gradient[c];
+            out[vertex[c]] += torque * glm::dvec3(g.x, g.y, g.z);
+        }
+    }
+}
+
+double total_weight(const PhysicalModel& model)
+{
+    double mass = 0;
+    for (std::size_t i = 0; i < model.mass.size(); ++i)
+        mass += model.pinned[i] ? 0 : model.mass[i];
+    return mass * glm::length(model.gravity);
+}
+
+std::size_t rigid_element_count(const PhysicalModel& model)
+{
+    const auto rigid = [](const auto& element) { return !(element.compliance > 0); };
+    return static_cast<std::size_t>(std::count_if(model.springs.begin(), model.springs.end(), rigid) +
+                                    std::count_if(model.hinges.begin(), model.hinges.end(), rigid));
+}
+
+double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x)
+{
+    std::vector<double> row(x.size(), 0.0);
+    for (const StretchElement& s : model.springs)
+    {
+        row[s.a] += 2 / s.compliance;
+        row[s.b] += 2 / s.compliance;
+    }
+    for (const BendElement& h : model.hinges)
+    {
+        const auto hinge = reference::hinge_angle(corners(h, x));
+        const std::uint32_t vertex[4] = {h.edge0, h.edge1, h.wing0, h.wing1};
+        double size[4] = {}, sum = 0;
+        for (std::size_t c = 0; c < 4; ++c)
+            sum += size[c] = std::sqrt(reference::dot(hinge.gradient[c], hinge.gradient[c]));
+        for (std::size_t c = 0; c < 4; ++c)
+            row[vertex[c]] += size[c] * sum / h.compliance;
+    }
+    double largest = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (!model.pinned[i])
+            largest = std::max(largest, row[i] / model.mass[i]);
+    return std::sqrt(largest);
+}
+
+} // namespace taut

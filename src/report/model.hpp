@@ -1,0 +1,62 @@
+#pragma once
+// The discrete physical model of a scene in fp64 and SI units: what the references solve and what the
+// errors of measure are weighed by. Written for the reader; shares nothing with kernels or world, and
+// with the plan only the formulas of plan/material.hpp and the mesh's edges and hinges.
+
+#include "taut/plan/material.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+/// A vertex whose place is prescribed.
+struct ModelPin
+{
+    std::uint32_t vertex = 0;
+    std::vector<Keyframe> motion; ///< pose() of `start`; empty = held
+};
+
+/// Vertices are scene-wide: bodies one after another, as in their meshes.
+struct PhysicalModel
+{
+    std::vector<double> mass;                 ///< kg, > 0, of pinned vertices too
+    std::vector<double> gap;                  ///< m kept from colliders
+    std::vector<bool> pinned;
+    std::vector<glm::dvec3> start;            ///< m
+    std::vector<glm::dvec3> velocity;         ///< m/s; 0 where pinned
+    std::vector<StretchElement> springs;
+    std::vector<BendElement> hinges;
+    std::size_t dropped_hinges = 0;           ///< without an angle at rest
+    std::vector<ModelPin> pins;               ///< ascending, one a vertex
+    std::vector<Collider> colliders;
+    std::vector<std::uint32_t> body_start;    ///< first vertex of each body, and the total
+    glm::dvec3 gravity{0};                    ///< m/s^2
+    double damping = 0;                       ///< 1/s
+    double max_speed = 0;                     ///< m/s, 0 = none
+    double timestep = 0, duration = 0;        ///< s
+    double diameter = 0;                      ///< m, diagonal of the box of all rest positions
+};
+
+PhysicalModel make_model(const Scene& resolved);
+
+/// J. Rigid elements (compliance 0) have no energy: they count as infinite when they are not at rest
+/// length, so only call it on models without them.
+double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
+/// J, 0 at the origin.
+double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
+/// N: elastic forces of compliant elements and gravity. Rigid elements are left out. Pins included.
+void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<glm::dvec3>& out);
+
+/// N, mass times gravity of the vertices that move.
+double total_weight(const PhysicalModel& model);
+std::size_t rigid_element_count(const PhysicalModel& model);
+
+/// Largest eigenfrequency that the springs and hinges can have, 1/s: the square root of the largest row
+/// sum of |M^-1 K| (Gershgorin), springs taken at their stiffest, hinges at `x`. 0 without elements.
+double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x);
+
+} // namespace taut

@@ -1,0 +1,245 @@
+// Reference R3: plain loops over springs, hinges and colliders.
+// Based on: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006 (symplectic Euler,
+//   Stoermer-Verlet); Roache, Verification and Validation, 1998 (observed order, Richardson estimate).
+// Departures: contacts are projections of the position at the end of a step, the velocity follows; with
+//   them everything is first order. Damping is exp(-c h), before gravity. Spheres do not spin, and the
+//   speed limit of the scene is not applied.
+#include "taut/report/reference_dynamic.hpp"
+
+#include "taut/report/contact.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <thread>
+
+namespace taut {
+namespace {
+
+using Scheme = DynamicOptions::Scheme;
+using reference::Surface;
+
+/// One run at one step size.
+class Run
+{
+public:
+    Run(const PhysicalModel& model, Scheme scheme, std::uint64_t steps_per_frame)
+        : model_(model), scheme_(scheme), steps_(steps_per_frame),
+          h_(model.timestep / static_cast<double>(steps_per_frame)), x_(model.start), v_(model.velocity),
+          before_(model.start), force_(model.start.size(), glm::dvec3(0))
+    {
+        for (const Collider& collider : model.colliders)
+            surfaces_.push_back(reference::surface_at(collider, 0));
+        for (const ModelPin& pin : model.pins)
+            x_[pin.vertex] = pose(pin.motion, 0, model.start[pin.vertex]);
+        add_forces(model_, x_, force_);
+    }
+
+    Frames frames(std::size_t count)
+    {
+        Frames out{x_};
+        for (std::size_t f = 0; f < count; ++f)
+        {
+            for (std::uint64_t s = 0; s < steps_; ++s)
+                step(model_.timestep * static_cast<double>(f) + h_ * static_cast<double>(s + 1));
+            out.push_back(x_);
+        }
+        return out;
+    }
+
+private:
+    /// v += dt force/m; force_ is of x_.
+    void kick(double dt)
+    {
+        for (std::size_t i = 0; i < x_.size(); ++i)
+            if (!model_.pinned[i])
+                v_[i] += (dt / model_.mass[i]) * force_[i];
+    }
+
+    void damp(double dt)
+    {
+        if (model_.damping > 0)
+            for (glm::dvec3& v : v_)
+                v *= std::exp(-model_.damping * dt);
+    }
+
+    void drift(double end)
+    {
+        before_ = x_;
+        for (std::size_t i = 0; i < x_.size(); ++i)
+            if (!model_.pinned[i])
+                x_[i] += h_ * v_[i];
+        for (const ModelPin& pin : model_.pins)
+            if (!pin.motion.empty())
+                x_[pin.vertex] = pose(pin.motion, end, model_.start[pin.vertex]);
+    }
+
+    void step(double end)
+    {
+        const bool verlet = scheme_ == Scheme::verlet;
+        damp(verlet ? h_ / 2 : h_);
+        kick(verlet ? h_ / 2 : h_);
+        drift(end);
+        collide(end);
+        std::fill(force_.begin(), force_.end(), glm::dvec3(0));
+        add_forces(model_, x_, force_);
+        if (verlet)
+        {
+            kick(h_ / 2);
+            damp(h_ / 2);
+        }
+    }
+
+    void collide(double end)
+    {
+        for (std::size_t c = 0; c < surfaces_.size(); ++c)
+        {
+            const Surface now = reference::surface_at(model_.colliders[c], end);
+            const glm::dvec3 shift = now.point - surfaces_[c].point;
+            for (std::size_t i = 0; i < x_.size(); ++i)
+                if (!model_.pinned[i])
+                    push_out(i, now, shift, model_.colliders[c].friction);
+            surfaces_[c] = now;
+        }
+    }
+
+    /// The way out is the normal impulse times h/m, so the cone of Coulomb holds between lengths too.
+    void push_out(std::size_t i, const Surface& surface, const glm::dvec3& shift, double friction)
+    {
+        const reference::Touch touch = surface.touch(x_[i], model_.gap[i]);
+        if (!(touch.height < 0))
+            return;
+        glm::dvec3 push = -touch.height * touch.normal;
+        const glm::dvec3 slide = x_[i] + push - before_[i] - shift;
+        const glm::dvec3 along = slide - glm::dot(slide, touch.normal) * touch.normal;
+        const double length = glm::length(along), most = -friction * touch.height;
+        if (length > 0 && most > 0)
+            push -= std::min(1.0, most / length) * along;
+        x_[i] += push;
+        v_[i] += push / h_;
+    }
+
+    const PhysicalModel& model_;
+    Scheme scheme_;
+    std::uint64_t steps_; // per frame
+    double h_;
+    std::vector<glm::dvec3> x_, v_, before_, force_;
+    std::vector<Surface> surfaces_; // at the end of the last step
+};
+
+std::string number(double value)
+{
+    std::ostringstream out;
+    out.precision(3);
+    out << value;
+    return out.str();
+}
+
+bool starts_inside(const PhysicalModel& model)
+{
+    for (const Collider& collider : model.colliders)
+    {
+        const Surface surface = reference::surface_at(collider, 0);
+        for (std::size_t i = 0; i < model.start.size(); ++i)
+            if (!model.pinned[i] && surface.touch(model.start[i], model.gap[i]).height < -1e-9 * model.diameter)
+                return true;
+    }
+    return false;
+}
+
+std::string refusal(const PhysicalModel& model, const DynamicOptions& options, double element_steps)
+{
+    if (const std::size_t rigid = rigid_element_count(model); rigid > 0)
+        return std::to_string(rigid) + " elements are rigid (compliance 0): no step is small enough";
+    if (options.scheme == Scheme::verlet && !model.colliders.empty())
+        return "contacts are first order: ask for symplectic_euler with colliders";
+    if (starts_inside(model))
+        return "a vertex starts inside a collider: how fast it comes out is a choice, not physics";
+    if (!(element_steps <= options.max_element_steps))
+        return "too stiff or too long for explicit steps: " + number(element_steps) +
+               " element steps, the limit is " + number(options.max_element_steps);
+    return {};
+}
+
+std::uint64_t coarsest_steps(const PhysicalModel& model, double safety)
+{
+    const double frequency = frequency_bound(model, model.start);
+    const double wanted = model.timestep * frequency / (2 * safety);
+    return wanted < 1e12 ? std::max<std::uint64_t>(8, static_cast<std::uint64_t>(std::ceil(wanted)))
+                         : 1'000'000'000'000;
+}
+
+std::vector<Frames> run_levels(const PhysicalModel& model, Scheme scheme, std::uint64_t coarsest,
+                               std::size_t frame_count, const DynamicOptions& options)
+{
+    std::vector<Frames> out(options.levels);
+    const auto level = [&](std::uint32_t l) { out[l] = Run(model, scheme, coarsest << l).frames(frame_count); };
+    const std::uint32_t finest = options.levels - 1;
+    if (options.two_threads)
+    {
+        std::thread beside([&] { level(finest); });
+        for (std::uint32_t l = 0; l < finest; ++l)
+            level(l);
+        beside.join();
+    }
+    else
+        for (std::uint32_t l = 0; l <= finest; ++l)
+            level(l);
+    return out;
+}
+
+/// Observed orders, error estimates and the verdict.
+void judge(const PhysicalModel& model, std::vector<Frames>& levels, DynamicReference& out)
+{
+    const ErrorWeights weights = error_weights(model);
+    std::vector<double> difference;
+    double last = 0;
+    for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+    {
+        difference.push_back(trajectory_error(weights, levels[l], levels[l + 1]).value_or(0));
+        last = weights.diameter > 0 ? largest_error(weights, levels[l], levels[l + 1]) : 0;
+    }
+    for (std::size_t l = 0; l + 1 < difference.size(); ++l)
+        out.orders.push_back(std::log2(difference[l] / difference[l + 1]));
+    const double fraction = 1 / (std::exp2(out.order) - 1);
+    out.error = difference.back() * fraction;
+    out.largest_error = last * fraction;
+    out.frames = std::move(levels.back());
+    const auto good = [&](double p) { return std::abs(p - out.order) <= 0.15; };
+    out.verified = difference.back() < 1e-10 ||
+                   (good(out.orders.back()) && good(out.orders[out.orders.size() - 2]));
+    if (!out.verified)
+        out.reason = "the observed orders " + number(out.orders[out.orders.size() - 2]) + " and " +
+                     number(out.orders.back()) + " are not within 0.15 of " + number(out.order) +
+                     " (last difference " + number(difference.back()) + ")";
+}
+
+} // namespace
+
+DynamicReference solve_dynamic(const PhysicalModel& model, const DynamicOptions& options)
+{
+    DynamicReference out;
+    Scheme scheme = options.scheme;
+    if (scheme == Scheme::automatic)
+        scheme = model.colliders.empty() ? Scheme::verlet : Scheme::symplectic_euler;
+    out.order = scheme == Scheme::verlet ? 2 : 1;
+    DynamicOptions wanted = options;
+    wanted.levels = std::max(options.levels, 4u);
+    const double duration = options.duration < 0 ? model.duration : options.duration;
+    const auto frame_count = static_cast<std::size_t>(std::llround(duration / model.timestep));
+    const std::uint64_t coarsest = coarsest_steps(model, options.safety);
+    const auto elements = static_cast<double>(model.springs.size() + 12 * model.hinges.size() + model.mass.size());
+    const double fine = std::exp2(wanted.levels - 1.0);
+    out.element_steps = elements * static_cast<double>(coarsest) * static_cast<double>(frame_count) * (2 * fine - 1);
+    out.step = model.timestep / (static_cast<double>(coarsest) * fine);
+    out.reason = refusal(model, options, out.element_steps);
+    if (!out.reason.empty())
+        return out;
+    std::vector<Frames> levels = run_levels(model, scheme, coarsest, frame_count, wanted);
+    judge(model, levels, out);
+    return out;
+}
+
+} // namespace taut

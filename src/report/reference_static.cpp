@@ -1,0 +1,281 @@
+// Reference R2: minimises the energy of a model.
+// Based on: Nocedal, Wright, Numerical Optimization, 2006 (modified Newton, Armijo line search).
+// Departures: the shift is sigma M, so that a step is one linearised implicit Euler step of length
+//   1/sqrt(sigma) from rest: far away the search walks as a heavily damped cloth would and stays in its
+//   valley; sigma falls to a floor at the end.
+#include "taut/report/reference_static.hpp"
+
+#include "taut/report/static_energy.hpp"
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace taut {
+namespace {
+
+using reference::Curvature;
+using reference::Real;
+using reference::State;
+using reference::Vec;
+using reference::largest_component;
+using Cholesky = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+constexpr double kShiftStart = 3600;   // 1/s^2: steps of 1/60 s
+constexpr double kShiftFloor = 3.6e-6; // far below any pendulum mode, yet finite for slack parts
+constexpr double kShiftStable = 3.6e-3; // instabilities that grow slower than exp(0.06 t) do not count
+constexpr int kEscapes = 4;
+
+Vec<double> narrow(const Vec<Real>& a)
+{
+    return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+}
+
+double distance(const Vec<Real>& a, const Vec<Real>& b)
+{
+    return static_cast<double>(std::sqrt(reference::dot(a - b, a - b)));
+}
+
+class Newton
+{
+public:
+    Newton(const PhysicalModel& model, const std::vector<glm::dvec3>& start, const StaticOptions& options);
+    StaticReference run();
+
+private:
+    bool factor(Curvature curvature, double shift);
+    bool step(const State& g);
+    bool search(const State& g, const Eigen::VectorXd& direction);
+    void polish(const State& g);
+    bool leave_saddle();
+    StaticReference result() const;
+
+    const PhysicalModel& model_;
+    reference::StaticEnergy energy_;
+    StaticOptions options_;
+    State x_;
+    double scale_ = 0; // N, what the residual is relative to
+    double shift_ = kShiftStart;
+    double max_move_ = 0;
+    std::uint32_t factorisations_ = 0;
+    int escapes_ = 0;
+    Cholesky cholesky_;
+};
+
+Newton::Newton(const PhysicalModel& model, const std::vector<glm::dvec3>& start, const StaticOptions& options)
+    : model_(model), energy_(model), options_(options), max_move_(0.1 * model.diameter)
+{
+    for (const glm::dvec3& x : start)
+        x_.push_back({x.x, x.y, x.z});
+    scale_ = total_weight(model);
+    if (!(scale_ > 0))
+        scale_ = largest_component(energy_.gradient(x_));
+}
+
+/// False unless the shifted Hessian is positive definite (Sylvester: the signs of D).
+bool Newton::factor(Curvature curvature, double shift)
+{
+    ++factorisations_;
+    const auto lower = energy_.hessian(x_, curvature, shift);
+    if (factorisations_ == 1)
+        cholesky_.analyzePattern(lower); // the pattern never changes
+    cholesky_.factorize(lower);
+    return cholesky_.info() == Eigen::Success && cholesky_.vectorD().minCoeff() > 0;
+}
+
+/// Takes the longest of the halved steps that lowers the energy enough; near the end, where the energy
+/// no longer resolves it, one that lowers the largest force.
+bool Newton::search(const State& g, const Eigen::VectorXd& direction)
+{
+    Real slope = 0;
+    double move = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i)
+        if (const int u = energy_.unknown(i); u >= 0)
+        {
+            slope += g[i].x * direction[u] + g[i].y * direction[u + 1] + g[i].z * direction[u + 2];
+            move = std::max(move, direction.segment<3>(u).norm());
+        }
+    if (!(slope < 0) || !std::isfinite(move))
+        return false;
+    const Real before = energy_.value(x_);
+    const double force = largest_component(g);
+    double length = move > max_move_ ? max_move_ / move : 1;
+    for (int tries = 0; tries < 24; ++tries, length *= 0.5)
+    {
+        State next = x_;
+        for (std::size_t i = 0; i < x_.size(); ++i)
+            if (const int u = energy_.unknown(i); u >= 0)
+                next[i] = next[i] + static_cast<Real>(length) *
+                                        Vec<Real>{direction[u], direction[u + 1], direction[u + 2]};
+        const bool lower = energy_.value(next) <= before + static_cast<Real>(1e-4 * length) * slope;
+        if (lower || largest_component(energy_.gradient(next)) < 0.9 * force * (tries == 0 && length == 1))
+        {
+            x_ = std::move(next);
+            shift_ *= length == 1 ? 0.25 : (tries > 1 ? 4.0 : 1.0);
+            shift_ = std::clamp(shift_, kShiftFloor, 1e18);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool Newton::step(const State& g)
+{
+    Eigen::VectorXd force(energy_.unknowns());
+    for (std::size_t i = 0; i < x_.size(); ++i)
+        if (const int u = energy_.unknown(i); u >= 0)
+        {
+            const Vec<double> f = narrow(g[i]);
+            force.segment<3>(u) = -Eigen::Vector3d(f.x, f.y, f.z);
+        }
+    for (int tries = 0; tries < 40; ++tries)
+    {
+        if ((factor(Curvature::exact, shift_) || factor(Curvature::projected, shift_)) &&
+            search(g, cholesky_.solve(force)))
+            return true;
+        shift_ *= 16;
+        if (shift_ > 1e18)
+            break;
+    }
+    return false;
+}
+
+/// One more step: from the tolerance to what the number format resolves.
+void Newton::polish(const State& g)
+{
+    const State before = x_;
+    shift_ = kShiftFloor;
+    if (!step(g) || largest_component(energy_.gradient(x_)) > largest_component(g))
+        x_ = before;
+}
+
+/// At a saddle: a nudge of a fixed random pattern, 1e-4 of the size; larger at every further saddle.
+bool Newton::leave_saddle()
+{
+    if (!options_.leave_saddles || escapes_ == kEscapes)
+        return false;
+    std::mt19937 random(12345u + static_cast<unsigned>(escapes_));
+    const double size = 1e-4 * model_.diameter * std::pow(3, escapes_++) / 2147483648.0;
+    const auto draw = [&] { return static_cast<Real>(size * (static_cast<double>(random()) - 2147483648.0)); };
+    for (std::size_t i = 0; i < x_.size(); ++i)
+        if (energy_.unknown(i) >= 0)
+            x_[i] = x_[i] + Vec<Real>{draw(), draw(), draw()};
+    shift_ = kShiftStart;
+    return true;
+}
+
+StaticReference Newton::result() const
+{
+    StaticReference out;
+    for (const Vec<Real>& a : x_)
+    {
+        const Vec<double> p = narrow(a);
+        out.positions.emplace_back(p.x, p.y, p.z);
+    }
+    out.residual = largest_component(energy_.gradient(x_));
+    out.relative_residual = scale_ > 0 ? out.residual / scale_ : 0;
+    out.energy = static_cast<double>(energy_.value(x_));
+    out.iterations = factorisations_;
+    bool first = true;
+    for (const StretchElement& s : model_.springs)
+        if (s.rest_length > 0)
+        {
+            const double strain = distance(x_[s.a], x_[s.b]) / s.rest_length - 1;
+            out.largest_stretch = first ? strain : std::max(out.largest_stretch, strain);
+            first = false;
+        }
+    return out;
+}
+
+StaticReference Newton::run()
+{
+    std::string reason;
+    bool converged = false, stable = false;
+    while (energy_.unknowns() > 0)
+    {
+        const State g = energy_.gradient(x_);
+        converged = largest_component(g) <= options_.tolerance * scale_;
+        if (converged)
+        {
+            stable = factor(Curvature::exact, kShiftStable);
+            if (stable)
+                polish(g);
+            if (stable || !leave_saddle())
+                break;
+        }
+        else if (factorisations_ >= options_.iterations)
+        {
+            reason = "not converged after " + std::to_string(factorisations_) + " factorisations";
+            break;
+        }
+        else if (!step(g))
+        {
+            reason = "no step lowers the energy any more: rounding, or a part that nothing holds in place";
+            break;
+        }
+    }
+    StaticReference out = result();
+    out.converged = converged || energy_.unknowns() == 0;
+    out.stable = stable || energy_.unknowns() == 0;
+    out.reason = !reason.empty() ? reason : out.stable ? "" : "the equilibrium is a saddle of the energy";
+    return out;
+}
+
+/// True if elements link every moving vertex to a pin.
+bool all_held(const PhysicalModel& model)
+{
+    std::vector<std::uint32_t> parent(model.mass.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t v)
+    {
+        while (parent[v] != v)
+            v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (const StretchElement& s : model.springs)
+        parent[root(s.a)] = root(s.b);
+    for (const BendElement& h : model.hinges)
+        for (std::uint32_t v : {h.edge1, h.wing0, h.wing1})
+            parent[root(v)] = root(h.edge0);
+    std::vector<bool> held(parent.size(), false);
+    for (const ModelPin& pin : model.pins)
+        held[root(pin.vertex)] = true;
+    for (std::uint32_t v = 0; v < parent.size(); ++v)
+        if (!held[root(v)])
+            return false;
+    return true;
+}
+
+std::string refusal(const PhysicalModel& model, const std::vector<glm::dvec3>& start)
+{
+    if (start.size() != model.mass.size())
+        return "the start has " + std::to_string(start.size()) + " positions for " +
+               std::to_string(model.mass.size()) + " vertices";
+    if (const std::size_t rigid = rigid_element_count(model); rigid > 0)
+        return std::to_string(rigid) + " elements are rigid (compliance 0): they have no energy to minimise";
+    if (!model.colliders.empty())
+        return "the scene has colliders: the static reference knows no contact";
+    if (glm::length(model.gravity) > 0 && !all_held(model))
+        return "a part of the scene is not held by any pin and falls";
+    return {};
+}
+
+} // namespace
+
+StaticReference solve_static(const PhysicalModel& model, const std::vector<glm::dvec3>& start,
+                             const StaticOptions& options)
+{
+    if (std::string reason = refusal(model, start); !reason.empty())
+    {
+        StaticReference out;
+        out.reason = std::move(reason);
+        out.positions = start;
+        return out;
+    }
+    return Newton(model, start, options).run();
+}
+
+} // namespace taut

@@ -1,0 +1,187 @@
+// Based on: Choi, Ko, Stable but Responsive Cloth, 2002 (the part of a compressed spring's Hessian that the
+//   projection drops); Griewank, Walther, Evaluating Derivatives, 2008 (dual numbers for the hinges).
+// Departures: a projected hinge keeps only the outer product of its gradient.
+#include "taut/report/static_energy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::reference {
+namespace {
+
+Vec<double> narrow(const Vec<Real>& a)
+{
+    return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+}
+
+Real length(const Vec<Real>& a)
+{
+    return std::sqrt(dot(a, a));
+}
+
+std::array<std::uint32_t, 4> vertices(const BendElement& h)
+{
+    return {h.edge0, h.edge1, h.wing0, h.wing1};
+}
+
+/// k (n n^T + (1 - L/l) (I - n n^T)); the second part is dropped in compression when projected.
+Eigen::Matrix3d spring_block(const StretchElement& s, const Vec<double>& d, Curvature curvature)
+{
+    const Eigen::Vector3d v(d.x, d.y, d.z);
+    const double l = v.norm(), k = 1 / s.compliance;
+    if (!(l > 0))
+        return k * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d along = v * v.transpose() / (l * l);
+    double side = 1 - s.rest_length / l;
+    if (curvature == Curvature::projected)
+        side = std::max(side, 0.0);
+    return k * (along + side * (Eigen::Matrix3d::Identity() - along));
+}
+
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+
+/// k (g g^T + (theta - theta0) dg/dx), the second part from dual numbers; projected: without it.
+Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
+{
+    std::array<Vec<Dual<12>>, 4> corner;
+    const auto v = vertices(h);
+    for (std::size_t c = 0; c < 4; ++c)
+    {
+        const Vec<double> p = narrow(x[v[c]]);
+        corner[c] = {{p.x, {}}, {p.y, {}}, {p.z, {}}};
+        corner[c].x.d[3 * c] = corner[c].y.d[3 * c + 1] = corner[c].z.d[3 * c + 2] = 1;
+    }
+    const auto hinge = hinge_angle(corner);
+    Matrix12 out = Matrix12::Zero();
+    if (!hinge.valid)
+        return out;
+    const double angle = angle_difference(hinge.angle.v, h.rest_angle);
+    Eigen::Matrix<double, 12, 1> g;
+    for (std::size_t c = 0; c < 4; ++c)
+    {
+        const Dual<12>* parts[3] = {&hinge.gradient[c].x, &hinge.gradient[c].y, &hinge.gradient[c].z};
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const auto row = static_cast<Eigen::Index>(3 * c + k);
+            g[row] = parts[k]->v;
+            if (curvature == Curvature::exact)
+                for (std::size_t j = 0; j < 12; ++j)
+                    out(row, static_cast<Eigen::Index>(j)) = angle * parts[k]->d[j];
+        }
+    }
+    return (0.5 * (out + out.transpose()) + g * g.transpose()) / h.compliance;
+}
+
+} // namespace
+
+StaticEnergy::StaticEnergy(const PhysicalModel& model) : model_(model), unknown_(model.mass.size(), -1)
+{
+    for (std::size_t i = 0; i < unknown_.size(); ++i)
+        if (!model.pinned[i])
+        {
+            unknown_[i] = unknowns_;
+            unknowns_ += 3;
+        }
+}
+
+Real StaticEnergy::value(const State& x) const
+{
+    Real sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        sum -= static_cast<Real>(model_.mass[i]) *
+               (x[i].x * model_.gravity.x + x[i].y * model_.gravity.y + x[i].z * model_.gravity.z);
+    for (const StretchElement& s : model_.springs)
+    {
+        const Real stretch = length(x[s.a] - x[s.b]) - static_cast<Real>(s.rest_length);
+        sum += stretch * stretch / (2 * static_cast<Real>(s.compliance));
+    }
+    for (const BendElement& h : model_.hinges)
+    {
+        const auto hinge = hinge_angle<Real>({x[h.edge0], x[h.edge1], x[h.wing0], x[h.wing1]});
+        const Real angle = hinge.valid ? angle_difference(hinge.angle, h.rest_angle) : 0;
+        sum += angle * angle / (2 * static_cast<Real>(h.compliance));
+    }
+    return sum;
+}
+
+/// dE/dx; zero at pins.
+State StaticEnergy::gradient(const State& x) const
+{
+    State g(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const Real m = -static_cast<Real>(model_.mass[i]);
+        g[i] = {m * model_.gravity.x, m * model_.gravity.y, m * model_.gravity.z};
+    }
+    for (const StretchElement& s : model_.springs)
+    {
+        const Vec<Real> d = x[s.a] - x[s.b];
+        const Real l = length(d);
+        if (!(l > 0))
+            continue;
+        const Real tension = (l - static_cast<Real>(s.rest_length)) / (static_cast<Real>(s.compliance) * l);
+        g[s.a] = g[s.a] + tension * d;
+        g[s.b] = g[s.b] - tension * d;
+    }
+    for (const BendElement& h : model_.hinges)
+    {
+        const auto v = vertices(h);
+        const auto hinge = hinge_angle<Real>({x[v[0]], x[v[1]], x[v[2]], x[v[3]]});
+        if (!hinge.valid)
+            continue;
+        const Real torque =
+            angle_difference(hinge.angle, h.rest_angle) / static_cast<Real>(h.compliance);
+        for (std::size_t c = 0; c < 4; ++c)
+            g[v[c]] = g[v[c]] + torque * hinge.gradient[c];
+    }
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (unknown_[i] < 0)
+            g[i] = {};
+    return g;
+}
+
+Eigen::SparseMatrix<double> StaticEnergy::hessian(const State& x, Curvature curvature, double shift) const
+{
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(model_.springs.size() * 36 + model_.hinges.size() * 144 + x.size() * 3);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, const auto& block)
+    {
+        if (unknown_[b] >= 0 && unknown_[a] >= unknown_[b]) // the lower triangle
+            for (int r = 0; r < 3; ++r)
+                for (int c = 0; c < 3; ++c)
+                    entries.emplace_back(unknown_[a] + r, unknown_[b] + c, block(r, c));
+    };
+    for (std::uint32_t i = 0; i < x.size(); ++i)
+        add(i, i, Eigen::Matrix3d(shift * model_.mass[i] * Eigen::Matrix3d::Identity()));
+    for (const StretchElement& s : model_.springs)
+    {
+        const Eigen::Matrix3d k = spring_block(s, narrow(x[s.a] - x[s.b]), curvature);
+        add(s.a, s.a, k);
+        add(s.b, s.b, k);
+        add(s.a, s.b, Eigen::Matrix3d(-k));
+        add(s.b, s.a, Eigen::Matrix3d(-k));
+    }
+    for (const BendElement& h : model_.hinges)
+    {
+        const Matrix12 k = hinge_block(h, x, curvature);
+        const auto v = vertices(h);
+        for (int r = 0; r < 4; ++r)
+            for (int c = 0; c < 4; ++c)
+                add(v[static_cast<std::size_t>(r)], v[static_cast<std::size_t>(c)],
+                    Eigen::Matrix3d(k.block<3, 3>(3 * r, 3 * c)));
+    }
+    Eigen::SparseMatrix<double> out(unknowns_, unknowns_);
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+}
+
+double largest_component(const State& a)
+{
+    Real out = 0;
+    for (const Vec<Real>& v : a)
+        for (Real component : {v.x, v.y, v.z})
+            out = component == component ? std::max(out, std::abs(component)) : INFINITY;
+    return static_cast<double>(out);
+}
+
+} // namespace taut::reference

@@ -1,0 +1,48 @@
+#pragma once
+// Log-log plots as SVG text: work-precision diagrams (error against cost). Values in, text out; the same
+// values give the same bytes on every machine.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+struct PlotPoint
+{
+    double x = 0, y = 0;  ///< in the units of the axes
+    std::string label;    ///< what made it, e.g. "10 substeps x 1"; written at points of the front
+};
+
+struct PlotSeries
+{
+    std::string name;              ///< in the legend
+    std::vector<PlotPoint> points; ///< joined in this order; one that is not finite and positive breaks the
+                                   ///< line and joins the gaps
+};
+
+struct Plot
+{
+    std::string title;
+    std::string x_label, y_label;     ///< with their units
+    std::vector<PlotSeries> series;
+    bool front = true;                ///< mark the points that no other beats in both x and y
+    std::vector<std::string> caption; ///< below the plot: reference class, machine, settings
+    std::vector<std::string> gaps;    ///< "name: reason" of what has no point, listed under the caption
+};
+
+/// Of all points of all series: series and point index of those that no other point beats (smaller or
+/// equal in both, smaller in one), by ascending x. Points that are not finite and positive never count.
+struct FrontPoint
+{
+    std::size_t series = 0, point = 0;
+};
+std::vector<FrontPoint> pareto_front(const std::vector<PlotSeries>& series);
+
+/// A whole SVG document.
+std::string svg(const Plot& plot);
+
+/// Written to a temporary name, then renamed. Throws Error{io}.
+void write_svg(const std::filesystem::path& file, const Plot& plot);
+
+} // namespace taut

@@ -1,0 +1,37 @@
+#pragma once
+// Small pieces of SVG: numbers, escaped text, wrapped lines.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace taut::svg_text {
+
+/// Two decimals with a point, whatever the locale.
+std::string fixed(double value);
+
+/// For text and attributes. Characters that XML forbids become spaces.
+std::string escaped(std::string_view text);
+
+/// Broken at blanks so that no line is longer than `width` characters, if its words allow.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width);
+
+struct TextStyle
+{
+    double size = 12;
+    const char* anchor = "start"; ///< "start", "middle", "end"
+    const char* fill = "#222";
+    bool bold = false;
+    double turn = 0;              ///< degrees about the point
+};
+
+/// One <text> element.
+std::string text(double x, double y, std::string_view words, const TextStyle& style = {});
+/// 10 with an exponent.
+std::string power_of_ten(double x, double y, int exponent, const TextStyle& style);
+std::string line(double x0, double y0, double x1, double y1, std::string_view stroke, double width);
+/// A filled shape of about `size` pixels across; shapes repeat after six.
+std::string marker(double x, double y, std::size_t shape, std::string_view fill, double size);
+
+} // namespace taut::svg_text

@@ -1,0 +1,267 @@
+// Every value and range of a scene, without reading any file.
+
+#include "taut/scene/checker.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace taut {
+
+namespace {
+
+using scene_file::Checker;
+using scene_file::kMaxValue;
+using scene_file::kMaxVertices;
+using scene_file::shown;
+
+constexpr double kMaxTimestep = 1;
+constexpr double kMaxSteps = 1e9;
+constexpr std::uint32_t kMaxIterations = 1000;
+
+void check_axis(const glm::dvec3& axis, double degrees, const Checker& out)
+{
+    out.finite("degrees", degrees, "degrees");
+    if (out.finite("axis", axis, "any length but 0") && degrees != 0 && !(glm::length(axis) > 0))
+        out.error("axis", "is " + shown(axis) + "; it must have a direction, for example [0, 1, 0]");
+}
+
+void check_motion(const std::vector<Keyframe>& motion, const Checker& out)
+{
+    for (std::size_t i = 0; i < motion.size(); ++i)
+    {
+        const Checker key = out.at("motion", i);
+        const bool finite = key.finite("time", motion[i].time, "s");
+        key.finite("translate", motion[i].translate, "m");
+        check_axis(motion[i].rotate_axis, motion[i].rotate_degrees, key.at("rotate"));
+        key.finite("rotate.centre", motion[i].rotate_centre, "m");
+        if (i > 0 && finite && !(motion[i].time > motion[i - 1].time))
+            key.error("time", "is " + shown(motion[i].time) + " s, and the key before it stands at " +
+                                  shown(motion[i - 1].time) + " s; times must ascend");
+    }
+}
+
+void check_times(const Scene& scene, const Checker& out)
+{
+    const bool good = scene.timestep > 0 && scene.timestep <= kMaxTimestep;
+    if (!good)
+        out.error("timestep", "is " + shown(scene.timestep) + " s; it must be greater than 0 s and at most 1 s",
+                  ErrorCode::bad_timestep);
+    out.not_negative("duration", scene.duration, "s");
+    if (good && scene.duration <= kMaxValue && scene.duration / scene.timestep > kMaxSteps)
+        out.error("duration", "is " + shown(scene.duration) + " s, that is " +
+                                  shown(scene.duration / scene.timestep) + " time steps; at most 1e9 are run");
+}
+
+void check_method(const MethodSettings& method, const Checker& out)
+{
+    constexpr std::array<std::string_view, 1> types = {"xpbd"};
+    constexpr std::array<std::string_view, 2> precisions = {"float", "double"};
+    out.word("type", method.type, types);
+    out.range("substeps", method.substeps, 1, kMaxIterations);
+    out.range("iterations", method.iterations, 1, kMaxIterations);
+    out.word("precision", method.precision, precisions);
+}
+
+void check_grid(const Shape& shape, const Checker& out)
+{
+    constexpr std::array<std::string_view, 2> diagonals = {"alternating", "uniform"};
+    const auto cells = shape.cells;
+    if (cells.x < 1 || cells.y < 1 || (double(cells.x) + 1) * (double(cells.y) + 1) > kMaxVertices)
+        out.error("cells", "is [" + std::to_string(cells.x) + ", " + std::to_string(cells.y) +
+                               "]; both must be 1 or more, and the grid may have at most 67108864 vertices");
+    if (!(shape.size.x > 0 && shape.size.y > 0 && shape.size.x <= kMaxValue && shape.size.y <= kMaxValue))
+        out.error("size", "is [" + shown(shape.size.x) + ", " + shown(shape.size.y) +
+                              "]; both must be greater than 0 m and finite");
+    out.word("diagonals", shape.diagonals, diagonals);
+}
+
+void check_chain(const Shape& shape, const Checker& out)
+{
+    if (shape.links >= kMaxVertices)
+        out.error("links", "is " + std::to_string(shape.links) + "; a chain may have at most 67108863 links");
+    if (shape.links > 0)
+        out.positive("length", shape.length, "m");
+    out.positive("width", shape.width, "m");
+}
+
+void check_shape(const Shape& shape, const Checker& out)
+{
+    if (shape.kind == ShapeKind::grid)
+        check_grid(shape, out.at("grid"));
+    else if (shape.kind == ShapeKind::chain)
+        check_chain(shape, out.at("chain"));
+    else
+    {
+        if (shape.file.empty())
+            out.error("mesh", "is empty; it must name an OBJ, PLY, OFF or STL file");
+        out.finite("weld_distance", shape.weld_distance, "in the units of the file");
+    }
+}
+
+void check_material(const ClothMaterial& material, const Checker& out)
+{
+    out.positive("density", material.density, "kg/m^2");
+    if (material.stretch_stiffness != std::numeric_limits<double>::infinity())
+        out.not_negative("stretch_stiffness", material.stretch_stiffness, "N/m");
+    out.not_negative("bending_stiffness", material.bending_stiffness, "N m");
+    out.not_negative("thickness", material.thickness, "m");
+}
+
+void check_pin_box(const Pin& pin, const Checker& out)
+{
+    const bool finite = out.finite("box.min", pin.box_min, "m") && out.finite("box.max", pin.box_max, "m");
+    if (finite && (pin.box_min.x > pin.box_max.x || pin.box_min.y > pin.box_max.y || pin.box_min.z > pin.box_max.z))
+        out.error("box", "goes from " + shown(pin.box_min) + " to " + shown(pin.box_max) +
+                             "; each number of min must be at most that of max");
+}
+
+void check_pin_names(const Pin& pin, ShapeKind kind, const Checker& out)
+{
+    constexpr std::array<std::string_view, 4> grid_corners = {"top_left", "top_right", "bottom_left", "bottom_right"};
+    constexpr std::array<std::string_view, 2> chain_ends = {"first", "last"};
+    constexpr std::array<std::string_view, 4> grid_edges = {"top", "bottom", "left", "right"};
+    if (kind == ShapeKind::mesh && !pin.corners.empty())
+        out.error("corners", "names a corner, which a mesh file has not; use \"vertices\" or \"box\"");
+    if (kind != ShapeKind::grid && !pin.edges.empty())
+        out.error("edges", "names an edge, which only a grid has; use \"vertices\" or \"box\"");
+    for (std::size_t i = 0; kind == ShapeKind::grid && i < pin.edges.size(); ++i)
+        out.at("edges", i).word("", pin.edges[i], grid_edges);
+    for (std::size_t i = 0; kind != ShapeKind::mesh && i < pin.corners.size(); ++i)
+        if (kind == ShapeKind::grid)
+            out.at("corners", i).word("", pin.corners[i], grid_corners);
+        else
+            out.at("corners", i).word("", pin.corners[i], chain_ends);
+}
+
+void check_pin(const Pin& pin, ShapeKind kind, const Checker& out)
+{
+    if (pin.vertices.empty() && !pin.use_box && pin.corners.empty() && pin.edges.empty())
+        out.error("", "holds nothing; it must name vertices, a box, corners or edges");
+    if (pin.use_box)
+        check_pin_box(pin, out);
+    check_pin_names(pin, kind, out);
+    check_motion(pin.motion, out);
+}
+
+void check_springs(const Body& body, const Checker& out)
+{
+    for (std::size_t i = 0; i < body.springs.size(); ++i)
+    {
+        const Body::Spring& spring = body.springs[i];
+        const Checker at = out.at("springs", i);
+        if (spring.a == spring.b)
+            at.error("", "joins vertex " + std::to_string(spring.a) + " to itself; a and b must differ");
+        at.not_negative("rest_length", spring.rest_length, "m");
+        at.not_negative("compliance", spring.compliance, "m/N");
+    }
+}
+
+void check_body(const Body& body, const Checker& out)
+{
+    check_shape(body.shape, out);
+    check_material(body.material, out.at("material"));
+    const Checker transform = out.at("transform");
+    transform.finite("translate", body.transform.translate, "m");
+    check_axis(body.transform.rotate_axis, body.transform.rotate_degrees, transform.at("rotate"));
+    transform.positive("scale", body.transform.scale, "(no unit)");
+    out.finite("velocity", body.velocity, "m/s");
+    for (std::size_t i = 0; i < body.pins.size(); ++i)
+        check_pin(body.pins[i], body.shape.kind, out.at("pins", i));
+    check_springs(body, out);
+    for (std::size_t i = 0; i < body.vertex_masses.size(); ++i)
+        out.at("vertex_masses", i).positive("", body.vertex_masses[i], "kg");
+    for (std::size_t i = 0; i < body.start_positions.size(); ++i)
+        out.at("start_positions", i).finite("", body.start_positions[i], "m");
+    if (body.shape.kind == ShapeKind::grid)
+        scene_file::check_counts(body, (std::size_t(body.shape.cells.x) + 1) * (std::size_t(body.shape.cells.y) + 1),
+                                 out);
+    else if (body.shape.kind == ShapeKind::chain)
+        scene_file::check_counts(body, std::size_t(body.shape.links) + 1, out);
+}
+
+void check_collider(const Collider& collider, const Checker& out)
+{
+    if (collider.kind == ColliderKind::plane)
+    {
+        out.finite("plane.point", collider.point, "m");
+        if (out.finite("plane.normal", collider.normal, "any length but 0") && !(glm::length(collider.normal) > 0))
+            out.error("plane.normal", "is " + shown(collider.normal) +
+                                          "; it must have a direction, for example [0, 1, 0]");
+    }
+    else
+    {
+        out.finite("sphere.centre", collider.point, "m");
+        out.positive("sphere.radius", collider.radius, "m");
+    }
+    out.not_negative("friction", collider.friction, "(Coulomb coefficient)");
+    check_motion(collider.motion, out);
+}
+
+/// Names stand in reports; two of one name could not be told apart there.
+template <class Named>
+void check_names(const std::vector<Named>& things, std::string_view list, const Checker& out)
+{
+    std::map<std::string, std::size_t> first;
+    for (std::size_t i = 0; i < things.size(); ++i)
+    {
+        const auto [other, is_new] = first.emplace(things[i].name, i);
+        if (!is_new && !things[i].name.empty())
+            out.at(list, i).warning("name", "is \"" + things[i].name.substr(0, 60) + "\" like that of " +
+                                                std::string(list) + '[' + std::to_string(other->second) +
+                                                "]; reports cannot tell them apart");
+    }
+}
+
+} // namespace
+
+namespace scene_file {
+
+void check_counts(const Body& body, std::size_t vertex_count, const Checker& out)
+{
+    const std::string has = "; the body has " + std::to_string(vertex_count) + " vertices";
+    const auto index = [&](const Checker& at, std::string_view member, std::uint32_t vertex) {
+        if (vertex >= vertex_count)
+            at.error(member, "is " + std::to_string(vertex) + has + ", numbered from 0");
+    };
+    for (std::size_t p = 0; p < body.pins.size(); ++p)
+        for (std::size_t i = 0; i < body.pins[p].vertices.size(); ++i)
+            index(out.at("pins", p).at("vertices", i), "", body.pins[p].vertices[i]);
+    for (std::size_t i = 0; i < body.springs.size(); ++i)
+    {
+        index(out.at("springs", i), "a", body.springs[i].a);
+        index(out.at("springs", i), "b", body.springs[i].b);
+    }
+    if (!body.vertex_masses.empty() && body.vertex_masses.size() != vertex_count)
+        out.error("vertex_masses", "has " + std::to_string(body.vertex_masses.size()) + " entries" + has);
+    if (!body.start_positions.empty() && body.start_positions.size() != vertex_count)
+        out.error("start_positions", "has " + std::to_string(body.start_positions.size()) + " entries" + has);
+}
+
+} // namespace scene_file
+
+std::vector<SceneIssue> check(const Scene& scene)
+{
+    std::vector<SceneIssue> issues;
+    const Checker out(issues, {});
+    if (scene.version != 1)
+        out.error("taut", "is " + std::to_string(scene.version) + "; this library reads version 1");
+    check_times(scene, out);
+    out.finite("gravity", scene.gravity, "m/s^2");
+    out.not_negative("damping", scene.damping, "1/s");
+    out.not_negative("max_speed", scene.max_speed, "m/s");
+    out.not_negative("depenetration_speed", scene.depenetration_speed, "m/s");
+    check_method(scene.method, out.at("method"));
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        check_body(scene.bodies[i], out.at("bodies", i));
+    for (std::size_t i = 0; i < scene.colliders.size(); ++i)
+        check_collider(scene.colliders[i], out.at("colliders", i));
+    check_names(scene.bodies, "bodies", out);
+    check_names(scene.colliders, "colliders", out);
+    return issues;
+}
+
+} // namespace taut

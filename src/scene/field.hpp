@@ -1,0 +1,60 @@
+#pragma once
+// A value of the scene file with its path, so that every refusal can say where it is.
+
+#include <nlohmann/json.hpp>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace taut::scene_file {
+
+/// A view of one JSON value. All readers throw Error{bad_input}: file, path, what is there, what
+/// would be right. Only types are checked here; ranges are the business of check().
+class Field
+{
+public:
+    Field(const nlohmann::json& value, const std::string& file, std::string path);
+
+    /// Refuses anything but an object whose keys are all in keys_of(kind).
+    const Field& object(std::string_view kind);
+
+    /// The member of an object, if the file has it.
+    std::optional<Field> find(std::string_view key) const;
+    /// The member; its absence is an error.
+    Field need(std::string_view key) const;
+
+    double number() const;
+    std::uint32_t count() const; ///< whole, 0..2^32-1
+    bool boolean() const;
+    std::string text() const;
+    glm::dvec3 vector() const;
+    std::vector<Field> elements() const;
+
+    bool is_text() const { return value_->is_string(); }
+
+    /// Reads the member into `out` if it is there, else leaves the default.
+    void read(std::string_view key, double& out) const;
+    void read(std::string_view key, std::uint32_t& out) const;
+    void read(std::string_view key, bool& out) const;
+    void read(std::string_view key, std::string& out) const;
+    void read(std::string_view key, glm::dvec3& out) const;
+
+    /// "FILE: PATH is FOUND; RIGHT"
+    [[noreturn]] void refuse(const std::string& right) const;
+    /// "FILE: PATH TEXT"
+    [[noreturn]] void fail(const std::string& text) const;
+
+private:
+    const nlohmann::json* value_;
+    const std::string* file_;
+    std::string path_;
+    std::string_view kind_;
+};
+
+} // namespace taut::scene_file

@@ -1,0 +1,129 @@
+#include "taut/scene/json_text.hpp"
+
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace taut::scene_file {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxDepth = 32;
+
+std::string place(std::string_view text, std::size_t byte)
+{
+    const std::string_view before = text.substr(0, std::min(byte, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+    return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_start + 1);
+}
+
+/// The library's message without its number and its own idea of the place.
+std::string reason(std::string what)
+{
+    for (const std::string_view mark : {"] ", "while parsing "})
+        if (const std::size_t at = what.find(mark); at != std::string::npos)
+            what.erase(0, at + mark.size());
+    return what;
+}
+
+/// Follows the parser to know the path of each key.
+class Watcher
+{
+public:
+    explicit Watcher(const std::string& file) : file_(file) {}
+
+    bool operator()(int depth, json::parse_event_t event, json& parsed)
+    {
+        if (depth > kMaxDepth)
+            throw Error(ErrorCode::bad_input, file_ + ": " + path() + " is nested more than " +
+                                                  std::to_string(kMaxDepth) + " levels deep; a scene needs 8");
+        switch (event)
+        {
+        case json::parse_event_t::object_start: enter(false); break;
+        case json::parse_event_t::array_start: enter(true); break;
+        case json::parse_event_t::object_end:
+        case json::parse_event_t::array_end: levels_.pop_back(); break;
+        case json::parse_event_t::value: count(); break;
+        case json::parse_event_t::key: key(parsed.get<std::string>()); break;
+        }
+        return true;
+    }
+
+private:
+    struct Level
+    {
+        bool array = false;
+        std::size_t elements = 0;
+        std::string key;
+        std::set<std::string> seen;
+    };
+
+    void count()
+    {
+        if (!levels_.empty())
+            ++levels_.back().elements;
+    }
+
+    void enter(bool array)
+    {
+        count();
+        levels_.push_back({array, 0, {}, {}});
+    }
+
+    void key(std::string name)
+    {
+        Level& level = levels_.back();
+        if (!level.seen.insert(name).second)
+        {
+            levels_.pop_back();
+            const std::string where = levels_.empty() ? "the scene" : path();
+            throw Error(ErrorCode::bad_input, file_ + ": the key \"" + name + "\" stands twice in " + where +
+                                                  "; keep one of the two");
+        }
+        level.key = std::move(name);
+    }
+
+    std::string path() const
+    {
+        std::string out;
+        for (const Level& level : levels_)
+            if (level.array)
+                out += '[' + std::to_string(level.elements == 0 ? 0 : level.elements - 1) + ']';
+            else
+                out += (out.empty() ? "" : ".") + level.key;
+        return out;
+    }
+
+    std::string file_;
+    std::vector<Level> levels_;
+};
+
+} // namespace
+
+json parse_json(std::string_view text, const std::string& file)
+{
+    try
+    {
+        return json::parse(text.begin(), text.end(), Watcher(file));
+    }
+    catch (const json::parse_error& error)
+    {
+        throw Error(ErrorCode::bad_input, file + ": " + place(text, error.byte == 0 ? 0 : error.byte - 1) +
+                                              " is not JSON: " + reason(error.what()));
+    }
+    catch (const json::exception& error) // a number that no double can hold
+    {
+        const std::string what = error.what();
+        const std::size_t open = what.find('\''), close = what.rfind('\'');
+        const std::size_t at = open < close ? text.find(what.substr(open + 1, close - open - 1)) : 0;
+        throw Error(ErrorCode::bad_input, file + ": " + place(text, at) + ": " + reason(what) +
+                                              "; numbers must be below 1e308");
+    }
+}
+
+} // namespace taut::scene_file

@@ -1,0 +1,14 @@
+#pragma once
+// JSON text to a tree, strictly: duplicate keys, deep nesting and broken text are errors that say where.
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace taut::scene_file {
+
+/// Throws Error{bad_input} naming `file`, and line and column of the fault.
+nlohmann::json parse_json(std::string_view text, const std::string& file);
+
+} // namespace taut::scene_file

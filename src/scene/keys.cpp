@@ -1,0 +1,98 @@
+#include "taut/scene/keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace taut::scene_file {
+
+std::span<const KeySet> all_keys()
+{
+    static const std::vector<KeySet> sets = {
+        {"scene",
+         {"taut", "name", "timestep", "duration", "gravity", "damping", "max_speed", "depenetration_speed",
+          "external_forces", "method", "bodies", "colliders"}},
+        {"method", {"type", "substeps", "iterations", "precision"}},
+        {"body",
+         {"name", "grid", "chain", "mesh", "weld_distance", "material", "transform", "velocity", "pins",
+          "springs", "vertex_masses", "start_positions"}},
+        {"grid", {"cells", "size", "diagonals"}},
+        {"chain", {"links", "length", "width"}},
+        {"material", {"density", "stretch_stiffness", "bending_stiffness", "thickness"}},
+        {"transform", {"translate", "rotate", "scale"}},
+        {"rotate", {"axis", "degrees"}},
+        {"pin", {"vertices", "box", "corner", "corners", "edge", "edges", "motion"}},
+        {"box", {"min", "max"}},
+        {"keyframe", {"time", "translate", "rotate"}},
+        {"keyframe rotate", {"axis", "degrees", "centre"}},
+        {"spring", {"a", "b", "rest_length", "compliance"}},
+        {"collider", {"name", "plane", "sphere", "friction", "motion"}},
+        {"plane", {"point", "normal"}},
+        {"sphere", {"centre", "radius"}},
+    };
+    return sets;
+}
+
+const KeySet& keys_of(std::string_view object)
+{
+    const auto sets = all_keys();
+    const auto found = std::find_if(sets.begin(), sets.end(), [&](const KeySet& s) { return s.object == object; });
+    assert(found != sets.end());
+    return *found;
+}
+
+namespace {
+
+/// Insertions, deletions, replacements and swaps of neighbours.
+std::size_t edit_distance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        before = last;
+        last = row;
+    }
+    return last.back();
+}
+
+} // namespace
+
+std::string nearest(std::string_view word, std::span<const std::string_view> candidates)
+{
+    word = word.substr(0, 64); // no known word is longer; keeps hostile input cheap
+    std::string best;
+    std::size_t fewest = std::max<std::size_t>(2, word.size() / 2) + 1;
+    for (std::string_view candidate : candidates)
+    {
+        const std::size_t edits = edit_distance(word, candidate);
+        if (edits < fewest && edits < candidate.size())
+        {
+            fewest = edits;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string listing(std::span<const std::string_view> words)
+{
+    std::string out;
+    for (std::size_t i = 0; i < words.size(); ++i)
+    {
+        if (i > 0)
+            out += i + 1 == words.size() ? " or " : ", ";
+        out += '"' + std::string(words[i]) + '"';
+    }
+    return out;
+}
+
+} // namespace taut::scene_file

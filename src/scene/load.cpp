@@ -1,0 +1,286 @@
+// The scene file. Defaults are those of the C++ types: a key that is missing leaves them alone.
+
+#include "taut/scene/field.hpp"
+#include "taut/scene/file_text.hpp"
+#include "taut/scene/json_text.hpp"
+#include "taut/scene/keys.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <array>
+#include <limits>
+
+namespace taut {
+
+namespace {
+
+using scene_file::Field;
+
+constexpr int kVersion = 1;
+constexpr std::uintmax_t kMaxSceneBytes = std::uintmax_t(1) << 28;
+
+/// The one of the keys that the object has; none or two are an error.
+template <std::size_t N>
+std::string_view exactly_one(const Field& object, const std::array<std::string_view, N>& keys)
+{
+    std::string_view chosen;
+    for (const std::string_view key : keys)
+    {
+        if (!object.find(key))
+            continue;
+        if (!chosen.empty())
+            object.fail("has both \"" + std::string(chosen) + "\" and \"" + std::string(key) + "\"; keep one");
+        chosen = key;
+    }
+    if (chosen.empty())
+        object.fail("needs one of " + scene_file::listing(keys));
+    return chosen;
+}
+
+std::vector<Keyframe> read_motion(const Field& list)
+{
+    std::vector<Keyframe> motion;
+    for (Field entry : list.elements())
+    {
+        entry.object("keyframe");
+        Keyframe key;
+        key.time = entry.need("time").number();
+        entry.read("translate", key.translate);
+        if (auto rotate = entry.find("rotate"))
+        {
+            rotate->object("keyframe rotate");
+            rotate->read("axis", key.rotate_axis);
+            rotate->read("degrees", key.rotate_degrees);
+            rotate->read("centre", key.rotate_centre);
+        }
+        motion.push_back(key);
+    }
+    return motion;
+}
+
+/// "corner": "x" and "corners": ["x", "y"] mean the same.
+void read_names(const Field& pin, std::string_view one, std::string_view many, std::vector<std::string>& out)
+{
+    if (const auto name = pin.find(one))
+        out.push_back(name->text());
+    if (const auto names = pin.find(many))
+        for (const Field& name : names->elements())
+            out.push_back(name.text());
+}
+
+Pin read_pin(Field field)
+{
+    field.object("pin");
+    Pin pin;
+    if (const auto list = field.find("vertices"))
+        for (const Field& vertex : list->elements())
+            pin.vertices.push_back(vertex.count());
+    if (auto box = field.find("box"))
+    {
+        box->object("box");
+        pin.use_box = true;
+        pin.box_min = box->need("min").vector();
+        pin.box_max = box->need("max").vector();
+    }
+    read_names(field, "corner", "corners", pin.corners);
+    read_names(field, "edge", "edges", pin.edges);
+    if (const auto motion = field.find("motion"))
+        pin.motion = read_motion(*motion);
+    return pin;
+}
+
+void read_grid(Field field, Shape& shape)
+{
+    field.object("grid");
+    shape.kind = ShapeKind::grid;
+    if (const auto cells = field.find("cells"))
+    {
+        const auto parts = cells->elements();
+        if (parts.size() != 2)
+            cells->refuse("it must be two whole numbers [columns, rows]");
+        shape.cells = {parts[0].count(), parts[1].count()};
+    }
+    if (const auto size = field.find("size"))
+    {
+        const auto parts = size->elements();
+        if (parts.size() != 2)
+            size->refuse("it must be two numbers [width, height] in m");
+        shape.size = {parts[0].number(), parts[1].number()};
+    }
+    field.read("diagonals", shape.diagonals);
+}
+
+void read_shape(const Field& body, Shape& shape)
+{
+    constexpr std::array<std::string_view, 3> kinds = {"grid", "chain", "mesh"};
+    const std::string_view kind = exactly_one(body, kinds);
+    Field field = body.need(kind);
+    if (kind == "grid")
+        read_grid(field, shape);
+    else if (kind == "chain")
+    {
+        field.object("chain");
+        shape.kind = ShapeKind::chain;
+        field.read("links", shape.links);
+        field.read("length", shape.length);
+        field.read("width", shape.width);
+    }
+    else
+    {
+        shape.kind = ShapeKind::mesh;
+        shape.file = field.text();
+    }
+    const auto weld = body.find("weld_distance");
+    if (weld && shape.kind != ShapeKind::mesh)
+        weld->fail("stands beside \"" + std::string(kind) + "\"; it belongs to \"mesh\" only");
+    if (weld)
+        shape.weld_distance = weld->number();
+}
+
+void read_material(Field field, ClothMaterial& material)
+{
+    field.object("material");
+    field.read("density", material.density);
+    if (const auto stretch = field.find("stretch_stiffness"))
+    {
+        if (!stretch->is_text())
+            material.stretch_stiffness = stretch->number();
+        else if (stretch->text() == "rigid")
+            material.stretch_stiffness = std::numeric_limits<double>::infinity();
+        else
+            stretch->refuse("it must be a number in N/m or \"rigid\"");
+    }
+    field.read("bending_stiffness", material.bending_stiffness);
+    field.read("thickness", material.thickness);
+}
+
+void read_transform(Field field, Transform& transform)
+{
+    field.object("transform");
+    field.read("translate", transform.translate);
+    if (auto rotate = field.find("rotate"))
+    {
+        rotate->object("rotate");
+        rotate->read("axis", transform.rotate_axis);
+        rotate->read("degrees", transform.rotate_degrees);
+    }
+    field.read("scale", transform.scale);
+}
+
+Body::Spring read_spring(Field field)
+{
+    field.object("spring");
+    Body::Spring spring{field.need("a").count(), field.need("b").count(), field.need("rest_length").number(), 0};
+    field.read("compliance", spring.compliance);
+    return spring;
+}
+
+Body read_body(Field field)
+{
+    field.object("body");
+    Body body;
+    field.read("name", body.name);
+    read_shape(field, body.shape);
+    if (const auto material = field.find("material"))
+        read_material(*material, body.material);
+    if (const auto transform = field.find("transform"))
+        read_transform(*transform, body.transform);
+    field.read("velocity", body.velocity);
+    if (const auto pins = field.find("pins"))
+        for (const Field& pin : pins->elements())
+            body.pins.push_back(read_pin(pin));
+    if (const auto springs = field.find("springs"))
+        for (const Field& spring : springs->elements())
+            body.springs.push_back(read_spring(spring));
+    if (const auto masses = field.find("vertex_masses"))
+        for (const Field& mass : masses->elements())
+            body.vertex_masses.push_back(mass.number());
+    if (const auto positions = field.find("start_positions"))
+        for (const Field& position : positions->elements())
+            body.start_positions.push_back(position.vector());
+    return body;
+}
+
+Collider read_collider(Field field)
+{
+    field.object("collider");
+    Collider collider;
+    field.read("name", collider.name);
+    constexpr std::array<std::string_view, 2> kinds = {"plane", "sphere"};
+    const std::string_view kind = exactly_one(field, kinds);
+    Field shape = field.need(kind);
+    shape.object(kind);
+    if (kind == "plane")
+    {
+        collider.kind = ColliderKind::plane;
+        shape.read("point", collider.point);
+        shape.read("normal", collider.normal);
+    }
+    else
+    {
+        collider.kind = ColliderKind::sphere;
+        shape.read("centre", collider.point);
+        shape.read("radius", collider.radius);
+    }
+    field.read("friction", collider.friction);
+    if (const auto motion = field.find("motion"))
+        collider.motion = read_motion(*motion);
+    return collider;
+}
+
+void read_method(Field field, MethodSettings& method)
+{
+    field.object("method");
+    field.read("type", method.type);
+    field.read("substeps", method.substeps);
+    field.read("iterations", method.iterations);
+    field.read("precision", method.precision);
+}
+
+Scene read_scene(Field field)
+{
+    field.object("scene");
+    Scene scene;
+    const auto version = field.find("taut");
+    if (!version)
+        field.fail("lacks the key \"taut\"; write \"taut\": 1, the version of the format");
+    if (version->count() != kVersion)
+        version->refuse("this library reads version 1");
+    field.read("name", scene.name);
+    field.read("timestep", scene.timestep);
+    field.read("duration", scene.duration);
+    field.read("gravity", scene.gravity);
+    field.read("damping", scene.damping);
+    field.read("max_speed", scene.max_speed);
+    field.read("depenetration_speed", scene.depenetration_speed);
+    field.read("external_forces", scene.external_forces);
+    if (const auto method = field.find("method"))
+        read_method(*method, scene.method);
+    if (const auto bodies = field.find("bodies"))
+        for (const Field& body : bodies->elements())
+            scene.bodies.push_back(read_body(body));
+    if (const auto colliders = field.find("colliders"))
+        for (const Field& collider : colliders->elements())
+            scene.colliders.push_back(read_collider(collider));
+    return scene;
+}
+
+} // namespace
+
+Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name)
+{
+    const std::string file(name);
+    const nlohmann::json tree = scene_file::parse_json(json, file);
+    Scene scene = read_scene(Field(tree, file, {}));
+    scene.directory = directory;
+    return scene;
+}
+
+Scene load_scene(const std::filesystem::path& file)
+{
+    Scene scene = parse_scene(scene_file::read_file(file, kMaxSceneBytes), file.parent_path(), file.string());
+    if (scene.name.empty())
+        scene.name = file.stem().string();
+    return scene;
+}
+
+} // namespace taut

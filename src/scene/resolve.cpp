@@ -1,0 +1,168 @@
+// A scene made ready for planning: meshes in world space, pins as lists of vertices.
+
+#include "taut/scene/checker.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <algorithm>
+
+namespace taut {
+
+namespace {
+
+using scene_file::Checker;
+
+[[noreturn]] void fail(const std::vector<SceneIssue>& issues)
+{
+    const auto is_error = [](const SceneIssue& issue) { return issue.error; };
+    const auto first = std::find_if(issues.begin(), issues.end(), is_error);
+    const auto others = std::count_if(issues.begin(), issues.end(), is_error) - 1;
+    std::string text = first->field.empty() ? first->text : first->field + ' ' + first->text;
+    if (others > 0)
+        text += " (and " + std::to_string(others) + (others == 1 ? " other error)" : " other errors)");
+    throw Error(first->code, text);
+}
+
+void throw_if_any(const std::vector<SceneIssue>& issues)
+{
+    if (std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; }))
+        fail(issues);
+}
+
+void warn_of(const MeshFindings& findings, const Checker& out)
+{
+    const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what; };
+    if (!findings.degenerate_triangles.empty())
+        out.warning("mesh", "had " + count(findings.degenerate_triangles.size(), "triangles without area, ") +
+                                "dropped; the first is number " +
+                                std::to_string(findings.degenerate_triangles.front()) + " of the file");
+    if (findings.unused_vertices > 0)
+        out.warning("mesh", "had " + count(findings.unused_vertices, "vertices of no triangle, dropped"));
+    if (!findings.non_manifold_edges.empty())
+        out.warning("mesh", "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
+                                "; the first joins vertices " +
+                                std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
+                                std::to_string(findings.non_manifold_edges.front()[1]));
+}
+
+/// The rest mesh in its own space.
+Mesh make_mesh(const Shape& shape, const std::filesystem::path& directory, const Checker& out)
+{
+    switch (shape.kind)
+    {
+    case ShapeKind::grid:
+        return make_grid(shape.cells.x, shape.cells.y, shape.size.x, shape.size.y, shape.diagonals == "alternating");
+    case ShapeKind::chain: return make_chain(shape.links, shape.length, shape.width);
+    case ShapeKind::mesh: break;
+    }
+    MeshFindings findings;
+    Mesh mesh = read_mesh(directory / shape.file, shape.weld_distance, &findings);
+    warn_of(findings, out);
+    return mesh;
+}
+
+void apply(const Transform& transform, Mesh& mesh)
+{
+    const std::vector<Keyframe> turn = {{0, transform.translate, transform.rotate_axis, transform.rotate_degrees,
+                                         glm::dvec3(0)}};
+    for (glm::dvec3& position : mesh.positions)
+        position = pose(turn, 0, position * transform.scale);
+    mesh.link_width *= transform.scale;
+}
+
+void add_corner(const std::string& name, const Mesh& mesh, std::vector<std::uint32_t>& out)
+{
+    const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    if (name == "top_left" || name == "first")
+        out.push_back(0);
+    else if (name == "top_right")
+        out.push_back(mesh.grid_columns - 1);
+    else if (name == "bottom_left")
+        out.push_back(last - (mesh.grid_columns - 1));
+    else
+        out.push_back(last); // "bottom_right", "last": check() lets nothing else through
+}
+
+void add_edge(const std::string& name, const Mesh& mesh, std::vector<std::uint32_t>& out)
+{
+    const std::uint32_t columns = mesh.grid_columns, rows = mesh.grid_rows;
+    if (name == "top" || name == "bottom")
+        for (std::uint32_t column = 0; column < columns; ++column)
+            out.push_back((name == "top" ? 0 : rows - 1) * columns + column);
+    else
+        for (std::uint32_t row = 0; row < rows; ++row)
+            out.push_back(row * columns + (name == "left" ? 0 : columns - 1));
+}
+
+bool inside(const glm::dvec3& p, const Pin& pin)
+{
+    return p.x >= pin.box_min.x && p.x <= pin.box_max.x && p.y >= pin.box_min.y && p.y <= pin.box_max.y &&
+           p.z >= pin.box_min.z && p.z <= pin.box_max.z;
+}
+
+/// Adds the vertices of the box; their number.
+std::size_t add_box(const Pin& pin, const std::vector<glm::dvec3>& start, std::vector<std::uint32_t>& out)
+{
+    const std::size_t before = out.size();
+    for (std::uint32_t v = 0; v < start.size(); ++v)
+        if (inside(start[v], pin))
+            out.push_back(v);
+    return out.size() - before;
+}
+
+/// Replaces what a pin names by vertices. Each vertex belongs to the first pin that holds it.
+void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Checker& out)
+{
+    std::vector<std::uint32_t> vertices = pin.vertices;
+    for (const std::string& corner : pin.corners)
+        add_corner(corner, body.mesh, vertices);
+    for (const std::string& edge : pin.edges)
+        add_edge(edge, body.mesh, vertices);
+    const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+    if (pin.use_box && add_box(pin, start, vertices) == 0)
+        out.warning("box", "from " + scene_file::shown(pin.box_min) + " to " + scene_file::shown(pin.box_max) +
+                               " holds no vertex at the start; boxes are in world space, m");
+    std::sort(vertices.begin(), vertices.end());
+    pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .motion = std::move(pin.motion)};
+    for (const std::uint32_t vertex : vertices)
+        if (!held[vertex])
+        {
+            held[vertex] = true;
+            pin.vertices.push_back(vertex);
+        }
+}
+
+void resolve_body(Body& body, const std::filesystem::path& directory, const Checker& out)
+{
+    body.mesh = make_mesh(body.shape, directory, out);
+    apply(body.transform, body.mesh);
+    if (body.mesh.positions.empty())
+        out.error("mesh", "has no triangle with area; there is nothing to simulate");
+    if (body.shape.kind == ShapeKind::mesh)
+        scene_file::check_counts(body, body.mesh.positions.size(), out);
+}
+
+} // namespace
+
+Scene resolve(const Scene& scene, std::vector<SceneIssue>* warnings)
+{
+    std::vector<SceneIssue> issues = check(scene);
+    throw_if_any(issues);
+    Scene resolved = scene;
+    const Checker out(issues, {});
+    for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
+    {
+        Body& body = resolved.bodies[b];
+        const Checker at = out.at("bodies", b);
+        resolve_body(body, scene.directory, at);
+        throw_if_any(issues);
+        std::vector<bool> held(body.mesh.positions.size(), false);
+        for (std::size_t p = 0; p < body.pins.size(); ++p)
+            resolve_pin(body, body.pins[p], held, at.at("pins", p));
+        std::erase_if(body.pins, [](const Pin& pin) { return pin.vertices.empty(); });
+    }
+    if (warnings)
+        warnings->insert(warnings->end(), issues.begin(), issues.end());
+    return resolved;
+}
+
+} // namespace taut

@@ -1,0 +1,133 @@
+// The four costs that a plan weighs, measured on the device itself with kernels that a step uses.
+
+#include "taut/kernels/distance.hpp"
+#include "taut/world/world.hpp"
+
+#include <glm/vec4.hpp>
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <mutex>
+
+namespace taut {
+namespace {
+
+/// A string of disjoint springs, enough to keep a device busy, with the buffers a pass needs.
+class Probe
+{
+public:
+    static constexpr std::uint32_t kSprings = 16384;
+
+    explicit Probe(Device& device) : device_(device)
+    {
+        std::vector<layout::DistanceConstraint<float>> springs;
+        std::vector<glm::vec4> position;
+        for (std::uint32_t k = 0; k < kSprings; ++k)
+        {
+            springs.push_back({2 * k, 2 * k + 1, 1.0f, 0.0f});
+            position.emplace_back(0.0f, 0.0f, 0.0f, 1.0f);
+            position.emplace_back(1.1f, 0.0f, 0.0f, 1.0f);
+        }
+        const std::vector<layout::StepValues<float>> step{{0.01f, 100.0f, 0, 0, 0, 1, 1e15f, 0}};
+        constraint_ = upload<layout::DistanceConstraint<float>>(springs);
+        position_ = upload<glm::vec4>(position);
+        delta_ = device.make_buffer(position.size() * sizeof(glm::vec4), "probe delta");
+        step_ = upload<layout::StepValues<float>>(step);
+        events_ = device.make_buffer(16, "probe events");
+        // Colours of one spring each, and after them one colour of all springs.
+        std::vector<std::uint32_t> colours;
+        for (std::uint32_t k = 0; k <= kPhases; ++k)
+            colours.push_back(k);
+        colours.push_back(0);
+        colours.push_back(kLaneSprings);
+        colours_ = upload<std::uint32_t>(colours);
+    }
+
+    /// Best of several replays, ns on the host's clock.
+    double time_dispatches(std::uint32_t dispatches, std::uint32_t springs)
+    {
+        Recorder recorder(device_.shared_from_this());
+        for (std::uint32_t d = 0; d < dispatches; ++d)
+            recorder.dispatch(kernels::distance::info(), {constraint_, position_, delta_, step_, events_},
+                              kernels::distance::Params{0, springs, 1, 0}, springs);
+        return best(*recorder.finish());
+    }
+
+    double time_tail(std::uint32_t first_colour, std::uint32_t colours)
+    {
+        Recorder recorder(device_.shared_from_this());
+        recorder.dispatch(kernels::distance::info("tail"), {constraint_, position_, delta_, step_, events_, colours_},
+                          kernels::distance::Params{first_colour, colours, 1, 0}, 1);
+        return best(*recorder.finish());
+    }
+
+    static constexpr std::uint32_t kPhases = 512;
+    static constexpr std::uint32_t kLaneSprings = 8192;
+    static constexpr std::uint32_t kLaneColour = kPhases + 1;
+
+private:
+    template <typename T>
+    BufferPtr upload(const std::vector<T>& values)
+    {
+        BufferPtr buffer = device_.make_buffer(values.size() * sizeof(T), "probe");
+        device_.write<T>(buffer, values);
+        return buffer;
+    }
+
+    double best(Recording& recording)
+    {
+        double least = 1e30;
+        for (int run = 0; run < 6; ++run)
+        {
+            const auto from = std::chrono::steady_clock::now();
+            recording.replay();
+            device_.wait();
+            const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - from;
+            if (run > 0) // the first run warms up
+                least = std::min(least, took.count());
+        }
+        return least;
+    }
+
+    Device& device_;
+    BufferPtr constraint_, position_, delta_, step_, events_, colours_;
+};
+
+DeviceTraits measure(Device& device)
+{
+    const DeviceLimits& limits = device.limits();
+    DeviceTraits traits;
+    traits.max_buffer_bytes = limits.max_buffer_bytes;
+    traits.offset_alignment = limits.offset_alignment;
+    traits.max_group_size = limits.max_group_size;
+    traits.max_shared_bytes = limits.max_shared_bytes;
+    traits.float64 = limits.float64;
+
+    Probe probe(device);
+    const double few = probe.time_dispatches(8, 1), many = probe.time_dispatches(72, 1);
+    traits.dispatch_ns = std::max((many - few) / 64, 1.0);
+    const double short_tail = probe.time_tail(0, 1), long_tail = probe.time_tail(0, Probe::kPhases);
+    traits.group_barrier_ns = std::max((long_tail - short_tail) / (Probe::kPhases - 1), 1.0);
+    traits.element_ns = std::max((probe.time_dispatches(1, Probe::kSprings) - probe.time_dispatches(1, 1)) / Probe::kSprings, 1e-3);
+    traits.lane_element_ns =
+        std::max((probe.time_tail(Probe::kLaneColour, 1) - short_tail) / Probe::kLaneSprings, traits.element_ns);
+    return traits;
+}
+
+} // namespace
+
+DeviceTraits measure_traits(Device& device)
+{
+    static std::mutex mutex;
+    static std::map<std::string, DeviceTraits> known;
+    const std::lock_guard lock(mutex);
+    const std::string key = device.info().executor + "|" + device.info().selector + "|" + device.info().name;
+    const auto found = known.find(key);
+    return found != known.end() ? found->second : known.emplace(key, measure(device)).first->second;
+}
+
+} // namespace taut

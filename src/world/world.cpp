@@ -1,0 +1,268 @@
+#include "taut/world/world.hpp"
+
+#include "taut/runtime/vulkan/vulkan_device.hpp"
+#include "taut/world/inputs.hpp"
+
+#include <glm/vec4.hpp>
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace taut {
+
+struct World::Impl
+{
+    Scene scene;
+    Plan plan;
+    std::shared_ptr<Device> device;
+    std::vector<BufferPtr> buffers; ///< as plan.buffers
+    std::unique_ptr<Recording> recording; ///< null when nothing is to be done
+    std::uint64_t steps = 0;
+    bool moves = false;
+
+    double time() const { return static_cast<double>(steps) * plan.timestep; }
+    void create_buffers();
+    void record();
+    void write_inputs();
+    template <typename Real>
+    std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
+    std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
+    std::vector<std::byte> raw(std::uint32_t buffer) const;
+};
+
+void World::Impl::create_buffers()
+{
+    for (const PlanBuffer& buffer : plan.buffers)
+    {
+        buffers.push_back(device->make_buffer(buffer.bytes, buffer.name));
+        if (!buffer.initial.empty())
+            device->write(buffers.back(), 0, buffer.initial);
+    }
+}
+
+void World::Impl::record()
+{
+    if (!plan.passes.empty())
+        recording = device->compile({buffers, plan.passes, plan.barrier_before});
+}
+
+void World::Impl::write_inputs()
+{
+    if (!moves && steps > 0)
+        return;
+    for (const InputWrite& write : step_inputs(scene, plan, time()))
+        device->write(buffers[write.buffer], 0, write.bytes);
+}
+
+template <typename Real>
+std::vector<glm::dvec3> World::Impl::read_vectors(std::uint32_t buffer, std::uint32_t added) const
+{
+    using Vec = glm::vec<4, Real>;
+    std::vector<glm::dvec3> out(plan.vertex_count);
+    const auto values = device->read<Vec>(buffers[buffer], plan.vertex_count);
+    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
+        out[plan.original[v]] = glm::dvec3(values[v]);
+    if (added == kNoBuffer)
+        return out;
+    const auto more = device->read<Vec>(buffers[added], plan.vertex_count);
+    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
+        out[plan.original[v]] += glm::dvec3(more[v]);
+    return out;
+}
+
+std::vector<glm::dvec3> World::Impl::vectors(std::uint32_t buffer, std::uint32_t added) const
+{
+    if (buffer == kNoBuffer)
+        return {};
+    return plan.precision == Precision::float64 ? read_vectors<double>(buffer, added) : read_vectors<float>(buffer, added);
+}
+
+std::vector<std::byte> World::Impl::raw(std::uint32_t buffer) const
+{
+    if (buffer == kNoBuffer)
+        return {};
+    std::vector<std::byte> bytes(plan.buffers[buffer].bytes);
+    device->read(buffers[buffer], 0, bytes);
+    return bytes;
+}
+
+namespace {
+
+Scene resolved(const Scene& scene)
+{
+    for (const Body& body : scene.bodies)
+        if (body.mesh.positions.empty())
+            return resolve(scene);
+    return scene;
+}
+
+} // namespace
+
+World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOptions& options)
+    : impl_(std::make_unique<Impl>())
+{
+    impl_->scene = resolved(scene);
+    impl_->device = std::move(device);
+    impl_->plan = make_plan(impl_->scene, measure_traits(*impl_->device), options.plan);
+    impl_->moves = inputs_move(impl_->scene, impl_->plan);
+    impl_->create_buffers();
+    impl_->record();
+}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::step()
+{
+    impl_->write_inputs();
+    if (impl_->recording)
+        impl_->recording->replay();
+    ++impl_->steps;
+}
+
+std::vector<EffectTime> World::step_timed()
+{
+    impl_->write_inputs();
+    std::vector<EffectTime> times;
+    for (const EffectCost& effect : impl_->plan.effects)
+        times.push_back({effect.name, 0, 0});
+    if (impl_->recording)
+        for (const DispatchTime& t : impl_->recording->replay_timed())
+            for (EffectTime& effect : times)
+                if (effect.name == impl_->plan.passes[t.dispatch].label)
+                {
+                    ++effect.dispatches;
+                    effect.milliseconds += t.nanoseconds * 1e-6;
+                }
+    ++impl_->steps;
+    return times;
+}
+
+std::uint64_t World::steps() const { return impl_->steps; }
+double World::time() const { return impl_->time(); }
+const Plan& World::plan() const { return impl_->plan; }
+const Scene& World::scene() const { return impl_->scene; }
+Device& World::device() const { return *impl_->device; }
+
+std::vector<glm::dvec3> World::positions() const { return impl_->vectors(impl_->plan.position, impl_->plan.low); }
+std::vector<glm::dvec3> World::velocities() const { return impl_->vectors(impl_->plan.velocity); }
+std::vector<glm::dvec3> World::displacements() const { return impl_->vectors(impl_->plan.delta); }
+std::vector<glm::dvec3> World::predictions() const { return impl_->vectors(impl_->plan.predicted); }
+
+std::vector<double> World::multipliers(std::string_view kind) const
+{
+    for (const ConstraintSet& set : impl_->plan.constraints)
+    {
+        if (set.kind != kind || set.multipliers == kNoBuffer)
+            continue;
+        const BufferPtr& buffer = impl_->buffers[set.multipliers];
+        if (impl_->plan.precision == Precision::float64)
+            return impl_->device->read<double>(buffer, set.count);
+        const auto values = impl_->device->read<float>(buffer, set.count);
+        return {values.begin(), values.end()};
+    }
+    return {};
+}
+
+Events World::events() const
+{
+    if (impl_->plan.events == kNoBuffer)
+        return {};
+    const auto counts = impl_->device->read<std::uint32_t>(impl_->buffers[impl_->plan.events], TAUT_EVENT_COUNT);
+    return {counts[TAUT_EVENT_NON_FINITE], counts[TAUT_EVENT_SPEED_CLAMP], counts[TAUT_EVENT_DEGENERATE],
+            counts[TAUT_EVENT_CONFLICT]};
+}
+
+BufferPtr World::position_buffer() const
+{
+    return impl_->plan.position == kNoBuffer ? nullptr : impl_->buffers[impl_->plan.position];
+}
+
+void World::record_into(VkCommandBuffer_T* commands)
+{
+    impl_->write_inputs();
+    if (impl_->recording)
+        record_into_vulkan(*impl_->recording, commands);
+    ++impl_->steps;
+}
+
+WorldState World::state() const
+{
+    const Plan& plan = impl_->plan;
+    return {impl_->steps,        impl_->raw(plan.position), impl_->raw(plan.low), impl_->raw(plan.velocity),
+            impl_->raw(plan.delta), impl_->raw(plan.force)};
+}
+
+namespace {
+
+template <typename Real>
+bool all_finite(std::span<const std::byte> bytes)
+{
+    for (std::size_t i = 0; i + sizeof(Real) <= bytes.size(); i += sizeof(Real))
+    {
+        Real value;
+        std::memcpy(&value, bytes.data() + i, sizeof(Real));
+        if (!std::isfinite(value))
+            return false;
+    }
+    return true;
+}
+
+} // namespace
+
+void World::restore(const WorldState& state)
+{
+    const Plan& plan = impl_->plan;
+    const std::pair<std::uint32_t, const std::vector<std::byte>*> parts[] = {
+        {plan.position, &state.position}, {plan.low, &state.low},     {plan.velocity, &state.velocity},
+        {plan.delta, &state.delta},       {plan.force, &state.force},
+    };
+    const char* names[] = {"position", "low", "velocity", "delta", "force"};
+    for (std::size_t i = 0; i < std::size(parts); ++i)
+    {
+        const std::uint64_t expected = parts[i].first == kNoBuffer ? 0 : plan.buffers[parts[i].first].bytes;
+        if (parts[i].second->size() != expected)
+            throw Error(ErrorCode::bad_input, std::string("restore: ") + names[i] + " holds " +
+                                                  std::to_string(parts[i].second->size()) + " bytes, this plan needs " +
+                                                  std::to_string(expected) + ": the state is of another scene or precision");
+        const bool finite = plan.precision == Precision::float64 ? all_finite<double>(*parts[i].second)
+                                                                 : all_finite<float>(*parts[i].second);
+        if (!finite)
+            throw Error(ErrorCode::bad_input, std::string("restore: ") + names[i] + " holds a value that is not finite");
+    }
+    for (const auto& [buffer, bytes] : parts)
+        if (buffer != kNoBuffer)
+            impl_->device->write(impl_->buffers[buffer], 0, *bytes);
+    impl_->steps = state.step;
+    // Inputs that do not move are written before the first step only.
+    for (const InputWrite& write : step_inputs(impl_->scene, plan, impl_->time()))
+        impl_->device->write(impl_->buffers[write.buffer], 0, write.bytes);
+}
+
+void World::set_force(std::uint32_t vertex, const glm::dvec3& force)
+{
+    const Plan& plan = impl_->plan;
+    if (plan.force == kNoBuffer)
+        throw Error(ErrorCode::unsupported, "set_force: the scene does not call for external forces; set external_forces to true");
+    if (vertex >= plan.vertex_count)
+        throw Error(ErrorCode::bad_input, "set_force: vertex " + std::to_string(vertex) + " of " + std::to_string(plan.vertex_count));
+    if (!std::isfinite(force.x) || !std::isfinite(force.y) || !std::isfinite(force.z))
+        throw Error(ErrorCode::bad_input, "set_force: the force on vertex " + std::to_string(vertex) + " is not finite");
+    std::uint32_t index = 0;
+    while (plan.original[index] != vertex)
+        ++index;
+    const auto put = [&]<typename Real>(Real) {
+        const glm::vec<4, Real> value(glm::vec<3, Real>(force), Real(0));
+        impl_->device->write(impl_->buffers[plan.force], index * sizeof(value), std::as_bytes(std::span(&value, 1)));
+    };
+    if (plan.precision == Precision::float64)
+        put(double{});
+    else
+        put(float{});
+}
+
+} // namespace taut

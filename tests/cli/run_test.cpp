@@ -1,0 +1,179 @@
+// taut run: what it writes, what it prints, how it ends.
+
+#include "cli/program.hpp"
+#include "cli/scenes.hpp"
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+using program::Folder;
+using program::Result;
+
+namespace {
+
+const std::vector<std::string> kRunKeys = {
+    "device", "executor", "precision", "frames", "simulated_seconds", "vertices", "constraints", "colours",
+    "status", "step_ms", "passes", "max_stretch", "rms_stretch", "penetration", "kinetic_energy",
+    "potential_energy", "momentum_error", "primal_residual", "dual_residual", "position_hash", "warnings",
+    "taut", "scene"};
+
+void check_keys(const nlohmann::json& report)
+{
+    for (const std::string& key : kRunKeys)
+    {
+        INFO(key);
+        CHECK(report.contains(key));
+    }
+    CHECK(report["step_ms"]["median"].is_number());
+    CHECK(report["step_ms"]["p95"].is_number());
+    CHECK(report["position_hash"].get<std::string>().size() == 16);
+}
+
+std::size_t count_lines(const std::string& text, const std::string& start)
+{
+    std::istringstream lines(text);
+    std::string line;
+    std::size_t count = 0;
+    while (std::getline(lines, line))
+        if (line.rfind(start, 0) == 0)
+            ++count;
+    return count;
+}
+
+} // namespace
+
+TEST_CASE("run writes meshes and a report, and prints the same report as one JSON object")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "4", "--every", "1",
+                                       "--out", folder / "o", "--json", "--no-picture"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    CHECK(result.err.empty());
+    const auto report = program::parse(result.out);
+    check_keys(report);
+    CHECK(report == program::parse(program::read(folder / "o/report.json")));
+    CHECK(report["frames"] == 4);
+    CHECK(report["executor"] == "cpu:serial");
+    CHECK(report["precision"] == "float");
+    CHECK(report["status"] == "completed");
+    CHECK(report["vertices"] == 81);
+    CHECK(report["constraints"]["distance"] == 208);
+    CHECK(report["simulated_seconds"].get<double>() == Approx(4.0 / 60));
+    CHECK(report["primal_residual"].get<double>() >= 0);
+    CHECK(report["dual_residual"].get<double>() >= 0);
+    const std::vector<std::string> files = {"mesh_00000.obj", "mesh_00001.obj", "mesh_00002.obj",
+                                            "mesh_00003.obj", "mesh_00004.obj", "report.json"};
+    CHECK(folder.list("o") == files);
+}
+
+TEST_CASE("passes are named by effect, with their dispatches")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const auto plan = program::parse(folder.taut({"plan", scene, "--json"}).out);
+    const Result result =
+        folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "2", "--json", "--no-picture"});
+    REQUIRE(result.status == 0);
+    const auto report = program::parse(result.out);
+    std::set<std::string> planned, timed;
+    for (const auto& effect : plan["effects"])
+        if (effect["dispatches_per_step"] != 0)
+            planned.insert(effect["name"].get<std::string>());
+    for (const auto& pass : report["passes"])
+    {
+        timed.insert(pass["name"].get<std::string>());
+        CHECK(pass["ms"].get<double>() >= 0);
+        CHECK(pass["dispatches"].get<int>() > 0);
+    }
+    CHECK(timed == planned);
+}
+
+TEST_CASE("a mesh file holds every body under its own name")
+{
+    const Folder folder;
+    const std::string scene = folder.file("two.json", scenes::two_bodies());
+    REQUIRE(folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--out", folder / "o",
+                         "--no-picture"}).status == 0);
+    const std::string mesh = program::read(folder / "o/mesh_00000.obj");
+    CHECK(count_lines(mesh, "v ") == 9 + 4);
+    CHECK(count_lines(mesh, "f ") == 8);
+    CHECK(count_lines(mesh, "l ") == 3);
+    CHECK(mesh.find("o upper_cloth\n") != std::string::npos);
+    CHECK(mesh.find("o body_1\n") != std::string::npos);
+    CHECK(mesh.find("l 10 11\n") != std::string::npos);
+}
+
+TEST_CASE("the same run again gives the same positions, and a shorter one leaves no older meshes")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const auto run = [&](const char* frames) {
+        const Result result = folder.taut({"run", scene, "--device", "cpu", "--frames", frames, "--every", "1",
+                                           "--out", folder / "o", "--json", "--no-picture"});
+        REQUIRE(result.status == 0);
+        return program::parse(result.out);
+    };
+    const auto first = run("5"), second = run("5");
+    CHECK(first["position_hash"] == second["position_hash"]);
+    CHECK(folder.list("o").size() == 7);
+    run("2");
+    const std::vector<std::string> files = {"mesh_00000.obj", "mesh_00001.obj", "mesh_00002.obj", "report.json"};
+    CHECK(folder.list("o") == files);
+}
+
+TEST_CASE("without --out, files go to out/<scene> of the working folder")
+{
+    const Folder folder;
+    folder.file("cloth.json", scenes::cloth());
+    const Result result = folder.taut({"run", "cloth.json", "--device", "cpu:serial", "--frames", "1",
+                                       "--every", "0", "--no-picture"});
+    REQUIRE(result.status == 0);
+    CHECK(folder.list("out/cloth") == std::vector<std::string>{"report.json"});
+    CHECK(result.out.find("out/cloth/report.json") != std::string::npos);
+}
+
+TEST_CASE("no frames at all is a run too")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "0", "--out",
+                                       folder / "o", "--json"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    const auto report = program::parse(result.out);
+    CHECK(report["frames"] == 0);
+    CHECK(report["simulated_seconds"] == 0);
+}
+
+TEST_CASE("an interrupted run ends with what is done: a whole report that says so")
+{
+    const int signal = GENERATE(SIGINT, SIGTERM);
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    bool sent = false;
+    // The third mesh is there: the loop over frames runs, and a hundred thousand frames are left.
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1000000", "--every",
+                                       "50", "--out", folder / "o", "--json"},
+                                      [&](int process) {
+                                          if (!sent && std::filesystem::exists(folder / "o/mesh_00002.obj"))
+                                              sent = kill(process, signal) == 0;
+                                      });
+    INFO(result.err);
+    REQUIRE(sent);
+    CHECK(result.status == 0);
+    const auto report = program::parse(program::read(folder / "o/report.json"));
+    check_keys(report);
+    CHECK(report["status"] == "interrupted");
+    CHECK(report["frames"].get<int>() >= 100);
+    CHECK(report["frames"].get<int>() < 1000000);
+    CHECK(report["simulated_seconds"].get<double>() == Approx(report["frames"].get<double>() / 60));
+    CHECK(report["meshes"].get<std::size_t>() >= 3);
+    for (const std::string& name : folder.list("o"))
+        CHECK(name.find(".tmp") == std::string::npos);
+}

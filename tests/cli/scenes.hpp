@@ -1,0 +1,24 @@
+#pragma once
+// Scene texts for the tests of the program.
+
+#include <string>
+
+namespace scenes {
+
+/// 81 vertices, pinned by two corners, nothing else.
+inline std::string cloth(const std::string& timestep = "0.016666666666666666")
+{
+    return R"({"taut": 1, "timestep": )" + timestep + R"(, "duration": 0.5,
+        "bodies": [{"grid": {"cells": [8, 8], "size": [1, 1]},
+                    "pins": [{"corners": ["top_left", "top_right"]}]}]})";
+}
+
+/// 9 and 4 vertices; one body has a name, with a space in it.
+inline std::string two_bodies()
+{
+    return R"({"taut": 1, "bodies": [
+        {"name": "upper cloth", "grid": {"cells": [2, 2], "size": [1, 1]}},
+        {"chain": {"links": 3, "length": 1}, "transform": {"translate": [0, 2, 0]}}]})";
+}
+
+} // namespace scenes

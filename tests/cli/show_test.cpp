@@ -1,0 +1,113 @@
+// The commands that only show: plan, check, devices, --version, --help.
+
+#include "cli/program.hpp"
+#include "cli/scenes.hpp"
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <set>
+
+using program::Folder;
+using program::Result;
+
+TEST_CASE("plan lists effects whose dispatches add up, and writes nothing")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const Result result = folder.taut({"plan", scene, "--json"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    const auto plan = program::parse(result.out);
+    std::uint64_t dispatches = 0, bytes = 0;
+    for (const auto& effect : plan["effects"])
+    {
+        dispatches += effect["dispatches_per_step"].get<std::uint64_t>();
+        bytes += effect["bytes_allocated"].get<std::uint64_t>();
+        CHECK(effect["name"].is_string());
+        CHECK(effect["kernels"].is_array());
+        CHECK(effect["bytes_per_step"].is_number_unsigned());
+    }
+    CHECK(plan["dispatches_per_step"] == dispatches);
+    CHECK(plan["bytes_allocated"] == bytes);
+    CHECK(plan["barriers_per_step"].get<std::uint64_t>() < dispatches);
+    CHECK(plan["colours"]["distance"].get<int>() >= 4);
+    CHECK(plan["constraints"]["distance"] == 208);
+    CHECK(folder.list("").size() == 3); // the scene and the two captured streams
+}
+
+TEST_CASE("a plan for a device measures the device and names it")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const Result result = folder.taut({"plan", scene, "--device", "cpu:serial", "--json"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    CHECK(program::parse(result.out)["device"].is_string());
+    const Result readable = folder.taut({"plan", scene});
+    CHECK(readable.status == 0);
+    CHECK(readable.out.find("distance") != std::string::npos);
+}
+
+TEST_CASE("check says which field is wrong, and ends with 0 only when nothing is")
+{
+    const Folder folder;
+    const Result good = folder.taut({"check", folder.file("good.json", scenes::cloth())});
+    CHECK(good.status == 0);
+    CHECK(good.err.empty());
+    const std::string bad = folder.file("bad.json", R"({"taut": 1, "timestep": -1, "damping": -2,
+        "bodies": [{"grid": {"cells": [0, 8]}, "material": {"density": 0}}]})");
+    const Result result = folder.taut({"check", bad});
+    CHECK(result.status == 2);
+    for (const char* field : {"timestep", "damping", "bodies[0].grid.cells", "bodies[0].material.density"})
+    {
+        INFO(field << " in " << result.out);
+        CHECK(result.out.find(field) != std::string::npos);
+    }
+    const Result json = folder.taut({"check", bad, "--json"});
+    CHECK(json.status == 2);
+    const auto issues = program::parse(json.out)["issues"];
+    CHECK(issues.size() >= 4);
+    CHECK(std::all_of(issues.begin(), issues.end(), [](const auto& i) { return i["text"].is_string(); }));
+    CHECK(folder.taut({"check", folder / "none.json"}).status == 2);
+}
+
+TEST_CASE("check finds a mesh file that is not there")
+{
+    const Folder folder;
+    const std::string scene = folder.file("scene.json", R"({"taut": 1, "bodies": [{"mesh": "none.obj"}]})");
+    const Result result = folder.taut({"check", scene});
+    CHECK(result.status == 2);
+    CHECK((result.out + result.err).find("none.obj") != std::string::npos);
+}
+
+TEST_CASE("devices lists the native CPU with its limits, each under a selector that opens it")
+{
+    const Folder folder;
+    const auto list = program::parse(folder.taut({"devices", "--json"}).out)["devices"];
+    std::set<std::string> selectors;
+    for (const auto& device : list)
+    {
+        selectors.insert(device["selector"].get<std::string>());
+        CHECK(device["limits"]["max_buffer_bytes"].get<std::uint64_t>() > 0);
+        CHECK(device["name"].is_string());
+        CHECK(device["driver"].is_string());
+        CHECK(device["hardware_gpu"].is_boolean());
+    }
+    CHECK(selectors.count("cpu") == 1);
+    CHECK(folder.taut({"devices"}).out.find("cpu") != std::string::npos);
+}
+
+TEST_CASE("version and help go to standard output with status 0")
+{
+    const Folder folder;
+    const Result version = folder.taut({"--version"});
+    CHECK(version.status == 0);
+    CHECK(version.out.rfind("taut ", 0) == 0);
+    const Result help = folder.taut({"--help"});
+    CHECK(help.status == 0);
+    for (const char* command : {"run", "plan", "check", "devices"})
+        CHECK(help.out.find(command) != std::string::npos);
+    const Result run_help = folder.taut({"run", "--help"});
+    CHECK(run_help.status == 0);
+    CHECK(run_help.out.find("--every") != std::string::npos);
+}

@@ -1,0 +1,143 @@
+#include "support/catch.hpp"
+
+#include "taut/report/svg_plot.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+#include <clocale>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+using namespace taut;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Plot sample()
+{
+    Plot plot;
+    plot.title = "Hanging cloth, 32 x 32: error against time";
+    plot.x_label = "device time per simulated second [ms]";
+    plot.y_label = "e_traj [1]";
+    plot.series = {
+        {"xpbd float, 1 iteration", {{2, 0.4, "4x1"}, {4, 0.1, "8x1"}, {8, 0.025, "16x1"}, {16, 0.007, "32x1"},
+                                     {33, 0.0021, "64x1"}, {70, 0.011, "128x1"}}},
+        {"xpbd float, 4 iterations & more", {{6, 0.5, "4x4"}, {11, 0.2, "8x4"}, {kNaN, kNaN, "16x4"}, {45, 0.03, "32x4"}}},
+        {"xpbd double, 1 iteration on the processor of this machine", {{21, 0.41, "4x1"}, {42, 0.1, "8x1"},
+                                     {81, 0.025, "16x1"}, {330, 0.0019, "64x1"}, {660, 0.0006, "128x1"}}},
+    };
+    plot.caption = {"Reference R3 (explicit, fp64), own error estimate 3e-6; mass-weighted over moving vertices.",
+                    "20 repetitions, median."};
+    plot.gaps = {"xpbd float 256x1: the run diverged at step 12 <limit 1e6 m/s>"};
+    return plot;
+}
+
+/// A small checker: tags nest, attributes are quoted, no stray < or &. Empty when well formed.
+std::string malformed(const std::string& xml)
+{
+    std::vector<std::string> open;
+    for (std::size_t i = 0; i < xml.size(); ++i)
+    {
+        if (xml[i] == '&')
+        {
+            const std::string name = xml.substr(i + 1, xml.find(';', i) - i - 1);
+            if (name != "amp" && name != "lt" && name != "gt" && name != "quot")
+                return "entity " + name;
+        }
+        if (xml[i] != '<')
+            continue;
+        const std::size_t end = xml.find('>', i);
+        if (end == std::string::npos)
+            return "an open tag at the end";
+        const std::string tag = xml.substr(i + 1, end - i - 1);
+        i = end;
+        if (tag.find('<') != std::string::npos || std::count(tag.begin(), tag.end(), '"') % 2 != 0)
+            return "bad tag " + tag;
+        if (tag[0] == '?' || tag.back() == '/')
+            continue;
+        if (tag[0] != '/')
+            open.push_back(tag.substr(0, tag.find(' ')));
+        else if (open.empty() || open.back() != tag.substr(1))
+            return "closing " + tag;
+        else
+            open.pop_back();
+    }
+    return open.empty() ? "" : "never closed: " + open.back();
+}
+
+std::size_t count(const std::string& text, const std::string& part)
+{
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++n;
+    return n;
+}
+
+} // namespace
+
+TEST_CASE("a plot is well-formed XML whatever its words hold", "[svg]")
+{
+    Plot plot = sample();
+    plot.title = "<a & \"b\"> \x01";
+    plot.series[0].name = "x < y";
+    CHECK(malformed(svg(plot)) == "");
+    CHECK(malformed(svg(Plot{})) == "");
+    CHECK(malformed("<a><b></a></b>") != "");
+    CHECK(svg(plot).find('\x01') == std::string::npos);
+}
+
+TEST_CASE("the front holds exactly the points that nothing beats in both", "[svg]")
+{
+    const std::vector<PlotSeries> series = {{"a", {{1, 8, ""}, {2, 4, ""}, {3, 5, ""}, {0, 0.1, ""}}},
+                                            {"b", {{2, 6, ""}, {4, 1, ""}, {9, 1, ""}, {kNaN, 0.1, ""}}}};
+    std::vector<std::pair<std::size_t, std::size_t>> found;
+    for (const FrontPoint& f : pareto_front(series))
+        found.emplace_back(f.series, f.point);
+    CHECK(found == std::vector<std::pair<std::size_t, std::size_t>>{{0, 0}, {0, 1}, {1, 1}});
+    CHECK(pareto_front({}).empty());
+}
+
+TEST_CASE("what cannot be drawn is listed as a gap and breaks the line", "[svg]")
+{
+    const std::string text = svg(sample());
+    CHECK(text.find("xpbd float, 4 iterations &amp; more, 16x4: no finite positive value") != std::string::npos);
+    CHECK(text.find("diverged at step 12 &lt;limit") != std::string::npos);
+    CHECK(text.find("nan") == std::string::npos);
+    CHECK(text.find("inf") == std::string::npos);
+    CHECK(count(text, "<title>") == 14);   // 15 points less one
+    CHECK(count(text, "<polyline") == 4);  // one each, and the front; 32x4 stands alone
+}
+
+TEST_CASE("a point stands where its logarithm says", "[svg]")
+{
+    Plot plot;
+    plot.series = {{"a", {{1, 1e-2, ""}, {10, 1e-1, ""}, {100, 1, ""}}}};
+    // The area is 560 x 400 from (84, 56): two decades each.
+    CHECK(svg(plot).find("points=\"84.00,456.00 364.00,256.00 644.00,56.00\"") != std::string::npos);
+}
+
+TEST_CASE("the same plot is the same text in every locale", "[svg]")
+{
+    const std::string before = svg(sample());
+    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C"})
+        if (std::setlocale(LC_ALL, name))
+            CHECK(svg(sample()) == before);
+    std::setlocale(LC_ALL, "C");
+}
+
+TEST_CASE("a plot file is complete or absent", "[svg]")
+{
+    const auto folder = std::filesystem::temp_directory_path() / "taut_svg_test";
+    std::filesystem::create_directories(folder);
+    write_svg(folder / "plot.svg", sample());
+    std::ifstream in(folder / "plot.svg", std::ios::binary);
+    std::stringstream text;
+    text << in.rdbuf();
+    CHECK(text.str() == svg(sample()));
+    CHECK(!std::filesystem::exists(folder / "plot.svg.part"));
+    CHECK_THROWS_AS(write_svg(folder / "missing" / "plot.svg", sample()), Error);
+    std::filesystem::remove_all(folder);
+}
