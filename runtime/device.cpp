@@ -19,10 +19,7 @@ namespace {
 using DevicePtr = std::shared_ptr<Device>;
 
 #if !TAUT_HAS_OPENGL
-std::vector<DeviceInfo> list_opengl()
-{
-    return {};
-}
+std::vector<DeviceInfo> list_opengl() { return {}; }
 
 DevicePtr open_opengl(bool, const OpenOptions&)
 {
@@ -53,7 +50,8 @@ std::string what_there_is()
 
 std::optional<std::size_t> first_hardware(const std::vector<DeviceInfo>& list)
 {
-    const auto at = std::find_if(list.begin(), list.end(), [](const DeviceInfo& d) { return d.hardware_gpu; });
+    const auto at =
+        std::find_if(list.begin(), list.end(), [](const DeviceInfo& d) { return d.hardware_gpu; });
     if (at == list.end())
         return std::nullopt;
     return static_cast<std::size_t>(at - list.begin());
@@ -97,10 +95,12 @@ DevicePtr open_numbered_vulkan(std::string_view index, const OpenOptions& option
     const char* end = index.data() + index.size();
     const auto [stop, error] = std::from_chars(index.data(), end, number);
     if (error != std::errc() || stop != end)
-        throw Error(ErrorCode::no_device, "\"" + std::string(index) + "\" is not the number of a Vulkan device");
+        throw Error(ErrorCode::no_device,
+                    "\"" + std::string(index) + "\" is not the number of a Vulkan device");
     const std::size_t count = list_vulkan().size();
     if (count != 0 && number >= count) // with none at all, open_vulkan knows why
-        throw Error(ErrorCode::no_device, "there are " + std::to_string(count) + " Vulkan devices, counted from 0");
+        throw Error(ErrorCode::no_device,
+                    "there are " + std::to_string(count) + " Vulkan devices, counted from 0");
     return open_vulkan(number, options);
 }
 

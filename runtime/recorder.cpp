@@ -23,8 +23,8 @@ std::string describe(const KernelInfo& kernel)
 
 std::string describe(const KernelInfo& kernel, std::size_t binding)
 {
-    return describe(kernel) + ", binding " + number(binding) + " \"" + std::string(kernel.bindings[binding].name)
-         + "\"";
+    return describe(kernel) + ", binding " + number(binding) + " \"" +
+           std::string(kernel.bindings[binding].name) + "\"";
 }
 
 [[noreturn]] void refuse(ErrorCode code, const std::string& text) { throw Error(code, text); }
@@ -33,42 +33,43 @@ std::string describe(const KernelInfo& kernel, std::size_t binding)
 void check_inside(const std::string& what, const BufferRange& range, std::uint64_t buffer_bytes)
 {
     if (range.bytes == 0)
-        refuse(ErrorCode::bad_input, what + ": the range is empty: it begins at byte " + number(range.offset)
-                                         + " of a buffer of " + number(buffer_bytes) + " bytes");
+        refuse(ErrorCode::bad_input, what + ": the range is empty: it begins at byte " +
+                                         number(range.offset) + " of a buffer of " + number(buffer_bytes) +
+                                         " bytes");
     if (range.offset > buffer_bytes || range.bytes > buffer_bytes - range.offset)
-        refuse(ErrorCode::bad_input, what + ": bytes " + number(range.offset) + " to "
-                                         + number(range.offset + range.bytes)
-                                         + " lie outside the buffer, which has " + number(buffer_bytes)
-                                         + " bytes");
+        refuse(ErrorCode::bad_input,
+               what + ": bytes " + number(range.offset) + " to " + number(range.offset + range.bytes) +
+                   " lie outside the buffer, which has " + number(buffer_bytes) + " bytes");
 }
 
 void check_alignment(ErrorCode code, const std::string& what, std::uint64_t offset, std::uint64_t alignment)
 {
     if (alignment > 1 && offset % alignment != 0)
-        refuse(code, what + ": offset " + number(offset) + " is not a multiple of the " + number(alignment)
-                         + " bytes that this device requires");
+        refuse(code, what + ": offset " + number(offset) + " is not a multiple of the " + number(alignment) +
+                         " bytes that this device requires");
 }
 
 /// A range that was asked for by its size must hold whole elements; "to the end" may not.
 void check_elements(const std::string& what, std::uint64_t bytes, std::uint32_t stride, bool whole)
 {
     if (stride != 0 && (bytes < stride || (whole && bytes % stride != 0)))
-        refuse(ErrorCode::bad_input, what + ": " + number(bytes) + " bytes are not a whole number of elements of "
-                                         + number(stride) + " bytes");
+        refuse(ErrorCode::bad_input, what + ": " + number(bytes) +
+                                         " bytes are not a whole number of elements of " + number(stride) +
+                                         " bytes");
 }
 
 void check_params(const KernelInfo& kernel, std::size_t bytes)
 {
     if (bytes != kernel.param_bytes)
-        refuse(ErrorCode::bad_input, describe(kernel) + " takes " + number(kernel.param_bytes)
-                                         + " bytes of parameters, but " + number(bytes) + " were given");
+        refuse(ErrorCode::bad_input, describe(kernel) + " takes " + number(kernel.param_bytes) +
+                                         " bytes of parameters, but " + number(bytes) + " were given");
 }
 
 void check_binding_count(const KernelInfo& kernel, std::size_t count)
 {
     if (count != kernel.bindings.size())
-        refuse(ErrorCode::bad_input, describe(kernel) + " has " + number(kernel.bindings.size())
-                                         + " bindings, but " + number(count) + " buffers were given");
+        refuse(ErrorCode::bad_input, describe(kernel) + " has " + number(kernel.bindings.size()) +
+                                         " bindings, but " + number(count) + " buffers were given");
 }
 
 BufferRange range_of(const Recorder::Binding& binding)
@@ -114,8 +115,9 @@ BufferRange Recorder::intern(const Binding& binding)
     return range;
 }
 
-Recorder& Recorder::add(const KernelInfo& kernel, std::vector<Binding> bindings, std::span<const std::byte> params,
-                        std::uint32_t count, std::optional<Binding> indirect, std::string_view label)
+Recorder& Recorder::add(const KernelInfo& kernel, std::vector<Binding> bindings,
+                        std::span<const std::byte> params, std::uint32_t count,
+                        std::optional<Binding> indirect, std::string_view label)
 {
     assert(device_);
     check_binding_count(kernel, bindings.size());
@@ -165,8 +167,8 @@ namespace {
 void check_at_most(const std::string& what, const char* thing, std::uint64_t is, std::uint64_t limit)
 {
     if (is > limit)
-        refuse(ErrorCode::limit, what + " needs " + number(is) + " " + thing + ", but this device has a limit of "
-                                     + number(limit));
+        refuse(ErrorCode::limit, what + " needs " + number(is) + " " + thing +
+                                     ", but this device has a limit of " + number(limit));
 }
 
 void check_kernel(const KernelInfo& kernel, const DeviceInfo& info)
@@ -178,8 +180,8 @@ void check_kernel(const KernelInfo& kernel, const DeviceInfo& info)
     check_at_most(what, "bytes of group memory", kernel.shared_bytes, limits.max_shared_bytes);
     check_at_most(what, "bytes of parameters", kernel.param_bytes, limits.max_param_bytes);
     if (kernel.precision == Precision::float64 && !limits.float64)
-        refuse(ErrorCode::unsupported, what + " computes in double, but \"" + info.name
-                                           + "\" has no 64-bit floats: use precision float or the device cpu");
+        refuse(ErrorCode::unsupported, what + " computes in double, but \"" + info.name +
+                                           "\" has no 64-bit floats: use precision float or the device cpu");
 }
 
 void check_ranges(const Dispatch& dispatch, const std::vector<BufferPtr>& buffers, const DeviceLimits& limits)
@@ -190,8 +192,8 @@ void check_ranges(const Dispatch& dispatch, const std::vector<BufferPtr>& buffer
         const BufferRange& range = dispatch.bindings[i];
         const std::string what = describe(kernel, i);
         if (range.buffer >= buffers.size() || !buffers[range.buffer])
-            refuse(ErrorCode::bad_input, what + ": buffer number " + number(range.buffer)
-                                             + " is not one of the " + number(buffers.size()) + " buffers");
+            refuse(ErrorCode::bad_input, what + ": buffer number " + number(range.buffer) +
+                                             " is not one of the " + number(buffers.size()) + " buffers");
         check_inside(what, range, buffers[range.buffer]->bytes());
         check_at_most(what, "bytes in one binding", range.bytes, limits.max_buffer_bytes);
         check_alignment(ErrorCode::limit, what, range.offset, limits.offset_alignment);
@@ -205,8 +207,8 @@ void check_indirect(const Dispatch& dispatch, const std::vector<BufferPtr>& buff
         return;
     const std::string what = describe(*dispatch.kernel) + ", indirect group counts";
     if (range.buffer >= buffers.size() || !buffers[range.buffer])
-        refuse(ErrorCode::bad_input, what + ": buffer number " + number(range.buffer) + " is not one of the "
-                                         + number(buffers.size()) + " buffers");
+        refuse(ErrorCode::bad_input, what + ": buffer number " + number(range.buffer) +
+                                         " is not one of the " + number(buffers.size()) + " buffers");
     check_inside(what, {kNoBuffer, range.offset, kGroupCountBytes}, buffers[range.buffer]->bytes());
     check_alignment(ErrorCode::bad_input, what, range.offset, 4);
 }
@@ -216,9 +218,9 @@ void check_indirect(const Dispatch& dispatch, const std::vector<BufferPtr>& buff
 void check_limits(const RecordingDesc& desc, const DeviceInfo& info)
 {
     if (desc.barrier_before.size() != desc.dispatches.size())
-        refuse(ErrorCode::bad_input, "a list of " + number(desc.dispatches.size()) + " dispatches came with "
-                                         + number(desc.barrier_before.size())
-                                         + " barrier flags: there must be one flag a dispatch");
+        refuse(ErrorCode::bad_input, "a list of " + number(desc.dispatches.size()) +
+                                         " dispatches came with " + number(desc.barrier_before.size()) +
+                                         " barrier flags: there must be one flag a dispatch");
     const KernelInfo* checked = nullptr; // runs of one kernel are common
     for (const Dispatch& dispatch : desc.dispatches)
     {

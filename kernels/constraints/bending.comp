@@ -16,8 +16,8 @@
 
 PARAMS
 {
-    uint first;           // first constraint of the colour, or first colour in the tail variant
-    uint count;           // constraints, or colours in the tail variant
+    uint first;           // first constraint of the colour; in the tail variant the table's first range
+    uint count;           // constraints of the colour; unused in the tail variant
     uint first_iteration; // 1: the multiplier starts at zero
     uint report;          // 1: count degenerate hinges
 };
@@ -28,7 +28,8 @@ READ(3, StepValues, step_values);
 COUNTERS(4, events);
 #if TAIL
 GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
-READ(5, uint, colour_start);   // colours + 1 indices of constraints
+READ(5, uint, table);          // two words a group, {begin, end}: table[c] for c = begin..end are the
+                               // first constraints of its colours, and the end of the last
 #else
 UPDATE(2, rvec4, delta);
 #endif
@@ -98,13 +99,16 @@ void project(uint k)
 }
 
 #if TAIL
-// Small colours one after another in one group: the same sums in the same order as one dispatch each.
+// One group a run of small colours, or a small body: its colours one after another, the same sums in the
+// same order as one dispatch a colour.
 GROUP_KERNEL(64)
 {
-    for (uint colour = 0u; colour < count; ++colour)
+    uint begin = table[first + 2u * group];
+    uint end = table[first + 2u * group + 1u];
+    for (uint colour = begin; colour < end; ++colour)
     {
         PHASE_BEGIN
-        for (uint k = colour_start[first + colour] + lane; k < colour_start[first + colour + 1u]; k += 64u)
+        for (uint k = table[colour] + lane; k < table[colour + 1u]; k += 64u)
             project(k);
         PHASE_END
     }

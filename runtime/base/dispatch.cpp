@@ -160,8 +160,8 @@ bool conflict(const Touch& a, const Touch& b)
 {
     if (a.range.buffer != b.range.buffer || a.range.bytes == 0 || b.range.bytes == 0)
         return false;
-    const bool apart = a.range.offset + a.range.bytes <= b.range.offset
-                    || b.range.offset + b.range.bytes <= a.range.offset;
+    const bool apart =
+        a.range.offset + a.range.bytes <= b.range.offset || b.range.offset + b.range.bytes <= a.range.offset;
     const bool both_read = a.reads && !a.writes && b.reads && !b.writes;
     const bool both_count = a.counts && b.counts;
     return !apart && !both_read && !both_count;
@@ -169,14 +169,14 @@ bool conflict(const Touch& a, const Touch& b)
 
 std::string describe(std::size_t index, const Dispatch& dispatch, const Touch& touch)
 {
-    const char* verb = touch.counts                   ? "counts in"
-                     : touch.reads && touch.writes    ? "updates"
-                     : touch.writes                   ? "writes"
-                                                      : "reads";
+    const char* verb = touch.counts                  ? "counts in"
+                       : touch.reads && touch.writes ? "updates"
+                       : touch.writes                ? "writes"
+                                                     : "reads";
     const std::uint64_t end = touch.range.offset + touch.range.bytes;
-    return "dispatch " + std::to_string(index) + " (" + std::string(dispatch.kernel->name) + ") " + verb + " "
-         + std::string(touch.binding) + " [bytes " + std::to_string(touch.range.offset) + " to "
-         + std::to_string(end) + "]";
+    return "dispatch " + std::to_string(index) + " (" + std::string(dispatch.kernel->name) + ") " + verb +
+           " " + std::string(touch.binding) + " [bytes " + std::to_string(touch.range.offset) + " to " +
+           std::to_string(end) + "]";
 }
 
 Hazard make_hazard(std::span<const Dispatch> list, std::size_t i, const Touch& a, std::size_t j,
@@ -185,14 +185,15 @@ Hazard make_hazard(std::span<const Dispatch> list, std::size_t i, const Touch& a
     const std::uint64_t begin = std::max(a.range.offset, b.range.offset);
     const std::uint64_t end = std::min(a.range.offset + a.range.bytes, b.range.offset + b.range.bytes);
     return {i, j, a.range.buffer,
-            describe(i, list[i], a) + " and " + describe(j, list[j], b) + " of buffer "
-                + std::to_string(a.range.buffer) + " with no barrier between them, and bytes "
-                + std::to_string(begin) + " to " + std::to_string(end) + " are shared"};
+            describe(i, list[i], a) + " and " + describe(j, list[j], b) + " of buffer " +
+                std::to_string(a.range.buffer) + " with no barrier between them, and bytes " +
+                std::to_string(begin) + " to " + std::to_string(end) + " are shared"};
 }
 
 } // namespace
 
-std::vector<Hazard> find_hazards(std::span<const Dispatch> dispatches, const std::vector<bool>& barrier_before)
+std::vector<Hazard> find_hazards(std::span<const Dispatch> dispatches,
+                                 const std::vector<bool>& barrier_before)
 {
     assert(barrier_before.size() == dispatches.size());
     std::vector<Hazard> hazards;

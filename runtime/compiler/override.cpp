@@ -20,13 +20,14 @@ fs::path find_text(const fs::path& root, std::string_view name)
         if (it->path().filename() != wanted)
             continue;
         if (!found.empty())
-            throw Error(ErrorCode::kernel_compilation, "TAUT_KERNEL_DIR holds two kernels called " + wanted + ": " +
-                                                           found.string() + " and " + it->path().string() +
-                                                           "; keep one of them");
+            throw Error(ErrorCode::kernel_compilation, "TAUT_KERNEL_DIR holds two kernels called " + wanted +
+                                                           ": " + found.string() + " and " +
+                                                           it->path().string() + "; keep one of them");
         found = it->path();
     }
     if (error)
-        throw Error(ErrorCode::io, "TAUT_KERNEL_DIR=" + root.string() + " cannot be searched: " + error.message());
+        throw Error(ErrorCode::io,
+                    "TAUT_KERNEL_DIR=" + root.string() + " cannot be searched: " + error.message());
     return found;
 }
 
@@ -47,7 +48,8 @@ KernelSource load(const fs::path& path, const fs::path& root, const KernelInfo& 
             return source;
         }
     throw Error(ErrorCode::kernel_compilation, path.string() + " has no line \"//! variant " +
-                                                   std::string(kernel.variant) + " ...\", which this recording needs");
+                                                   std::string(kernel.variant) +
+                                                   " ...\", which this recording needs");
 }
 
 bool same(const BindingInfo& a, const BindingInfo& b)
@@ -71,7 +73,8 @@ std::string difference(std::span<const Entry> built, std::span<const Entry> edit
         if (i >= built.size())
             return number + " (" + std::string(edited[i].name) + ") is new";
         if (!same(built[i], edited[i]))
-            return number + " is " + std::string(edited[i].name) + ", not the same " + std::string(built[i].name) +
+            return number + " is " + std::string(edited[i].name) + ", not the same " +
+                   std::string(built[i].name) +
                    " as the host uses (name, type, access, size and place must agree)";
     }
     return {};
@@ -89,8 +92,8 @@ std::string difference(const KernelInfo& built, const KernelInfo& edited)
                std::to_string(built.param_bytes);
     if (built.group_kernel != edited.group_kernel || built.group_size != edited.group_size)
         return "the group has " + std::to_string(edited.group_size) + " invocations" +
-               (edited.group_kernel ? " (GROUP_KERNEL)" : " (KERNEL)") + ", not " + std::to_string(built.group_size) +
-               (built.group_kernel ? " (GROUP_KERNEL)" : " (KERNEL)");
+               (edited.group_kernel ? " (GROUP_KERNEL)" : " (KERNEL)") + ", not " +
+               std::to_string(built.group_size) + (built.group_kernel ? " (GROUP_KERNEL)" : " (KERNEL)");
     return {};
 }
 
@@ -104,14 +107,15 @@ std::shared_ptr<const CompiledKernel> kernel_override(const KernelInfo& kernel)
     const fs::path root = variable;
     std::error_code ignored;
     if (!fs::is_directory(root, ignored))
-        throw Error(ErrorCode::io, "TAUT_KERNEL_DIR=" + root.string() + " is not a folder; unset it or name one");
+        throw Error(ErrorCode::io,
+                    "TAUT_KERNEL_DIR=" + root.string() + " is not a folder; unset it or name one");
     const fs::path path = find_text(root, kernel.name);
     if (path.empty())
         return nullptr;
     std::shared_ptr<const CompiledKernel> edited = compile_kernel(load(path, root, kernel));
     if (const std::string text = difference(kernel, edited->info); !text.empty())
-        throw Error(ErrorCode::kernel_compilation,
-                    path.string() + " does not fit the host code: " + text + "; rebuild to change an interface");
+        throw Error(ErrorCode::kernel_compilation, path.string() + " does not fit the host code: " + text +
+                                                       "; rebuild to change an interface");
     return edited;
 }
 

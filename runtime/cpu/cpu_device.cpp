@@ -75,11 +75,13 @@ public:
     BufferPtr make_buffer(std::uint64_t bytes, std::string_view label) override
     {
         if (bytes == 0)
-            throw Error(ErrorCode::bad_input, "buffer \"" + std::string(label) + "\" has 0 bytes: a buffer needs at least 1");
+            throw Error(ErrorCode::bad_input,
+                        "buffer \"" + std::string(label) + "\" has 0 bytes: a buffer needs at least 1");
         if (bytes > limits().max_buffer_bytes)
-            throw Error(ErrorCode::limit, "buffer \"" + std::string(label) + "\" of " + std::to_string(bytes)
-                                              + " bytes exceeds the limit of this device, "
-                                              + std::to_string(limits().max_buffer_bytes) + " bytes");
+            throw Error(ErrorCode::limit, "buffer \"" + std::string(label) + "\" of " +
+                                              std::to_string(bytes) +
+                                              " bytes exceeds the limit of this device, " +
+                                              std::to_string(limits().max_buffer_bytes) + " bytes");
         return std::make_shared<cpu::CpuBuffer>(bytes, label, engine_->stats);
     }
 
@@ -124,15 +126,18 @@ public:
     }
 
 private:
-    std::byte* address(const BufferPtr& buffer, std::uint64_t offset, std::uint64_t bytes, const char* verb) const
+    std::byte* address(const BufferPtr& buffer, std::uint64_t offset, std::uint64_t bytes,
+                       const char* verb) const
     {
         const auto* mine = dynamic_cast<const cpu::CpuBuffer*>(buffer.get());
         if (!mine || mine->owner() != engine_->stats.get())
-            throw Error(ErrorCode::bad_input, std::string("cannot ") + verb + ": the buffer was not made by this device");
+            throw Error(ErrorCode::bad_input,
+                        std::string("cannot ") + verb + ": the buffer was not made by this device");
         if (offset > mine->bytes() || bytes > mine->bytes() - offset)
-            throw Error(ErrorCode::bad_input, std::string("cannot ") + verb + " " + std::to_string(bytes)
-                                                  + " bytes at byte " + std::to_string(offset) + " of a buffer of "
-                                                  + std::to_string(mine->bytes()) + " bytes");
+            throw Error(ErrorCode::bad_input, std::string("cannot ") + verb + " " + std::to_string(bytes) +
+                                                  " bytes at byte " + std::to_string(offset) +
+                                                  " of a buffer of " + std::to_string(mine->bytes()) +
+                                                  " bytes");
         return mine->data() + offset;
     }
 
@@ -155,8 +160,8 @@ DeviceInfo cpu_info(CpuMode mode, unsigned threads)
 std::shared_ptr<Device> open_cpu(CpuMode mode, const OpenOptions& options)
 {
     if (options.threads > kMaxThreads)
-        throw Error(ErrorCode::bad_input, "threads is " + std::to_string(options.threads) + ": use 0 (all cores) to "
-                                              + std::to_string(kMaxThreads));
+        throw Error(ErrorCode::bad_input, "threads is " + std::to_string(options.threads) +
+                                              ": use 0 (all cores) to " + std::to_string(kMaxThreads));
     return std::make_shared<CpuDevice>(mode, options);
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kWorthSharing = 8'000; ///< ns of work between two barriers below which nobody is asked
-constexpr double kSmallestChunk = 2'000; ///< ns; claiming a chunk costs about 0.1 us when contended
+constexpr double kWorthSharing = 8'000;       ///< ns of work between two barriers below which nobody is asked
+constexpr double kSmallestChunk = 2'000;      ///< ns; claiming a chunk costs about 0.1 us when contended
 constexpr std::uint32_t kLeastElements = 512; ///< of a chunk of cheap elements
 constexpr std::uint32_t kChunksPerThread = 4;
 constexpr std::uint32_t kChunkMultiple = 64; ///< elements; keeps the cuts off shared cache lines
@@ -90,8 +90,9 @@ public:
 
     void run_chunk(std::uint32_t chunk, bool own) override
     {
-        const auto after = std::upper_bound(shares_.begin(), shares_.end(), chunk,
-                                            [](std::uint32_t c, const Share& s) { return c < s.first_chunk; });
+        const auto after =
+            std::upper_bound(shares_.begin(), shares_.end(), chunk,
+                             [](std::uint32_t c, const Share& s) { return c < s.first_chunk; });
         const Share& share = *(after - 1);
         const std::uint32_t begin = (chunk - share.first_chunk) * share.chunk;
         const std::uint32_t end = share.elements - begin > share.chunk ? begin + share.chunk : share.elements;
@@ -129,7 +130,8 @@ private:
             return share.pass->run(begin, end);
         const Clock::time_point start = Clock::now();
         share.pass->run(begin, end);
-        share.pass->cost.sample(std::chrono::duration<double, std::nano>(Clock::now() - start).count(), end - begin);
+        share.pass->cost.sample(std::chrono::duration<double, std::nano>(Clock::now() - start).count(),
+                                end - begin);
     }
 
     std::vector<Share> shares_;

@@ -22,7 +22,10 @@ constexpr std::chrono::microseconds kSpin{15};
 constexpr unsigned kField = 24;
 constexpr std::uint64_t kFieldMask = (std::uint64_t{1} << kField) - 1;
 
-std::uint32_t front_of(std::uint64_t ticket) { return static_cast<std::uint32_t>(ticket >> kField & kFieldMask); }
+std::uint32_t front_of(std::uint64_t ticket)
+{
+    return static_cast<std::uint32_t>(ticket >> kField & kFieldMask);
+}
 std::uint32_t back_of(std::uint64_t ticket) { return static_cast<std::uint32_t>(ticket & kFieldMask); }
 
 void relax()

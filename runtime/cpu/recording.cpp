@@ -18,7 +18,8 @@ void check_owner(const BufferPtr& buffer, std::size_t index, const Stats* owner)
 } // namespace
 
 CpuRecording::CpuRecording(RecordingDesc desc, std::shared_ptr<Engine> engine)
-    : engine_(std::move(engine)), buffers_(std::move(desc.buffers))
+    : engine_(std::move(engine)),
+      buffers_(std::move(desc.buffers))
 {
     dispatches_ = std::move(desc.dispatches);
     barrier_before_ = std::move(desc.barrier_before);
@@ -43,9 +44,10 @@ Pass CpuRecording::make_pass(const Dispatch& dispatch) const
 {
     const KernelInfo& kernel = *dispatch.kernel;
     if (!kernel.native)
-        throw Error(ErrorCode::unsupported,
-                    "kernel \"" + std::string(kernel.name)
-                        + "\" has no native code, since it was compiled at run time: use a vulkan or opengl device");
+        throw Error(
+            ErrorCode::unsupported,
+            "kernel \"" + std::string(kernel.name) +
+                "\" has no native code, since it was compiled at run time: use a vulkan or opengl device");
     assert(dispatch.bindings.size() <= kMaxBindings);
     Pass pass;
     pass.native = kernel.native;

@@ -64,6 +64,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Runner> make_shuffled_runner(std::uint64_t seed) { return std::make_unique<ShuffledRunner>(seed); }
+std::unique_ptr<Runner> make_shuffled_runner(std::uint64_t seed)
+{
+    return std::make_unique<ShuffledRunner>(seed);
+}
 
 } // namespace taut::cpu

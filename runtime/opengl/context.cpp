@@ -198,9 +198,8 @@ void Context::lose(const std::string& why)
 void Context::check(std::string_view doing)
 {
     const GLenum first = gl_.GetError();
-    GLenum next = first;
-    for (int i = 0; i < 16 && next != GL_NO_ERROR; ++i) // a lost context may report for ever
-        next = gl_.GetError();
+    if (first != GL_NO_ERROR)
+        forget_errors();
     if (gl_.GetGraphicsResetStatus() != GL_NO_ERROR)
         lose("the driver reset the device while " + std::string(doing));
     if (first == GL_OUT_OF_MEMORY)
@@ -208,6 +207,13 @@ void Context::check(std::string_view doing)
                                                   ": make the scene smaller or choose another device");
     if (first != GL_NO_ERROR)
         lose(std::string(error_name(first)) + " while " + std::string(doing));
+}
+
+void Context::forget_errors()
+{
+    int tries = 16; // a lost context may report for ever
+    while (gl_.GetError() != GL_NO_ERROR && --tries > 0)
+        continue;
 }
 
 void Context::submit()

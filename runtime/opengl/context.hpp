@@ -46,6 +46,9 @@ public:
     /// Error{device_lost}; after the latter every use throws. `doing` completes "while ...".
     void check(std::string_view doing);
 
+    /// Drops the driver's notes of errors that the caller has already reported.
+    void forget_errors();
+
     /// Ends a submission: later wait() calls wait for everything given so far.
     void submit();
 

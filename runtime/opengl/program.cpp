@@ -43,6 +43,7 @@ Program::Program(std::shared_ptr<Context> context, const KernelInfo& kernel, boo
     {
         gl.DeleteShader(shader);
         gl.DeleteProgram(id_);
+        context_->forget_errors(); // what a bad kernel leaves behind is no failure of the device
         throw;
     }
     gl.DeleteShader(shader);

@@ -1,4 +1,5 @@
 #include "taut/runtime/vulkan/context.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 namespace taut::vulkan {
 namespace {
@@ -6,17 +7,19 @@ namespace {
 // vkCmdFillBuffer works in words of 4 bytes.
 std::uint64_t round_up(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
 
-constexpr VkBufferUsageFlags kUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
 
 } // namespace
 
 VulkanBuffer::VulkanBuffer(std::shared_ptr<Context> owner, std::uint64_t bytes, std::string_view label)
-    : Buffer(bytes), context(std::move(owner))
+    : Buffer(bytes),
+      context(std::move(owner))
 {
     context->health.require_alive();
-    VkBufferCreateInfo info = {VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    auto info = start<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = round_up(bytes);
     info.usage = kUsage;
     const VolkDeviceTable& vk = context->vk;
@@ -26,8 +29,9 @@ VulkanBuffer::VulkanBuffer(std::shared_ptr<Context> owner, std::uint64_t bytes, 
         VkMemoryRequirements needs = {};
         vk.vkGetBufferMemoryRequirements(context->device, handle, &needs);
         allocation_ = context->memory->allocate(needs);
-        context->health.check(vk.vkBindBufferMemory(context->device, handle, allocation_.memory, allocation_.offset),
-                              "vkBindBufferMemory");
+        context->health.check(
+            vk.vkBindBufferMemory(context->device, handle, allocation_.memory, allocation_.offset),
+            "vkBindBufferMemory");
         context->name_object(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(handle), label);
         context->transfer->clear(handle);
     }

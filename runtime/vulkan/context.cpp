@@ -1,6 +1,7 @@
 #include "taut/runtime/vulkan/context.hpp"
 
 #include "taut/runtime/vulkan/pipeline_cache.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 namespace taut::vulkan {
 
@@ -35,14 +36,14 @@ std::shared_ptr<Context> Context::borrow(std::shared_ptr<Instance> instance, Phy
 void Context::open_device()
 {
     const float priority = 1.0f;
-    VkDeviceQueueCreateInfo queue_info = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    auto queue_info = start<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue_info.queueFamilyIndex = physical.queue_family;
     queue_info.queueCount = 1;
     queue_info.pQueuePriorities = &priority;
     VkPhysicalDeviceFeatures features = {};
     features.shaderFloat64 = physical.info.limits.float64 ? VK_TRUE : VK_FALSE;
     const char* const portability = "VK_KHR_portability_subset"; // must be enabled where it exists
-    VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    auto info = start<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     info.pEnabledFeatures = &features;
@@ -55,9 +56,10 @@ void Context::open_device()
 
 void Context::open_cache()
 {
-    const std::vector<std::byte> contents =
-        cache_path_.empty() ? std::vector<std::byte>{} : load_pipeline_cache(cache_path_, physical.properties);
-    VkPipelineCacheCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    const std::vector<std::byte> contents = cache_path_.empty()
+                                                ? std::vector<std::byte>{}
+                                                : load_pipeline_cache(cache_path_, physical.properties);
+    auto info = start<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
     info.initialDataSize = contents.size();
     info.pInitialData = contents.data();
     health.check(vk.vkCreatePipelineCache(device, &info, nullptr, &cache), "vkCreatePipelineCache");
@@ -71,7 +73,8 @@ void Context::build(VkQueue handle, std::mutex* host_mutex)
     memory = std::make_unique<Memory>(vk, device, physical.memory, health);
     queue = std::make_unique<Queue>(vk, device, handle, host_mutex, health);
     transfer = std::make_unique<Transfer>(vk, device, physical.memory, physical.queue_family, *queue, health);
-    pipelines = std::make_unique<Pipelines>(vk, device, cache, limits.max_param_bytes, limits.float64, health);
+    pipelines =
+        std::make_unique<Pipelines>(vk, device, cache, limits.max_param_bytes, limits.float64, health);
 }
 
 Context::~Context()
@@ -91,7 +94,7 @@ void Context::name_object(VkObjectType type, std::uint64_t object, std::string_v
     if (!instance->log || instance->table.SetDebugUtilsObjectNameEXT == nullptr || name.empty())
         return;
     const std::string text(name);
-    VkDebugUtilsObjectNameInfoEXT info = {VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    auto info = start<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
     info.objectType = type;
     info.objectHandle = object;
     info.pObjectName = text.c_str();
@@ -112,8 +115,7 @@ void Context::save_cache() noexcept
             save_pipeline_cache(cache_path_, physical.properties, std::span(contents).first(bytes));
     }
     catch (const std::bad_alloc&)
-    {
-    }
+    {}
 }
 
 } // namespace taut::vulkan

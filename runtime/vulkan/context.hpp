@@ -1,6 +1,7 @@
 #pragma once
-// Internal to runtime/vulkan: one VkDevice and everything that hangs on it. The executor is built on this, and
-// so is whatever draws with a graphics pipeline: device, function table, queue, memory, commands that run once.
+// Internal to runtime/vulkan: one VkDevice and everything that hangs on it. The executor is built on this,
+// and so is whatever draws with a graphics pipeline: device, function table, queue, memory, commands that run
+// once.
 
 #include "taut/runtime/device.hpp"
 #include "taut/runtime/vulkan/instance.hpp"

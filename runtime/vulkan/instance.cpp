@@ -1,6 +1,7 @@
 #include "taut/runtime/vulkan/instance.hpp"
 
 #include "taut/runtime/vulkan/result.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 #include "taut/runtime/vulkan/volk.hpp"
 
 #include <algorithm>
@@ -11,7 +12,8 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kPortability = "VK_KHR_portability_enumeration";
-constexpr VkInstanceCreateFlags kEnumeratePortability = 0x1; // VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR
+constexpr VkInstanceCreateFlags kEnumeratePortability =
+    0x1; // VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR
 constexpr std::size_t kKeptTexts = 1000;
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
@@ -24,7 +26,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 
 VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log)
 {
-    VkDebugUtilsMessengerCreateInfoEXT info = {VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    auto info =
+        start<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     // General messages are the loader's remarks about the machine, not about our calls.
@@ -44,10 +47,10 @@ Function find(PFN_vkGetInstanceProcAddr loader, VkInstance instance, const char*
 void load(Instance& instance)
 {
     InstanceTable& t = instance.table;
-#define TAUT_LOAD(name)                                                                        \
-    t.name = find<PFN_vk##name>(instance.loader, instance.handle, "vk" #name);                 \
-    if (t.name == nullptr)                                                                     \
-        throw Error(ErrorCode::bad_input, "the Vulkan loader gives no function vk" #name       \
+#define TAUT_LOAD(name)                                                                                      \
+    t.name = find<PFN_vk##name>(instance.loader, instance.handle, "vk" #name);                               \
+    if (t.name == nullptr)                                                                                   \
+        throw Error(ErrorCode::bad_input, "the Vulkan loader gives no function vk" #name                     \
                                           " for this instance; it must be of Vulkan 1.1 or later");
     TAUT_INSTANCE_FUNCTIONS(TAUT_LOAD)
 #undef TAUT_LOAD
@@ -55,8 +58,8 @@ void load(Instance& instance)
         instance.loader, instance.handle, "vkCreateDebugUtilsMessengerEXT");
     t.DestroyDebugUtilsMessengerEXT = find<PFN_vkDestroyDebugUtilsMessengerEXT>(
         instance.loader, instance.handle, "vkDestroyDebugUtilsMessengerEXT");
-    t.SetDebugUtilsObjectNameEXT = find<PFN_vkSetDebugUtilsObjectNameEXT>(
-        instance.loader, instance.handle, "vkSetDebugUtilsObjectNameEXT");
+    t.SetDebugUtilsObjectNameEXT = find<PFN_vkSetDebugUtilsObjectNameEXT>(instance.loader, instance.handle,
+                                                                          "vkSetDebugUtilsObjectNameEXT");
 }
 
 bool has_extension(PFN_vkGetInstanceProcAddr loader, const char* layer, const char* name)
@@ -94,10 +97,12 @@ void require_validation(PFN_vkGetInstanceProcAddr loader)
 
 std::uint32_t instance_version(PFN_vkGetInstanceProcAddr loader)
 {
-    const auto ask = find<PFN_vkEnumerateInstanceVersion>(loader, VK_NULL_HANDLE, "vkEnumerateInstanceVersion");
+    const auto ask =
+        find<PFN_vkEnumerateInstanceVersion>(loader, VK_NULL_HANDLE, "vkEnumerateInstanceVersion");
     std::uint32_t version = VK_API_VERSION_1_0;
     if (ask == nullptr || ask(&version) != VK_SUCCESS || version < VK_API_VERSION_1_1)
-        throw Error(ErrorCode::no_device, "the Vulkan loader is older than Vulkan 1.1; install a newer libvulkan1");
+        throw Error(ErrorCode::no_device,
+                    "the Vulkan loader is older than Vulkan 1.1; install a newer libvulkan1");
     return version;
 }
 
@@ -137,9 +142,10 @@ struct Wish
         info.ppEnabledLayerNames = &layer;
     }
 
-    VkApplicationInfo app = {VK_STRUCTURE_TYPE_APPLICATION_INFO};
-    VkInstanceCreateInfo info = {VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
-    VkValidationFeaturesEXT features = {VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    VkApplicationInfo app = start<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
+    VkInstanceCreateInfo info = start<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
+    VkValidationFeaturesEXT features =
+        start<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
     VkDebugUtilsMessengerCreateInfoEXT messenger = {};
     VkValidationFeatureEnableEXT synchronization =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -174,8 +180,9 @@ std::shared_ptr<Instance> Instance::create(bool validation)
     auto instance = std::make_shared<Instance>();
     instance->loader = system_loader();
     if (instance->loader == nullptr)
-        throw Error(ErrorCode::no_device,
-                    "there is no Vulkan loader (libvulkan.so.1); install the package libvulkan1 and a driver");
+        throw Error(
+            ErrorCode::no_device,
+            "there is no Vulkan loader (libvulkan.so.1); install the package libvulkan1 and a driver");
     if (validation)
     {
         require_validation(instance->loader);

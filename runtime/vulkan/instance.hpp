@@ -29,17 +29,17 @@ private:
 };
 
 // Instance functions, loaded for each instance: volk has one global pointer for all of them.
-#define TAUT_INSTANCE_FUNCTIONS(X)             \
-    X(DestroyInstance)                         \
-    X(EnumeratePhysicalDevices)                \
-    X(GetPhysicalDeviceProperties)             \
-    X(GetPhysicalDeviceProperties2)            \
-    X(GetPhysicalDeviceFeatures)               \
-    X(GetPhysicalDeviceMemoryProperties)       \
-    X(GetPhysicalDeviceQueueFamilyProperties)  \
-    X(GetPhysicalDeviceFormatProperties)       \
-    X(EnumerateDeviceExtensionProperties)      \
-    X(CreateDevice)                            \
+#define TAUT_INSTANCE_FUNCTIONS(X)                                                                           \
+    X(DestroyInstance)                                                                                       \
+    X(EnumeratePhysicalDevices)                                                                              \
+    X(GetPhysicalDeviceProperties)                                                                           \
+    X(GetPhysicalDeviceProperties2)                                                                          \
+    X(GetPhysicalDeviceFeatures)                                                                             \
+    X(GetPhysicalDeviceMemoryProperties)                                                                     \
+    X(GetPhysicalDeviceQueueFamilyProperties)                                                                \
+    X(GetPhysicalDeviceFormatProperties)                                                                     \
+    X(EnumerateDeviceExtensionProperties)                                                                    \
+    X(CreateDevice)                                                                                          \
     X(GetDeviceProcAddr)
 
 struct InstanceTable

@@ -11,13 +11,15 @@ namespace {
 void require(bool given, const char* field)
 {
     if (!given)
-        throw Error(ErrorCode::bad_input, std::string("VulkanContext::") + field +
-                                              " is null; fill it with the handle of the device that Taut is to use");
+        throw Error(ErrorCode::bad_input,
+                    std::string("VulkanContext::") + field +
+                        " is null; fill it with the handle of the device that Taut is to use");
 }
 
 std::string version_text(std::uint32_t version)
 {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version));
 }
 
 void require_version(std::uint32_t version, const char* what)
@@ -49,8 +51,9 @@ void use_family(const vulkan::Instance& instance, vulkan::PhysicalDevice& device
         throw Error(ErrorCode::bad_input, "VulkanContext::queue_family is " + std::to_string(index) +
                                               ", the device has " + std::to_string(count) + " families");
     if ((families[index].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
-        throw Error(ErrorCode::unsupported, "VulkanContext::queue_family " + std::to_string(index) +
-                                                " has no compute; take a queue of a family with VK_QUEUE_COMPUTE_BIT");
+        throw Error(ErrorCode::unsupported,
+                    "VulkanContext::queue_family " + std::to_string(index) +
+                        " has no compute; take a queue of a family with VK_QUEUE_COMPUTE_BIT");
     device.queue_family = index;
     device.family = families[index];
 }
@@ -73,26 +76,32 @@ std::shared_ptr<Device> adopt(const VulkanContext& host)
     require_version(device.properties.apiVersion, "VulkanContext::physical_device");
     use_family(*instance, device, host.queue_family);
     if (host.shader_float64 && !device.info.limits.float64)
-        throw Error(ErrorCode::unsupported, "VulkanContext::shader_float64 is true, but " + device.info.name +
-                                                " has no 64-bit floats; set it to what the device was created with");
+        throw Error(ErrorCode::unsupported,
+                    "VulkanContext::shader_float64 is true, but " + device.info.name +
+                        " has no 64-bit floats; set it to what the device was created with");
     device.info.limits.float64 = host.shader_float64;
     device.info.selector = "adopted";
     DeviceInfo info = device.info;
-    return vulkan::make_device(vulkan::Context::borrow(std::move(instance), std::move(device), host), std::move(info));
+    return vulkan::make_device(vulkan::Context::borrow(std::move(instance), std::move(device), host),
+                               std::move(info));
 }
 
 void record_into(Recording& recording, VkCommandBuffer commands)
 {
     auto* const own = dynamic_cast<vulkan::VulkanRecording*>(&recording);
     if (own == nullptr)
-        throw Error(ErrorCode::unsupported, "only a recording of a Vulkan device can be recorded into a Vulkan "
-                                            "command buffer; compile it on one");
+        throw Error(ErrorCode::unsupported,
+                    "only a recording of a Vulkan device can be recorded into a Vulkan "
+                    "command buffer; compile it on one");
     if (commands == VK_NULL_HANDLE)
         throw Error(ErrorCode::bad_input, "the command buffer is null; give one in the recording state");
     own->record_into(commands);
 }
 
-void record_into_vulkan(Recording& recording, VkCommandBuffer_T* commands) { record_into(recording, commands); }
+void record_into_vulkan(Recording& recording, VkCommandBuffer_T* commands)
+{
+    record_into(recording, commands);
+}
 
 VkBuffer vulkan_buffer(const BufferPtr& buffer, VkDeviceSize* offset)
 {

@@ -15,7 +15,7 @@ namespace taut {
 /// What a host must enable before it hands its device over.
 struct VulkanRequirements
 {
-    std::uint32_t api_version = VK_API_VERSION_1_1; ///< of the instance and of the device, at least
+    std::uint32_t api_version = VK_API_VERSION_1_1;  ///< of the instance and of the device, at least
     VkQueueFlags queue_flags = VK_QUEUE_COMPUTE_BIT; ///< of the queue's family, at least
     VkPhysicalDeviceFeatures features = {};          ///< each VK_TRUE must be enabled at device creation
     std::vector<const char*> instance_extensions;    ///< none so far

@@ -1,4 +1,5 @@
 #include "taut/runtime/vulkan/memory.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -35,9 +36,12 @@ int find_memory_type(const VkPhysicalDeviceMemoryProperties& memory, std::uint32
 
 Memory::Memory(const VolkDeviceTable& vk, VkDevice device, const VkPhysicalDeviceMemoryProperties& properties,
                Health& health)
-    : vk_(vk), device_(device), properties_(properties), health_(health), next_bytes_(kFirstBlock)
-{
-}
+    : vk_(vk),
+      device_(device),
+      properties_(properties),
+      health_(health),
+      next_bytes_(kFirstBlock)
+{}
 
 Memory::~Memory()
 {
@@ -47,7 +51,7 @@ Memory::~Memory()
 
 Memory::Block& Memory::add_block(std::uint32_t type, VkDeviceSize bytes)
 {
-    VkMemoryAllocateInfo info = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    auto info = start<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     info.allocationSize = bytes;
     info.memoryTypeIndex = type;
     auto block = std::make_unique<Block>();
@@ -81,7 +85,8 @@ bool Memory::take(Block& block, const VkMemoryRequirements& requirements, Alloca
 Allocation Memory::allocate(const VkMemoryRequirements& requirements)
 {
     const std::lock_guard lock(mutex_);
-    const int type = find_memory_type(properties_, requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    const int type =
+        find_memory_type(properties_, requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     if (type < 0)
         throw Error(ErrorCode::out_of_memory, "the Vulkan device has no memory type for storage buffers");
     Allocation out;
@@ -90,7 +95,8 @@ Allocation Memory::allocate(const VkMemoryRequirements& requirements)
             return out;
     // Beyond half a block, sharing would waste more than it saves.
     const bool own_block = requirements.size > kLargestBlock / 2;
-    const VkDeviceSize bytes = own_block ? requirements.size : std::max(next_bytes_, align_up(requirements.size, kFirstBlock));
+    const VkDeviceSize bytes =
+        own_block ? requirements.size : std::max(next_bytes_, align_up(requirements.size, kFirstBlock));
     Block& block = add_block(static_cast<std::uint32_t>(type), bytes);
     if (!own_block)
         next_bytes_ = std::min(kLargestBlock, next_bytes_ * 2);

@@ -2,6 +2,7 @@
 
 #include "taut/runtime/vulkan/instance.hpp"
 #include "taut/runtime/vulkan/result.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -28,8 +29,9 @@ bool contains(const std::vector<VkExtensionProperties>& all, const char* name)
 
 std::string version_text(std::uint32_t version)
 {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) +
-           "." + std::to_string(VK_API_VERSION_PATCH(version));
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
 }
 
 DeviceLimits limits_of(const VkPhysicalDeviceLimits& l, VkDeviceSize largest_allocation, bool float64)
@@ -44,8 +46,8 @@ DeviceLimits limits_of(const VkPhysicalDeviceLimits& l, VkDeviceSize largest_all
     out.max_group_size = std::min(l.maxComputeWorkGroupInvocations, l.maxComputeWorkGroupSize[0]);
     out.max_shared_bytes = l.maxComputeSharedMemorySize;
     out.max_param_bytes = l.maxPushConstantsSize;
-    out.max_bindings = std::min({l.maxPerStageDescriptorStorageBuffers, l.maxDescriptorSetStorageBuffers,
-                                 l.maxPerStageResources});
+    out.max_bindings = std::min(
+        {l.maxPerStageDescriptorStorageBuffers, l.maxDescriptorSetStorageBuffers, l.maxPerStageResources});
     out.float64 = float64;
     return out;
 }
@@ -94,11 +96,14 @@ PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle)
     if (device.properties.apiVersion < VK_API_VERSION_1_1)
         return device;
 
-    VkPhysicalDeviceDriverProperties driver = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-    VkPhysicalDeviceMaintenance3Properties maintenance = {
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
-    VkPhysicalDeviceIDProperties id = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES, &maintenance, {}, {}, {}, 0, 0};
-    VkPhysicalDeviceProperties2 all = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &id, {}};
+    auto driver =
+        start<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
+    auto maintenance = start<VkPhysicalDeviceMaintenance3Properties>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
+    auto id = start<VkPhysicalDeviceIDProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES);
+    auto all = start<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+    all.pNext = &id;
+    id.pNext = &maintenance;
     const bool names_driver = device.properties.apiVersion >= VK_API_VERSION_1_2 ||
                               contains(extensions, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
     if (names_driver)
@@ -123,7 +128,8 @@ PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle)
 std::vector<PhysicalDevice> physical_devices(const Instance& instance)
 {
     std::uint32_t count = 0;
-    check(instance.table.EnumeratePhysicalDevices(instance.handle, &count, nullptr), "vkEnumeratePhysicalDevices");
+    check(instance.table.EnumeratePhysicalDevices(instance.handle, &count, nullptr),
+          "vkEnumeratePhysicalDevices");
     std::vector<VkPhysicalDevice> handles(count);
     check(instance.table.EnumeratePhysicalDevices(instance.handle, &count, handles.data()),
           "vkEnumeratePhysicalDevices");
@@ -132,8 +138,9 @@ std::vector<PhysicalDevice> physical_devices(const Instance& instance)
     {
         PhysicalDevice device = describe(instance, handle);
         const bool known = device.uuid != decltype(device.uuid){} &&
-                           std::any_of(devices.begin(), devices.end(),
-                                       [&](const PhysicalDevice& other) { return other.uuid == device.uuid; });
+                           std::any_of(devices.begin(), devices.end(), [&](const PhysicalDevice& other) {
+                               return other.uuid == device.uuid;
+                           });
         if (device.has_compute && !known)
             devices.push_back(std::move(device));
     }

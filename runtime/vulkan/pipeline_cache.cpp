@@ -89,7 +89,8 @@ bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperti
         const Header header = header_for(device, contents);
         std::ofstream file(temporary, std::ios::binary);
         file.write(reinterpret_cast<const char*>(&header), sizeof(Header));
-        file.write(reinterpret_cast<const char*>(contents.data()), static_cast<std::streamsize>(contents.size()));
+        file.write(reinterpret_cast<const char*>(contents.data()),
+                   static_cast<std::streamsize>(contents.size()));
         file.close();
         std::error_code error;
         if (file)
@@ -99,8 +100,7 @@ bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperti
         std::filesystem::remove(temporary, error);
     }
     catch (...)
-    {
-    }
+    {}
     return false;
 }
 

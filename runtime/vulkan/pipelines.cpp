@@ -1,6 +1,7 @@
 #include "taut/runtime/vulkan/pipelines.hpp"
 
 #include "taut/runtime/compiler/override.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -33,11 +34,15 @@ bool uses_float64(std::span<const std::uint32_t> spirv)
 
 } // namespace
 
-Pipelines::Pipelines(const VolkDeviceTable& vk, VkDevice device, VkPipelineCache cache, std::uint32_t push_bytes,
-                     bool float64, Health& health)
-    : vk_(vk), device_(device), cache_(cache), push_bytes_(push_bytes), float64_(float64), health_(health)
-{
-}
+Pipelines::Pipelines(const VolkDeviceTable& vk, VkDevice device, VkPipelineCache cache,
+                     std::uint32_t push_bytes, bool float64, Health& health)
+    : vk_(vk),
+      device_(device),
+      cache_(cache),
+      push_bytes_(push_bytes),
+      float64_(float64),
+      health_(health)
+{}
 
 Pipelines::~Pipelines()
 {
@@ -61,19 +66,21 @@ const Pipelines::Layout& Pipelines::layout_for(std::uint32_t binding_count)
         bindings[slot] = {slot, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
     if (binding_count > 0 && layout.set == VK_NULL_HANDLE)
     {
-        VkDescriptorSetLayoutCreateInfo info = {VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+        auto info =
+            start<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
         info.bindingCount = binding_count;
         info.pBindings = bindings.data();
         health_.check(vk_.vkCreateDescriptorSetLayout(device_, &info, nullptr, &layout.set),
                       "vkCreateDescriptorSetLayout");
     }
     const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes_};
-    VkPipelineLayoutCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    auto info = start<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
     info.setLayoutCount = binding_count > 0 ? 1 : 0;
     info.pSetLayouts = &layout.set;
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &range;
-    health_.check(vk_.vkCreatePipelineLayout(device_, &info, nullptr, &layout.pipeline), "vkCreatePipelineLayout");
+    health_.check(vk_.vkCreatePipelineLayout(device_, &info, nullptr, &layout.pipeline),
+                  "vkCreatePipelineLayout");
     return layout;
 }
 
@@ -82,23 +89,25 @@ Pipeline Pipelines::make(const KernelInfo& kernel, std::span<const std::uint32_t
     if (spirv.empty())
         throw Error(ErrorCode::bad_input, "kernel " + std::string(kernel.name) + " has no SPIR-V for Vulkan");
     if (!float64_ && uses_float64(spirv))
-        throw Error(ErrorCode::unsupported, "kernel " + std::string(kernel.name) +
-                                                " uses 64-bit floats, which this device does not have or the host "
-                                                "did not enable (shaderFloat64); use precision float");
+        throw Error(ErrorCode::unsupported,
+                    "kernel " + std::string(kernel.name) +
+                        " uses 64-bit floats, which this device does not have or the host "
+                        "did not enable (shaderFloat64); use precision float");
     const Layout& layout = layout_for(static_cast<std::uint32_t>(kernel.bindings.size()));
-    VkShaderModuleCreateInfo module_info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    auto module_info = start<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
     module_info.codeSize = spirv.size_bytes();
     module_info.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
     health_.check(vk_.vkCreateShaderModule(device_, &module_info, nullptr, &module), "vkCreateShaderModule");
-    VkComputePipelineCreateInfo info = {VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    auto info = start<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
     info.layout = layout.pipeline;
     Pipeline pipeline = {VK_NULL_HANDLE, layout.pipeline, layout.set};
-    const VkResult result = vk_.vkCreateComputePipelines(device_, cache_, 1, &info, nullptr, &pipeline.handle);
+    const VkResult result =
+        vk_.vkCreateComputePipelines(device_, cache_, 1, &info, nullptr, &pipeline.handle);
     vk_.vkDestroyShaderModule(device_, module, nullptr);
     health_.check(result, "vkCreateComputePipelines");
     return pipeline;

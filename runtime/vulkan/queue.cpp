@@ -1,13 +1,18 @@
 #include "taut/runtime/vulkan/queue.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 #include <limits>
 
 namespace taut::vulkan {
 
-Queue::Queue(const VolkDeviceTable& vk, VkDevice device, VkQueue handle, std::mutex* host_mutex, Health& health)
-    : vk_(vk), device_(device), handle_(handle), host_mutex_(host_mutex), health_(health)
-{
-}
+Queue::Queue(const VolkDeviceTable& vk, VkDevice device, VkQueue handle, std::mutex* host_mutex,
+             Health& health)
+    : vk_(vk),
+      device_(device),
+      handle_(handle),
+      host_mutex_(host_mutex),
+      health_(health)
+{}
 
 Queue::~Queue()
 {
@@ -21,7 +26,7 @@ VkFence Queue::idle_fence()
 {
     if (idle_.empty())
     {
-        const VkFenceCreateInfo info = {VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+        const auto info = start<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
         VkFence fence = VK_NULL_HANDLE;
         health_.check(vk_.vkCreateFence(device_, &info, nullptr, &fence), "vkCreateFence");
         idle_.push_back(fence);
@@ -34,7 +39,7 @@ std::uint64_t Queue::submit(VkCommandBuffer commands)
     const std::lock_guard lock(mutex_);
     health_.require_alive();
     const VkFence fence = idle_fence();
-    VkSubmitInfo info = {VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    auto info = start<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands;
     {

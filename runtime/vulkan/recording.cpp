@@ -1,6 +1,7 @@
 #include "taut/runtime/vulkan/recording.hpp"
 
 #include "taut/runtime/limits.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 #include <cassert>
 #include <cstring>
@@ -26,7 +27,8 @@ std::string_view key_of(const std::vector<BufferRange>& bindings, std::vector<st
 } // namespace
 
 VulkanRecording::VulkanRecording(std::shared_ptr<Context> context, RecordingDesc desc)
-    : context_(std::move(context)), buffers_(std::move(desc.buffers))
+    : context_(std::move(context)),
+      buffers_(std::move(desc.buffers))
 {
     assert(desc.dispatches.size() == desc.barrier_before.size());
     dispatches_ = std::move(desc.dispatches);
@@ -78,7 +80,7 @@ void VulkanRecording::destroy()
 
 void VulkanRecording::make_pool()
 {
-    VkCommandPoolCreateInfo info = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    auto info = start<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     info.queueFamilyIndex = context_->physical.queue_family;
     context_->health.check(context_->vk.vkCreateCommandPool(context_->device, &info, nullptr, &pool_),
                            "vkCreateCommandPool");
@@ -134,7 +136,8 @@ void VulkanRecording::make_sets()
     write_sets(set_of, first_user);
 }
 
-void VulkanRecording::write_sets(const std::vector<std::size_t>& set_of, const std::vector<std::size_t>& first_user)
+void VulkanRecording::write_sets(const std::vector<std::size_t>& set_of,
+                                 const std::vector<std::size_t>& first_user)
 {
     std::vector<VkDescriptorSetLayout> layouts;
     std::vector<VkDescriptorBufferInfo> ranges;
@@ -149,14 +152,15 @@ void VulkanRecording::write_sets(const std::vector<std::size_t>& set_of, const s
         return;
 
     const VolkDeviceTable& vk = context_->vk;
-    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, static_cast<std::uint32_t>(ranges.size())};
-    VkDescriptorPoolCreateInfo pool = {VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                       static_cast<std::uint32_t>(ranges.size())};
+    auto pool = start<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = static_cast<std::uint32_t>(layouts.size());
     pool.poolSizeCount = 1;
     pool.pPoolSizes = &size;
     context_->health.check(vk.vkCreateDescriptorPool(context_->device, &pool, nullptr, &descriptors_),
                            "vkCreateDescriptorPool");
-    VkDescriptorSetAllocateInfo info = {VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    auto info = start<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     info.descriptorPool = descriptors_;
     info.descriptorSetCount = static_cast<std::uint32_t>(layouts.size());
     info.pSetLayouts = layouts.data();
@@ -173,7 +177,7 @@ void VulkanRecording::write_sets(const std::vector<std::size_t>& set_of, const s
         if (steps_[first_user[s]].pipeline.set_layout == VK_NULL_HANDLE)
             continue;
         sets[s] = allocated[used++];
-        VkWriteDescriptorSet write = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        auto write = start<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         write.dstSet = sets[s];
         // Bindings without gaps, of one type: one write runs over all of them.
         write.descriptorCount = static_cast<std::uint32_t>(dispatches_[first_user[s]].bindings.size());
@@ -182,21 +186,22 @@ void VulkanRecording::write_sets(const std::vector<std::size_t>& set_of, const s
         range += write.descriptorCount;
         writes.push_back(write);
     }
-    vk.vkUpdateDescriptorSets(context_->device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    vk.vkUpdateDescriptorSets(context_->device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                              nullptr);
     for (std::size_t i = 0; i < steps_.size(); ++i)
         steps_[i].set = sets[set_of[i]];
 }
 
 VkCommandBuffer VulkanRecording::begin_commands()
 {
-    VkCommandBufferAllocateInfo info = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    auto info = start<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     info.commandPool = pool_;
     info.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     const VolkDeviceTable& vk = context_->vk;
     context_->health.check(vk.vkAllocateCommandBuffers(context_->device, &info, &commands),
                            "vkAllocateCommandBuffers");
-    const VkCommandBufferBeginInfo begin = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    const auto begin = start<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     context_->health.check(vk.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
     return commands;
 }
@@ -204,26 +209,27 @@ VkCommandBuffer VulkanRecording::begin_commands()
 void VulkanRecording::opening_barrier(VkCommandBuffer commands) const
 {
     // Whatever the queue did before: the last replay, an upload, a host's drawing.
-    VkMemoryBarrier memory = {VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    auto memory = start<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     memory.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_WRITE_BIT;
     memory.dstAccessMask = kShader | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
-    context_->vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT,
+    context_->vk.vkCmdPipelineBarrier(commands,
+                                      VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT,
                                       kCompute | kIndirect, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
 void VulkanRecording::closing_barrier(VkCommandBuffer commands) const
 {
-    VkMemoryBarrier memory = {VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    auto memory = start<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
     memory.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
     context_->vk.vkCmdPipelineBarrier(commands, kCompute,
-                                      VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0,
-                                      nullptr, 0, nullptr);
+                                      VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                                      &memory, 0, nullptr, 0, nullptr);
 }
 
 void VulkanRecording::barrier(VkCommandBuffer commands, const Step& step) const
 {
-    VkMemoryBarrier memory = {VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    auto memory = start<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
     memory.dstAccessMask = kShader;
     VkPipelineStageFlags to = kCompute;
@@ -242,8 +248,8 @@ void VulkanRecording::record_step(VkCommandBuffer commands, std::size_t index, c
     if (previous == nullptr || previous->pipeline.handle != step.pipeline.handle)
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step.pipeline.handle);
     if (step.set != VK_NULL_HANDLE && (previous == nullptr || previous->set != step.set))
-        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step.pipeline.layout, 0, 1, &step.set, 0,
-                                   nullptr);
+        vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, step.pipeline.layout, 0, 1,
+                                   &step.set, 0, nullptr);
     const std::vector<std::byte>& params = dispatches_[index].params;
     if (!params.empty())
         vk.vkCmdPushConstants(commands, step.pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,

@@ -1,6 +1,7 @@
 // The timed form of a recording: the same commands with a pair of timestamps around every dispatch.
 
 #include "taut/runtime/vulkan/recording.hpp"
+#include "taut/runtime/vulkan/structs.hpp"
 
 #include <algorithm>
 
@@ -16,7 +17,7 @@ void VulkanRecording::make_query_pools()
     const std::size_t queries = 2 * steps_.size();
     for (std::size_t done = 0; done < queries; done += kQueriesPerPool)
     {
-        VkQueryPoolCreateInfo info = {VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+        auto info = start<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
         info.queryType = VK_QUERY_TYPE_TIMESTAMP;
         info.queryCount = static_cast<std::uint32_t>(std::min<std::size_t>(queries - done, kQueriesPerPool));
         VkQueryPool pool = VK_NULL_HANDLE;
@@ -30,7 +31,9 @@ void VulkanRecording::record_timed()
 {
     const VolkDeviceTable& vk = context_->vk;
     const auto pool_of = [&](std::size_t query) { return query_pools_[query / kQueriesPerPool]; };
-    const auto index_of = [&](std::size_t query) { return static_cast<std::uint32_t>(query % kQueriesPerPool); };
+    const auto index_of = [&](std::size_t query) {
+        return static_cast<std::uint32_t>(query % kQueriesPerPool);
+    };
     if (query_pools_.empty())
         make_query_pools();
     const VkCommandBuffer commands = begin_commands();
@@ -46,7 +49,8 @@ void VulkanRecording::record_timed()
     {
         // Both stamps wait for all commands before them, and the barrier stands between them: the times
         // of a list add up to the time of the list.
-        vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_of(2 * i), index_of(2 * i));
+        vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_of(2 * i),
+                               index_of(2 * i));
         if (steps_[i].barrier)
             barrier(commands, steps_[i]);
         record_step(commands, i, previous);
@@ -66,11 +70,11 @@ std::vector<std::uint64_t> VulkanRecording::read_timestamps() const
     {
         const std::size_t first = p * kQueriesPerPool;
         const std::size_t count = std::min<std::size_t>(stamps.size() - first, kQueriesPerPool);
-        context_->health.check(
-            context_->vk.vkGetQueryPoolResults(context_->device, query_pools_[p], 0, static_cast<std::uint32_t>(count),
-                                               count * sizeof(std::uint64_t), stamps.data() + first,
-                                               sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-            "vkGetQueryPoolResults");
+        context_->health.check(context_->vk.vkGetQueryPoolResults(
+                                   context_->device, query_pools_[p], 0, static_cast<std::uint32_t>(count),
+                                   count * sizeof(std::uint64_t), stamps.data() + first,
+                                   sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                               "vkGetQueryPoolResults");
     }
     return stamps;
 }
@@ -82,9 +86,10 @@ std::vector<DispatchTime> VulkanRecording::replay_timed()
     const std::uint32_t bits = context_->physical.family.timestampValidBits;
     const double period = static_cast<double>(context_->physical.properties.limits.timestampPeriod);
     if (bits == 0 || period <= 0)
-        throw Error(ErrorCode::unsupported, context_->physical.info.name +
-                                                " has no timestamps on its compute queue (timestampValidBits = 0); "
-                                                "time whole steps with Device::wait instead");
+        throw Error(ErrorCode::unsupported,
+                    context_->physical.info.name +
+                        " has no timestamps on its compute queue (timestampValidBits = 0); "
+                        "time whole steps with Device::wait instead");
     if (timed_ == VK_NULL_HANDLE)
         record_timed();
     last_submission_ = context_->queue->submit(timed_);

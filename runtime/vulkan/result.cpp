@@ -34,7 +34,7 @@ const char* advice_for(ErrorCode code)
 
 std::string name_of(VkResult result)
 {
-#define TAUT_NAME(value) \
+#define TAUT_NAME(value)                                                                                     \
     case value: return #value
     switch (result)
     {
@@ -80,8 +80,9 @@ void Health::check(VkResult result, const char* call)
 void Health::require_alive() const
 {
     if (lost())
-        throw Error(ErrorCode::device_lost,
-                    "the Vulkan device was lost (VK_ERROR_DEVICE_LOST) in an earlier call; open a new device");
+        throw Error(
+            ErrorCode::device_lost,
+            "the Vulkan device was lost (VK_ERROR_DEVICE_LOST) in an earlier call; open a new device");
 }
 
 } // namespace taut::vulkan

@@ -1,5 +1,6 @@
 #pragma once
-// Every VkResult goes through here: named in the message, mapped to an ErrorCode, and a lost device stays lost.
+// Every VkResult goes through here: named in the message, mapped to an ErrorCode, and a lost device stays
+// lost.
 
 #include "taut/runtime/base/error.hpp"
 

@@ -36,9 +36,9 @@ public:
             throw Error(ErrorCode::bad_input,
                         "buffer \"" + std::string(label) + "\" has 0 bytes; ask for at least 1");
         if (bytes > limits().max_buffer_bytes)
-            throw Error(ErrorCode::limit, "buffer \"" + std::string(label) + "\" needs " + std::to_string(bytes) +
-                                              " bytes, " + info_.name + " binds at most " +
-                                              std::to_string(limits().max_buffer_bytes));
+            throw Error(ErrorCode::limit, "buffer \"" + std::string(label) + "\" needs " +
+                                              std::to_string(bytes) + " bytes, " + info_.name +
+                                              " binds at most " + std::to_string(limits().max_buffer_bytes));
         return std::make_shared<VulkanBuffer>(context_, bytes, label);
     }
 
@@ -78,14 +78,12 @@ public:
     const std::shared_ptr<Context>& context() const { return context_; }
 
 private:
-    using Device::read;
-    using Device::write;
-
     VulkanBuffer& own(const BufferPtr& buffer) const
     {
         VulkanBuffer& found = vulkan_buffer_of(buffer);
         if (found.context != context_)
-            throw Error(ErrorCode::bad_input, "the buffer belongs to another device; make it on " + info_.name);
+            throw Error(ErrorCode::bad_input,
+                        "the buffer belongs to another device; make it on " + info_.name);
         return found;
     }
 
@@ -93,9 +91,9 @@ private:
     {
         const VulkanBuffer& found = own(buffer);
         if (offset > found.bytes() || bytes > found.bytes() - offset)
-            throw Error(ErrorCode::bad_input, "bytes " + std::to_string(offset) + " to " +
-                                                  std::to_string(offset + bytes) + " lie outside a buffer of " +
-                                                  std::to_string(found.bytes()) + " bytes");
+            throw Error(ErrorCode::bad_input,
+                        "bytes " + std::to_string(offset) + " to " + std::to_string(offset + bytes) +
+                            " lie outside a buffer of " + std::to_string(found.bytes()) + " bytes");
         return found.handle;
     }
 
@@ -109,8 +107,8 @@ void require_folder(const std::string& cache_path)
     const std::filesystem::path folder = std::filesystem::absolute(cache_path).parent_path();
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
-        throw Error(ErrorCode::io, "pipeline_cache = " + cache_path + ": there is no folder " + folder.string() +
-                                       "; make it first");
+        throw Error(ErrorCode::io, "pipeline_cache = " + cache_path + ": there is no folder " +
+                                       folder.string() + "; make it first");
 }
 
 } // namespace
@@ -157,9 +155,10 @@ std::shared_ptr<Device> open_vulkan(std::size_t index, const OpenOptions& option
     std::shared_ptr<vulkan::Instance> instance = vulkan::Instance::create(options.validation);
     std::vector<vulkan::PhysicalDevice> devices = vulkan::physical_devices(*instance);
     if (index >= devices.size())
-        throw Error(ErrorCode::no_device,
-                    "there is no Vulkan device " + std::to_string(index) + ": the installed drivers offer " +
-                        std::to_string(devices.size()) + " with Vulkan 1.1 and compute (vulkaninfo lists them)");
+        throw Error(ErrorCode::no_device, "there is no Vulkan device " + std::to_string(index) +
+                                              ": the installed drivers offer " +
+                                              std::to_string(devices.size()) +
+                                              " with Vulkan 1.1 and compute (vulkaninfo lists them)");
     DeviceInfo info = devices[index].info;
     info.selector = vulkan::selector_of(index);
     return vulkan::make_device(

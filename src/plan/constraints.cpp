@@ -3,11 +3,13 @@
 // Based on: Fratarcangeli, Pellacini. Scalable Partitioning for Parallel Position Based Dynamics.
 //   Computer Graphics Forum 34(2), 2015: one dispatch per colour, Gauss-Seidel inside.
 // Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a
-//   body moves bitwise as it would alone; runs of small colours share one group (the tail rule);
+//   body moves bitwise as it would alone; runs of small colours share one group (the tail rule), and a
+//   small body among many has a group of its own, where the device's costs say so;
 //   vertices of very many distance constraints leave the colouring (kernels/constraints/hub.comp).
 
 #include "taut/plan/constraints.hpp"
 
+#include "taut/plan/grouping.hpp"
 #include "taut/plan/material.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/kernels/bending.hpp"
@@ -24,53 +26,19 @@
 namespace taut {
 namespace {
 
-/// Loop trips of one invocation in one dispatch; software Vulkan stops silently at 65,535.
-constexpr std::uint32_t kMaxLoopTrips = 32000;
-
-/// Records of all bodies by colour, and hubs after them.
-template <typename Element>
-struct Coloured
-{
-    std::vector<std::vector<Element>> colours;
-    std::vector<std::vector<Element>> hubs;
-
-    void add(const std::vector<Element>& elements, const Colouring& colouring)
-    {
-        colours.resize(std::max(colours.size(), colouring.colour_count()));
-        for (std::size_t c = 0; c < colouring.colour_count(); ++c)
-            for (std::uint32_t k = colouring.colour_start[c]; k < colouring.colour_start[c + 1]; ++k)
-                colours[c].push_back(elements[colouring.order[k]]);
-    }
-};
-
-ConstraintSet lay_out(std::string_view kind, const auto& coloured, auto& flat)
-{
-    ConstraintSet set;
-    set.kind = std::string(kind);
-    set.colour_start.push_back(0);
-    for (const auto& colour : coloured.colours)
-    {
-        if (colour.empty())
-            continue;
-        flat.insert(flat.end(), colour.begin(), colour.end());
-        set.colour_start.push_back(static_cast<std::uint32_t>(flat.size()));
-    }
-    if (!coloured.hubs.empty())
-        set.hub_start.push_back(static_cast<std::uint32_t>(flat.size()));
-    for (const auto& hub : coloured.hubs)
-    {
-        flat.insert(flat.end(), hub.begin(), hub.end());
-        set.hub_start.push_back(static_cast<std::uint32_t>(flat.size()));
-    }
-    set.count = static_cast<std::uint32_t>(flat.size());
-    return set;
-}
-
-void add_buffers(PlanBuilder& b, ConstraintSet& set)
+void add_buffers(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table)
 {
     if (b.plan.iterations > 1 || b.options.residuals)
         set.multipliers = b.add_buffer(set.kind, set.kind + " multipliers", set.count * b.real_size());
-    set.colour_table = b.add_buffer<std::uint32_t>(set.kind, set.kind + " colours", set.colour_start);
+    bool grouped = set.small_bodies > 0;
+    for (const Run& run : runs_of(b, set))
+        if (run.grouped())
+        {
+            table.insert(table.end(), {run.begin, run.end});
+            grouped = true;
+        }
+    if (grouped)
+        set.table = b.add_buffer<std::uint32_t>(set.kind, set.kind + " colours", table);
     b.plan.constraints.push_back(set);
 }
 
@@ -120,6 +88,17 @@ std::vector<StretchElement> moving_stretch(PlanBuilder& b, std::size_t body, boo
     return elements;
 }
 
+/// A graph over one body's plan vertices, counted from its first, without constraints yet.
+ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t stride)
+{
+    ConstraintGraph graph;
+    graph.vertex_count = b.plan.body_start[body + 1] - b.plan.body_start[body];
+    graph.stride = stride;
+    for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
+        graph.fixed.push_back(b.inverse_mass[v] == 0);
+    return graph;
+}
+
 Colouring stretch_colouring(const PlanBuilder& b, std::size_t body, const std::vector<StretchElement>& elements, bool grid)
 {
     const std::uint32_t first = b.plan.body_start[body];
@@ -130,22 +109,24 @@ Colouring stretch_colouring(const PlanBuilder& b, std::size_t body, const std::v
             edges.push_back({std::min(e.a, e.b) - first, std::max(e.a, e.b) - first});
         return grid_edge_colouring(edges, b.scene.bodies[body].mesh.grid_columns);
     }
-    ConstraintGraph graph;
-    graph.vertex_count = b.plan.vertex_count;
+    ConstraintGraph graph = body_graph(b, body, 2);
     for (const StretchElement& e : elements)
-        graph.vertices.insert(graph.vertices.end(), {e.a, e.b});
-    for (const double w : b.inverse_mass)
-        graph.fixed.push_back(w == 0);
-    return colour_greedy(graph);
+        graph.vertices.insert(graph.vertices.end(), {e.a - first, e.b - first});
+    Colouring colouring = colour_greedy(graph);
+    for (std::uint32_t& hub : colouring.hubs)
+        hub += first;
+    return colouring;
 }
 
-/// Colours smaller than this gain nothing from more than one group: the device's cost of a dispatch
-/// against that of a phase and of lanes that work alone.
-std::uint32_t small_colour(const DeviceTraits& traits)
+std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each, bool grouped)
 {
-    const double gain = traits.dispatch_ns - traits.group_barrier_ns;
-    const double loss = std::max(traits.lane_element_ns - traits.element_ns, 1e-3);
-    return static_cast<std::uint32_t>(std::clamp(gain / loss, 0.0, 4096.0));
+    std::vector<Use> uses = {{set.buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
+                             {b.plan.step_values, 0}, {b.plan.events, 0}};
+    if (grouped)
+        uses.push_back({set.table});
+    if (set.multipliers != kNoBuffer)
+        uses.push_back({set.multipliers});
+    return uses;
 }
 
 /// Passes of one sweep. `Params` is {first, count, first_iteration, report} for every constraint kernel.
@@ -153,31 +134,22 @@ template <typename Params>
 void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each, const Moment& moment)
 {
     const bool keep = set.multipliers != kNoBuffer;
-    const std::uint32_t limit = small_colour(b.traits);
-    const std::uint32_t first_iteration = moment.iteration == 0;
-    const std::uint32_t report = moment.last;
-    const auto size = [&](std::uint32_t c) { return set.colour_start[c + 1] - set.colour_start[c]; };
-    for (std::uint32_t c = 0; c < set.colour_count();)
+    const std::string_view alone = keep ? "lambda" : "", grouped = keep ? "tail_lambda" : "tail";
+    const std::uint32_t first_iteration = moment.iteration == 0, report = moment.last;
+    std::uint32_t range = first_run_range(set);
+    for (const Run& run : runs_of(b, set))
     {
-        std::uint32_t end = c;
-        std::uint32_t trips = 0;
-        while (end < set.colour_count() && size(end) <= limit && trips + size(end) / kGroupSize + 2 < kMaxLoopTrips)
-            trips += size(end++) / kGroupSize + 2;
-        std::vector<Use> uses = {{set.buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
-                                 {b.plan.step_values, 0}, {b.plan.events, 0}};
-        const bool tail = end - c >= 2;
-        if (tail)
-            uses.push_back({set.colour_table});
-        if (keep)
-            uses.push_back({set.multipliers});
-        if (tail)
-            b.dispatch(set.kind, set.kind, keep ? "tail_lambda" : "tail", uses,
-                       Params{c, end - c, first_iteration, report}, 1, set.colour_start[end] - set.colour_start[c]);
+        const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
+        const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped());
+        if (run.grouped())
+            b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 0, first_iteration, report}, 1, size);
         else
-            b.dispatch(set.kind, set.kind, keep ? "lambda" : "", uses,
-                       Params{set.colour_start[c], size(c), first_iteration, report}, size(c));
-        c = tail ? end : c + 1;
+            b.dispatch(set.kind, set.kind, alone, uses, Params{first, size, first_iteration, report}, size);
+        range += run.grouped() ? 2 : 0;
     }
+    if (set.small_bodies > 0)
+        b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true),
+                   Params{set.small_range, 0, first_iteration, report}, set.small_bodies, set.small_constraints);
 }
 
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
@@ -227,11 +199,12 @@ void prepare_distance(PlanBuilder& b)
         bool grid = false;
         const std::vector<StretchElement> elements = moving_stretch(b, body, grid);
         const Colouring colouring = stretch_colouring(b, body, elements, grid);
-        coloured.add(elements, colouring);
+        add_body(b, coloured, elements, colouring);
         add_hubs(coloured, elements, colouring);
     }
     std::vector<StretchElement> flat;
-    ConstraintSet set = lay_out("distance", coloured, flat);
+    std::vector<std::uint32_t> table;
+    ConstraintSet set = lay_out("distance", coloured, flat, table);
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {
@@ -241,7 +214,7 @@ void prepare_distance(PlanBuilder& b)
             records.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(e.compliance)});
         set.buffer = b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, "distance constraints", records);
     });
-    add_buffers(b, set);
+    add_buffers(b, set, std::move(table));
 }
 
 void prepare_bending(PlanBuilder& b)
@@ -251,9 +224,8 @@ void prepare_bending(PlanBuilder& b)
     {
         std::size_t dropped = 0;
         std::vector<BendElement> elements;
-        ConstraintGraph graph;
-        graph.vertex_count = b.plan.vertex_count;
-        graph.stride = 4;
+        ConstraintGraph graph = body_graph(b, body, 4);
+        const std::uint32_t first = b.plan.body_start[body];
         for (BendElement e : bend_elements(b.scene.bodies[body], &dropped))
         {
             for (std::uint32_t* v : {&e.edge0, &e.edge1, &e.wing0, &e.wing1})
@@ -261,18 +233,18 @@ void prepare_bending(PlanBuilder& b)
             if (b.inverse_mass[e.edge0] + b.inverse_mass[e.edge1] + b.inverse_mass[e.wing0] + b.inverse_mass[e.wing1] == 0)
                 continue;
             elements.push_back(e);
-            graph.vertices.insert(graph.vertices.end(), {e.edge0, e.edge1, e.wing0, e.wing1});
+            for (const std::uint32_t v : {e.edge0, e.edge1, e.wing0, e.wing1})
+                graph.vertices.push_back(v - first);
         }
-        for (const double w : b.inverse_mass)
-            graph.fixed.push_back(w == 0);
         // Hinges round a hub share its neighbours too, so they stay in the colouring, one after another.
-        coloured.add(elements, colour_greedy(graph, {0, true}));
+        add_body(b, coloured, elements, colour_greedy(graph, {0, true}));
         if (dropped > 0)
             b.plan.warnings.push_back("degenerate: " + std::to_string(dropped) + " hinges without area at rest in body " +
                                       std::to_string(body));
     }
     std::vector<BendElement> flat;
-    ConstraintSet set = lay_out("bending", coloured, flat);
+    std::vector<std::uint32_t> table;
+    ConstraintSet set = lay_out("bending", coloured, flat, table);
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {
@@ -283,7 +255,7 @@ void prepare_bending(PlanBuilder& b)
                                static_cast<Real>(e.compliance)});
         set.buffer = b.add_buffer<layout::BendingConstraint<Real>>(set.kind, "bending constraints", records);
     });
-    add_buffers(b, set);
+    add_buffers(b, set, std::move(table));
 }
 
 void record_distance(PlanBuilder& b, const Moment& moment)

@@ -110,7 +110,7 @@ std::map<std::string, std::uint64_t> Plan::colour_counts() const
 {
     std::map<std::string, std::uint64_t> counts;
     for (const ConstraintSet& set : constraints)
-        counts[set.kind] = set.colour_count();
+        counts[set.kind] = std::max(set.colour_count(), set.small_colours);
     return counts;
 }
 

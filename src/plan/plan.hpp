@@ -62,9 +62,12 @@ struct ConstraintSet
     std::uint32_t multipliers = kNoBuffer;   ///< same order; kNoBuffer when none are kept
     std::uint32_t count = 0;
     std::vector<std::uint32_t> colour_start; ///< colours + 1
-    std::uint32_t colour_table = kNoBuffer;  ///< colour_start on the device, for passes over many small colours
+    std::uint32_t table = kNoBuffer;         ///< colours on the device, for groups that run several of them
     /// After the colours, one range each: a hub with constraints that share no other vertex.
     std::vector<std::uint32_t> hub_start;    ///< hubs + 1; empty without hubs
+    /// After the hubs, small bodies of one group each: their number, first range in the table, constraints.
+    std::uint32_t small_bodies = 0, small_range = 0, small_constraints = 0;
+    std::uint32_t small_colours = 0;         ///< most colours of one small body
     std::uint32_t colour_count() const { return colour_start.empty() ? 0 : static_cast<std::uint32_t>(colour_start.size() - 1); }
 };
 

@@ -16,8 +16,14 @@ struct Vec
     T x{}, y{}, z{};
 };
 
-template <typename T> Vec<T> operator+(const Vec<T>& a, const Vec<T>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-template <typename T> Vec<T> operator-(const Vec<T>& a, const Vec<T>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <typename T> Vec<T> operator+(const Vec<T>& a, const Vec<T>& b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <typename T> Vec<T> operator-(const Vec<T>& a, const Vec<T>& b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 template <typename T> Vec<T> operator*(const T& s, const Vec<T>& a) { return {s * a.x, s * a.y, s * a.z}; }
 template <typename T> T dot(const Vec<T>& a, const Vec<T>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 template <typename T> Vec<T> cross(const Vec<T>& a, const Vec<T>& b)

@@ -143,8 +143,11 @@ bool starts_inside(const PhysicalModel& model)
     {
         const Surface surface = reference::surface_at(collider, 0);
         for (std::size_t i = 0; i < model.start.size(); ++i)
-            if (!model.pinned[i] && surface.touch(model.start[i], model.gap[i]).height < -1e-9 * model.diameter)
+        {
+            const double height = surface.touch(model.start[i], model.gap[i]).height;
+            if (!model.pinned[i] && height < -1e-9 * model.diameter)
                 return true;
+        }
     }
     return false;
 }
@@ -175,7 +178,8 @@ std::vector<Frames> run_levels(const PhysicalModel& model, Scheme scheme, std::u
                                std::size_t frame_count, const DynamicOptions& options)
 {
     std::vector<Frames> out(options.levels);
-    const auto level = [&](std::uint32_t l) { out[l] = Run(model, scheme, coarsest << l).frames(frame_count); };
+    const auto level = [&](std::uint32_t l)
+    { out[l] = Run(model, scheme, coarsest << l).frames(frame_count); };
     const std::uint32_t finest = options.levels - 1;
     if (options.two_threads)
     {
@@ -230,10 +234,10 @@ DynamicReference solve_dynamic(const PhysicalModel& model, const DynamicOptions&
     const double duration = options.duration < 0 ? model.duration : options.duration;
     const auto frame_count = static_cast<std::size_t>(std::llround(duration / model.timestep));
     const std::uint64_t coarsest = coarsest_steps(model, options.safety);
-    const auto elements = static_cast<double>(model.springs.size() + 12 * model.hinges.size() + model.mass.size());
-    const double fine = std::exp2(wanted.levels - 1.0);
-    out.element_steps = elements * static_cast<double>(coarsest) * static_cast<double>(frame_count) * (2 * fine - 1);
-    out.step = model.timestep / (static_cast<double>(coarsest) * fine);
+    const std::size_t elements = model.springs.size() + 12 * model.hinges.size() + model.mass.size();
+    const double fine = std::exp2(wanted.levels - 1.0), coarse = static_cast<double>(coarsest);
+    out.element_steps = static_cast<double>(elements * frame_count) * coarse * (2 * fine - 1);
+    out.step = model.timestep / (coarse * fine);
     out.reason = refusal(model, options, out.element_steps);
     if (!out.reason.empty())
         return out;

@@ -158,8 +158,8 @@ bool Newton::leave_saddle()
     if (!options_.leave_saddles || escapes_ == kEscapes)
         return false;
     std::mt19937 random(12345u + static_cast<unsigned>(escapes_));
-    const double size = 1e-4 * model_.diameter * std::pow(3, escapes_++) / 2147483648.0;
-    const auto draw = [&] { return static_cast<Real>(size * (static_cast<double>(random()) - 2147483648.0)); };
+    const double size = 1e-4 * model_.diameter * std::pow(3, escapes_++);
+    const auto draw = [&]() -> Real { return size * (static_cast<double>(random()) / 2147483648.0 - 1); };
     for (std::size_t i = 0; i < x_.size(); ++i)
         if (energy_.unknown(i) >= 0)
             x_[i] = x_[i] + Vec<Real>{draw(), draw(), draw()};

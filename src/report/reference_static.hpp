@@ -13,7 +13,7 @@ struct StaticOptions
 {
     double tolerance = 1e-12;         ///< of |force|_inf, in units of the total weight
     std::uint32_t iterations = 3000;  ///< factorisations at most
-    /// From a saddle (a flat sheet under compression) go on to a stable state, by a nudge of 1e-4 of the size.
+    /// From a saddle (a flat sheet under compression) go on to a stable state by a small nudge.
     bool leave_saddles = true;
 };
 

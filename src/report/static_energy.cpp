@@ -40,36 +40,45 @@ Eigen::Matrix3d spring_block(const StretchElement& s, const Vec<double>& d, Curv
 
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-/// k (g g^T + (theta - theta0) dg/dx), the second part from dual numbers; projected: without it.
-Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
+/// dg/dx of the angle by dual numbers.
+Matrix12 angle_hessian(const std::array<Vec<double>, 4>& x)
 {
     std::array<Vec<Dual<12>>, 4> corner;
-    const auto v = vertices(h);
     for (std::size_t c = 0; c < 4; ++c)
     {
-        const Vec<double> p = narrow(x[v[c]]);
-        corner[c] = {{p.x, {}}, {p.y, {}}, {p.z, {}}};
+        corner[c] = {{x[c].x, {}}, {x[c].y, {}}, {x[c].z, {}}};
         corner[c].x.d[3 * c] = corner[c].y.d[3 * c + 1] = corner[c].z.d[3 * c + 2] = 1;
     }
     const auto hinge = hinge_angle(corner);
-    Matrix12 out = Matrix12::Zero();
-    if (!hinge.valid)
-        return out;
-    const double angle = angle_difference(hinge.angle.v, h.rest_angle);
-    Eigen::Matrix<double, 12, 1> g;
+    Matrix12 out;
     for (std::size_t c = 0; c < 4; ++c)
     {
         const Dual<12>* parts[3] = {&hinge.gradient[c].x, &hinge.gradient[c].y, &hinge.gradient[c].z};
         for (std::size_t k = 0; k < 3; ++k)
-        {
-            const auto row = static_cast<Eigen::Index>(3 * c + k);
-            g[row] = parts[k]->v;
-            if (curvature == Curvature::exact)
-                for (std::size_t j = 0; j < 12; ++j)
-                    out(row, static_cast<Eigen::Index>(j)) = angle * parts[k]->d[j];
-        }
+            out.row(static_cast<Eigen::Index>(3 * c + k)) =
+                Eigen::Map<const Eigen::Matrix<double, 1, 12>>(parts[k]->d.data());
     }
-    return (0.5 * (out + out.transpose()) + g * g.transpose()) / h.compliance;
+    return 0.5 * (out + out.transpose());
+}
+
+/// k (g g^T + (theta - theta0) dg/dx); projected: without the second part.
+Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
+{
+    const std::array<Vec<double>, 4> corner = {narrow(x[h.edge0]), narrow(x[h.edge1]), narrow(x[h.wing0]),
+                                               narrow(x[h.wing1])};
+    const auto hinge = hinge_angle(corner);
+    if (!hinge.valid)
+        return Matrix12::Zero();
+    Eigen::Matrix<double, 12, 1> g;
+    for (int c = 0; c < 4; ++c)
+    {
+        const Vec<double>& part = hinge.gradient[static_cast<std::size_t>(c)];
+        g.segment<3>(3 * c) = Eigen::Vector3d(part.x, part.y, part.z);
+    }
+    Matrix12 out = g * g.transpose();
+    if (curvature == Curvature::exact)
+        out += angle_difference(hinge.angle, h.rest_angle) * angle_hessian(corner);
+    return out / h.compliance;
 }
 
 } // namespace

@@ -33,8 +33,8 @@ struct Axis
     int first = 0, last = 1; // exponents
     double from = 0, to = 1; // pixels of the two ends
 
-    double at(double value) const { return from + (std::log10(value) - first) / (last - first) * (to - from); }
-    double at_decade(int exponent) const { return from + double(exponent - first) / (last - first) * (to - from); }
+    double at(double v) const { return from + (std::log10(v) - first) / (last - first) * (to - from); }
+    double at_decade(int e) const { return from + double(e - first) / (last - first) * (to - from); }
     int label_every() const { return std::max(1, (last - first + 9) / 10); }
 };
 
@@ -64,7 +64,8 @@ std::string grid(const Axis& x, const Axis& y)
     {
         const auto one = [&](double at, const char* colour)
         {
-            out += upright ? line(at, kTop, at, kTop + kHigh, colour, 1) : line(kLeft, at, kLeft + kWide, at, colour, 1);
+            out += upright ? line(at, kTop, at, kTop + kHigh, colour, 1)
+                           : line(kLeft, at, kLeft + kWide, at, colour, 1);
         };
         if (decade < axis.last && axis.last - axis.first <= 6)
             for (int k = 2; k < 10; ++k)
@@ -94,7 +95,9 @@ std::string frame(const Plot& plot)
 
 std::string polyline(const std::string& points, const std::string& style)
 {
-    return points.find(' ') == std::string::npos ? "" : "<polyline points=\"" + points + "\" fill=\"none\" " + style + "/>\n";
+    if (points.find(' ') == std::string::npos) // a line needs two points
+        return "";
+    return "<polyline points=\"" + points + "\" fill=\"none\" " + style + "/>\n";
 }
 
 std::string draw_series(const PlotSeries& series, std::size_t index, const Axis& x, const Axis& y)
@@ -111,7 +114,8 @@ std::string draw_series(const PlotSeries& series, std::size_t index, const Axis&
             continue;
         }
         points += (points.empty() ? "" : " ") + fixed(x.at(p.x)) + "," + fixed(y.at(p.y));
-        markers += "<g><title>" + escaped(series.name + (p.label.empty() ? "" : ", " + p.label)) + "</title>" +
+        const std::string name = series.name + (p.label.empty() ? "" : ", " + p.label);
+        markers += "<g><title>" + escaped(name) + "</title>" +
                    marker(x.at(p.x), y.at(p.y), index, colour, 8) + "</g>\n";
     }
     return lines + polyline(points, style) + markers;
@@ -231,10 +235,10 @@ std::string svg(const Plot& plot)
     body += footer(plot, bottom);
     const double legend_end = kTop + 36.0 * static_cast<double>(plot.series.size() + 1);
     const std::string width = fixed(kPage), height = fixed(std::max(bottom + 6, legend_end));
-    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width +
-           "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
-           "\" font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-           body + "</svg>\n";
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
+           width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
+           "\" font-family=\"Helvetica, Arial, sans-serif\">\n" +
+           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + body + "</svg>\n";
 }
 
 void write_svg(const std::filesystem::path& file, const Plot& plot)
@@ -246,7 +250,8 @@ void write_svg(const std::filesystem::path& file, const Plot& plot)
         out << svg(plot);
         out.close();
         if (!out)
-            throw Error(ErrorCode::io, "cannot write " + temporary.string() + ": check the folder and the room on it");
+            throw Error(ErrorCode::io,
+                        "cannot write " + temporary.string() + ": check the folder and the room on it");
     }
     std::error_code failed;
     std::filesystem::rename(temporary, file, failed);

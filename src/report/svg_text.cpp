@@ -65,14 +65,14 @@ std::string power_of_ten(double x, double y, int exponent, const TextStyle& styl
 {
     // U+2212, the minus sign.
     const std::string digits = (exponent < 0 ? "\xE2\x88\x92" : "") + std::to_string(std::abs(exponent));
-    return opening(x, y, style) + "10<tspan dy=\"-5\" font-size=\"" + fixed(0.75 * style.size) + "\">" + digits +
-           "</tspan></text>\n";
+    return opening(x, y, style) + "10<tspan dy=\"-5\" font-size=\"" + fixed(0.75 * style.size) + "\">" +
+           digits + "</tspan></text>\n";
 }
 
 std::string line(double x0, double y0, double x1, double y1, std::string_view stroke, double width)
 {
-    return "<line x1=\"" + fixed(x0) + "\" y1=\"" + fixed(y0) + "\" x2=\"" + fixed(x1) + "\" y2=\"" + fixed(y1) +
-           "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" + fixed(width) + "\"/>\n";
+    return "<line x1=\"" + fixed(x0) + "\" y1=\"" + fixed(y0) + "\" x2=\"" + fixed(x1) + "\" y2=\"" +
+           fixed(y1) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" + fixed(width) + "\"/>\n";
 }
 
 namespace {
@@ -95,7 +95,8 @@ std::vector<std::pair<double, double>> shape_corners(std::size_t shape)
 
 std::string marker(double x, double y, std::size_t shape, std::string_view fill, double size)
 {
-    const std::string colour = "\" fill=\"" + std::string(fill) + "\" stroke=\"#fff\" stroke-width=\"0.80\"/>\n";
+    const std::string colour =
+        "\" fill=\"" + std::string(fill) + "\" stroke=\"#fff\" stroke-width=\"0.80\"/>\n";
     const double half = size / 2;
     if (shape % 6 == 0)
         return "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(half) + colour;

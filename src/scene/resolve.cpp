@@ -135,8 +135,9 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
 {
     body.mesh = make_mesh(body.shape, directory, out);
     apply(body.transform, body.mesh);
-    if (body.mesh.positions.empty())
-        out.error("mesh", "has no triangle with area; there is nothing to simulate");
+    for (std::size_t v = 0; v < body.mesh.positions.size(); ++v)
+        if (!out.at("transform").finite("", body.mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
+            break;
     if (body.shape.kind == ShapeKind::mesh)
         scene_file::check_counts(body, body.mesh.positions.size(), out);
 }

@@ -21,6 +21,8 @@ class Probe
 {
 public:
     static constexpr std::uint32_t kSprings = 16384;
+    static constexpr std::uint32_t kPhases = 512;
+    static constexpr std::uint32_t kLaneSprings = 8192;
 
     explicit Probe(Device& device) : device_(device)
     {
@@ -38,13 +40,13 @@ public:
         delta_ = device.make_buffer(position.size() * sizeof(glm::vec4), "probe delta");
         step_ = upload<layout::StepValues<float>>(step);
         events_ = device.make_buffer(16, "probe events");
-        // Colours of one spring each, and after them one colour of all springs.
-        std::vector<std::uint32_t> colours;
+        // Colours of one spring each, then one colour of many, then the ranges that the probes run.
+        std::vector<std::uint32_t> table;
         for (std::uint32_t k = 0; k <= kPhases; ++k)
-            colours.push_back(k);
-        colours.push_back(0);
-        colours.push_back(kLaneSprings);
-        colours_ = upload<std::uint32_t>(colours);
+            table.push_back(k);
+        table.insert(table.end(), {0, kLaneSprings});
+        table.insert(table.end(), {0, 1, 0, kPhases, kPhases + 1, kPhases + 2});
+        table_ = upload<std::uint32_t>(table);
     }
 
     /// Best of several replays, ns on the host's clock.
@@ -57,17 +59,15 @@ public:
         return best(*recorder.finish());
     }
 
-    double time_tail(std::uint32_t first_colour, std::uint32_t colours)
+    enum Range : std::uint32_t { kOneColour = kPhases + 3, kManyColours = kPhases + 5, kLargeColour = kPhases + 7 };
+
+    double time_tail(Range range)
     {
         Recorder recorder(device_.shared_from_this());
-        recorder.dispatch(kernels::distance::info("tail"), {constraint_, position_, delta_, step_, events_, colours_},
-                          kernels::distance::Params{first_colour, colours, 1, 0}, 1);
+        recorder.dispatch(kernels::distance::info("tail"), {constraint_, position_, delta_, step_, events_, table_},
+                          kernels::distance::Params{range, 0, 1, 0}, 1);
         return best(*recorder.finish());
     }
-
-    static constexpr std::uint32_t kPhases = 512;
-    static constexpr std::uint32_t kLaneSprings = 8192;
-    static constexpr std::uint32_t kLaneColour = kPhases + 1;
 
 private:
     template <typename T>
@@ -94,7 +94,7 @@ private:
     }
 
     Device& device_;
-    BufferPtr constraint_, position_, delta_, step_, events_, colours_;
+    BufferPtr constraint_, position_, delta_, step_, events_, table_;
 };
 
 DeviceTraits measure(Device& device)
@@ -110,11 +110,11 @@ DeviceTraits measure(Device& device)
     Probe probe(device);
     const double few = probe.time_dispatches(8, 1), many = probe.time_dispatches(72, 1);
     traits.dispatch_ns = std::max((many - few) / 64, 1.0);
-    const double short_tail = probe.time_tail(0, 1), long_tail = probe.time_tail(0, Probe::kPhases);
+    const double short_tail = probe.time_tail(Probe::kOneColour), long_tail = probe.time_tail(Probe::kManyColours);
     traits.group_barrier_ns = std::max((long_tail - short_tail) / (Probe::kPhases - 1), 1.0);
     traits.element_ns = std::max((probe.time_dispatches(1, Probe::kSprings) - probe.time_dispatches(1, 1)) / Probe::kSprings, 1e-3);
     traits.lane_element_ns =
-        std::max((probe.time_tail(Probe::kLaneColour, 1) - short_tail) / Probe::kLaneSprings, traits.element_ns);
+        std::max((probe.time_tail(Probe::kLargeColour) - short_tail) / Probe::kLaneSprings, traits.element_ns);
     return traits;
 }
 

@@ -134,8 +134,8 @@ TEST_CASE("colours that write apart share one section, colours that meet do not"
 
 TEST_CASE("a barrier taken away is found, and the sentence names kernels, bindings and bytes")
 {
-    const std::vector<Dispatch> list = {use(kWriter, {{3, 0, 256}}), use(kCopier, {{3, 128, 256}, {4, 0, 256}}),
-                                        use(kReader, {{5, 0, 16}})};
+    const std::vector<Dispatch> list = {
+        use(kWriter, {{3, 0, 256}}), use(kCopier, {{3, 128, 256}, {4, 0, 256}}), use(kReader, {{5, 0, 16}})};
     std::vector<bool> barriers = derive_barriers(list);
     REQUIRE(barriers == std::vector<bool>{false, true, false});
     REQUIRE(find_hazards(list, barriers).empty());
@@ -146,9 +146,10 @@ TEST_CASE("a barrier taken away is found, and the sentence names kernels, bindin
     CHECK(hazards[0].first == 0);
     CHECK(hazards[0].second == 1);
     CHECK(hazards[0].buffer == 3);
-    CHECK(hazards[0].text
-          == "dispatch 0 (writer) writes alpha [bytes 0 to 256] and dispatch 1 (copier) reads alpha [bytes 128 to "
-             "384] of buffer 3 with no barrier between them, and bytes 128 to 256 are shared");
+    CHECK(
+        hazards[0].text ==
+        "dispatch 0 (writer) writes alpha [bytes 0 to 256] and dispatch 1 (copier) reads alpha [bytes 128 to "
+        "384] of buffer 3 with no barrier between them, and bytes 128 to 256 are shared");
 }
 
 TEST_CASE("every single barrier of a random list is needed, and all of them are enough")

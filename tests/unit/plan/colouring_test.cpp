@@ -4,7 +4,8 @@
 #include "taut/plan/colouring.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <cstdlib>
 #include <random>
 #include <set>
 
@@ -92,29 +93,34 @@ void require_valid(const Colouring& c, const ConstraintGraph& graph)
     REQUIRE(ok);
 }
 
+std::uint32_t below(std::mt19937& random, std::uint32_t limit)
+{
+    return static_cast<std::uint32_t>(random() % limit);
+}
+
 /// Distinct vertices in each constraint, some vertices fixed.
 ConstraintGraph random_graph(std::mt19937& random, std::uint32_t stride)
 {
     ConstraintGraph graph;
-    graph.vertex_count = stride + random() % 60;
+    graph.vertex_count = stride + below(random, 60);
     graph.stride = stride;
-    const std::uint32_t count = random() % 400;
+    const std::uint32_t count = below(random, 400);
     for (std::uint32_t c = 0; c < count; ++c)
     {
         std::set<std::uint32_t> corners;
         while (corners.size() < stride)
         {
-            corners.insert(random() % graph.vertex_count);
+            corners.insert(below(random, graph.vertex_count));
         }
         std::vector<std::uint32_t> list(corners.begin(), corners.end());
         std::shuffle(list.begin(), list.end(), random);
         graph.vertices.insert(graph.vertices.end(), list.begin(), list.end());
     }
-    if (random() % 2 == 0)
+    if (below(random, 2) == 0)
     {
         for (std::uint32_t v = 0; v < graph.vertex_count; ++v)
         {
-            graph.fixed.push_back(random() % 8 == 0);
+            graph.fixed.push_back(below(random, 8) == 0);
         }
     }
     return graph;
@@ -277,15 +283,16 @@ TEST_CASE("springs of a grid number what the formula says, in 4, 8 and 12 valid 
 {
     for (const std::uint32_t n : {32u, 64u, 128u, 256u})
     {
-        const std::uint32_t structural = 2 * n * (n - 1), shear = 2 * (n - 1) * (n - 1), skip = 2 * n * (n - 2);
-        const std::vector<std::uint32_t> counts = {structural, structural + shear, structural + shear + skip};
+        const std::uint32_t structural = 2 * n * (n - 1);
+        const std::uint32_t with_shear = structural + 2 * (n - 1) * (n - 1);
+        const std::vector<std::uint32_t> counts = {structural, with_shear, with_shear + 2 * n * (n - 2)};
         for (std::uint32_t level = 0; level < 3; ++level)
         {
             const auto springs = grid_springs(n, n, level > 0, level > 1);
             const Colouring c = colouring_of(springs);
             CHECK(springs.size() == counts[level]);
             CHECK(c.colour_count() == 4 * (level + 1));
-            CHECK(smallest(sizes(c)) * 100 > largest(sizes(c)) * 93);
+            CHECK(largest(sizes(c)) - smallest(sizes(c)) <= 2 * n); // an odd number of rows is left
             CHECK(std::is_sorted(c.order.begin(), c.order.end()));
             require_valid(c, graph_of(n * n, springs));
         }
@@ -366,7 +373,10 @@ TEST_CASE("springs in random order cost one colour more than the degree at most"
     CHECK(plain.colour_count() <= 13); // plain first fit takes 16
     CHECK(even.colour_count() <= plain.colour_count());
     CHECK(smallest(sizes(even)) > smallest(sizes(plain)));
-    CHECK(largest(sizes(even)) - smallest(sizes(even)) < 20);
+    const std::size_t mean = springs.size() / even.colour_count();
+    CHECK(smallest(sizes(plain)) * 100 < mean * 90);
+    CHECK(smallest(sizes(even)) * 100 > mean * 95);
+    CHECK(largest(sizes(even)) * 100 < mean * 105);
 }
 
 TEST_CASE("first fit alone gives the lowest colour that is free", "[colouring]")
@@ -378,12 +388,51 @@ TEST_CASE("first fit alone gives the lowest colour that is free", "[colouring]")
     CHECK(c.colour_start == std::vector<std::uint32_t>{0, 3, 5});
 }
 
+TEST_CASE("a colour of one link in a chain is dissolved along the chain", "[colouring]")
+{
+    // Coloured from both ends towards link 10, which finds colour 1 on one side and 0 on the other.
+    Edges edges;
+    for (std::uint32_t i = 0; i < 10; ++i)
+    {
+        edges.emplace_back(i, i + 1);
+    }
+    for (std::uint32_t i = 21; i >= 10; --i)
+    {
+        edges.emplace_back(i, i + 1);
+    }
+    const ConstraintGraph graph = graph_of(23, edges);
+    CHECK(sizes(colour_greedy(graph, {64, false})) == std::vector<std::uint32_t>{11, 10, 1});
+    const Colouring c = colour_greedy(graph);
+    require_valid(c, graph);
+    CHECK(sizes(c) == std::vector<std::uint32_t>{11, 11});
+}
+
+TEST_CASE("a colour of one constraint of three vertices is dissolved by moving a neighbour", "[colouring]")
+{
+    // Chains of four, each constraint with a third vertex of its own; the first chain in a bad order.
+    ConstraintGraph graph{6 * 5 + 6 * 4, 3, {}, {}};
+    std::uint32_t own = 6 * 5;
+    for (std::uint32_t chain = 0; chain < 6; ++chain)
+    {
+        const std::array<std::uint32_t, 4> bad = {0, 3, 2, 1}, good = {0, 1, 2, 3};
+        for (const std::uint32_t link : chain == 0 ? bad : good)
+        {
+            const std::uint32_t a = 5 * chain + link;
+            graph.vertices.insert(graph.vertices.end(), {a, a + 1, own++});
+        }
+    }
+    CHECK(sizes(colour_greedy(graph, {64, false})) == std::vector<std::uint32_t>{12, 11, 1});
+    const Colouring c = colour_greedy(graph);
+    require_valid(c, graph);
+    CHECK(sizes(c) == std::vector<std::uint32_t>{12, 12});
+}
+
 TEST_CASE("random graphs get valid colours, the same every time", "[colouring]")
 {
     std::mt19937 random(2024);
     for (int trial = 0; trial < 300; ++trial)
     {
-        const std::uint32_t stride = 1 + random() % 4;
+        const std::uint32_t stride = 1 + below(random, 4);
         const ConstraintGraph graph = random_graph(random, stride);
         for (const std::uint32_t hub_degree : {0u, 3u, 10u, 64u})
         {
@@ -404,14 +453,14 @@ TEST_CASE("random simple graphs need at most degree + 1 colours without hubs", "
     std::mt19937 random(7);
     for (int trial = 0; trial < 300; ++trial)
     {
-        const std::uint32_t vertices = 2 + random() % 50;
-        const std::uint32_t density = 1 + random() % 8;
+        const std::uint32_t vertices = 2 + below(random, 50);
+        const std::uint32_t density = 1 + below(random, 8);
         Edges edges;
         for (std::uint32_t a = 0; a < vertices; ++a)
         {
             for (std::uint32_t b = a + 1; b < vertices; ++b)
             {
-                if (random() % 8 < density)
+                if (below(random, 8) < density)
                 {
                     edges.emplace_back(a, b);
                 }
@@ -421,7 +470,7 @@ TEST_CASE("random simple graphs need at most degree + 1 colours without hubs", "
         ConstraintGraph graph = graph_of(vertices, edges);
         for (std::uint32_t v = 0; v < vertices && trial % 3 == 0; ++v)
         {
-            graph.fixed.push_back(random() % 5 == 0);
+            graph.fixed.push_back(below(random, 5) == 0);
         }
         for (const bool balance : {false, true})
         {

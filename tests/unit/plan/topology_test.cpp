@@ -167,11 +167,11 @@ TEST_CASE("two triangles have five edges, sorted, and the shared one knows both"
 {
     const auto edges = mesh_edges(mesh_of(4, {{0, 1, 2}, {2, 1, 3}}));
     REQUIRE(edges.size() == 5);
-    const std::vector<std::pair<std::uint32_t, std::uint32_t>> expected = {{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}};
+    const std::vector<std::array<std::uint32_t, 2>> expected = {{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}};
     for (std::size_t i = 0; i < 5; ++i)
     {
-        CHECK(edges[i].a == expected[i].first);
-        CHECK(edges[i].b == expected[i].second);
+        CHECK(edges[i].a == expected[i][0]);
+        CHECK(edges[i].b == expected[i][1]);
         CHECK(edges[i].triangles.size() == (i == 2 ? 2u : 1u));
     }
     CHECK(edges[2].triangles == std::vector<std::uint32_t>{0, 1});
@@ -303,6 +303,24 @@ TEST_CASE("the vertex order of a square follows the Z of the Morton curve", "[to
     CHECK(locality_order(positions) == expected);
 }
 
+TEST_CASE("points on a line come out in order, whichever axis it follows", "[topology]")
+{
+    std::vector<std::uint32_t> ranks(1000);
+    std::iota(ranks.begin(), ranks.end(), 0u);
+    std::shuffle(ranks.begin(), ranks.end(), std::mt19937(4));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        std::vector<glm::dvec3> positions(ranks.size(), glm::dvec3(-5));
+        for (std::size_t i = 0; i < ranks.size(); ++i)
+        {
+            positions[i][axis] = 0.001 * ranks[i];
+        }
+        const auto order = locality_order(positions);
+        CHECK(std::is_sorted(order.begin(), order.end(),
+                             [&](std::uint32_t a, std::uint32_t b) { return ranks[a] < ranks[b]; }));
+    }
+}
+
 TEST_CASE("the vertex order keeps equal points in order and is a permutation of any input", "[topology]")
 {
     const std::vector<glm::dvec3> equal(50, glm::dvec3(3, -2, 1));
@@ -311,8 +329,9 @@ TEST_CASE("the vertex order keeps equal points in order and is a permutation of 
     CHECK(locality_order(equal) == identity);
     CHECK(locality_order({}).empty());
 
-    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-    const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
+    using Limits = std::numeric_limits<double>;
+    const double nan = Limits::quiet_NaN(), inf = Limits::infinity(), huge = Limits::max();
+    const double tiny = Limits::denorm_min();
     const std::vector<double> values = {0, -0.0, 1, -1e300, huge, -huge, tiny, nan, inf, -inf};
     std::vector<glm::dvec3> hostile;
     std::mt19937 random(5);
@@ -334,7 +353,7 @@ TEST_CASE("the vertex order does not depend on position or unit, nor on noise ac
     std::vector<glm::dvec3> sheet, moved, noisy;
     for (int i = 0; i < 2000; ++i)
     {
-        // Quarters of a cell corner, so that the same cells come out after scaling by powers of two.
+        // Multiples of 1/4096, so that scaling by a power of two and the shift are exact.
         const glm::dvec3 p(std::floor(unit(random) * 4096) / 4096, std::floor(unit(random) * 4096) / 4096, 0);
         sheet.push_back(p);
         moved.push_back(1024.0 * p + glm::dvec3(64, -32, 8));
@@ -420,7 +439,8 @@ TEST_CASE("a real garment needs few colours, none of them small", "[topology][co
         CHECK(even.colour_count() <= degree_of(graph) + 1);
         for (std::size_t k = 0; k < even.colour_count(); ++k)
         {
-            CHECK((even.colour_start[k + 1] - even.colour_start[k]) * even.colour_count() > graph.size() * 9 / 10);
+            const std::uint32_t size = even.colour_start[k + 1] - even.colour_start[k];
+            CHECK(size * even.colour_count() > graph.size() * 9 / 10);
         }
     }
 }

@@ -23,13 +23,14 @@ Plot sample()
     plot.x_label = "device time per simulated second [ms]";
     plot.y_label = "e_traj [1]";
     plot.series = {
-        {"xpbd float, 1 iteration", {{2, 0.4, "4x1"}, {4, 0.1, "8x1"}, {8, 0.025, "16x1"}, {16, 0.007, "32x1"},
+        {"xpbd float, 1 iteration", {{2, 0.4, "4x1"}, {4, 0.1, "8x1"}, {8, 0.03, "16x1"}, {16, 0.007, "32x1"},
                                      {33, 0.0021, "64x1"}, {70, 0.011, "128x1"}}},
-        {"xpbd float, 4 iterations & more", {{6, 0.5, "4x4"}, {11, 0.2, "8x4"}, {kNaN, kNaN, "16x4"}, {45, 0.03, "32x4"}}},
+        {"xpbd float, 4 iterations & more",
+         {{6, 0.5, "4x4"}, {11, 0.2, "8x4"}, {kNaN, kNaN, "16x4"}, {45, 0.03, "32x4"}}},
         {"xpbd double, 1 iteration on the processor of this machine", {{21, 0.41, "4x1"}, {42, 0.1, "8x1"},
                                      {81, 0.025, "16x1"}, {330, 0.0019, "64x1"}, {660, 0.0006, "128x1"}}},
     };
-    plot.caption = {"Reference R3 (explicit, fp64), own error estimate 3e-6; mass-weighted over moving vertices.",
+    plot.caption = {"Reference R3 (explicit, fp64), own error 3e-6; mass-weighted over moving vertices.",
                     "20 repetitions, median."};
     plot.gaps = {"xpbd float 256x1: the run diverged at step 12 <limit 1e6 m/s>"};
     return plot;
@@ -103,7 +104,7 @@ TEST_CASE("the front holds exactly the points that nothing beats in both", "[svg
 TEST_CASE("what cannot be drawn is listed as a gap and breaks the line", "[svg]")
 {
     const std::string text = svg(sample());
-    CHECK(text.find("xpbd float, 4 iterations &amp; more, 16x4: no finite positive value") != std::string::npos);
+    CHECK(count(text, "xpbd float, 4 iterations &amp; more, 16x4: no finite positive value") == 1);
     CHECK(text.find("diverged at step 12 &lt;limit") != std::string::npos);
     CHECK(text.find("nan") == std::string::npos);
     CHECK(text.find("inf") == std::string::npos);

@@ -22,23 +22,34 @@ using namespace taut;
 
 namespace {
 
-/// Null, with a visible reason, where there is no such device.
-std::shared_ptr<Device> open_here(bool spirv, bool validation = false)
+/// Null, with a visible reason, where `open` finds no device.
+template <typename Open>
+auto open_or_skip(Open&& open) -> decltype(open())
 {
-    OpenOptions options;
-    options.validation = validation;
     try
     {
-        return open_opengl(spirv, options);
+        return open();
     }
     catch (const Error& error)
     {
         const char* required = std::getenv("TAUT_REQUIRE_DEVICE");
-        if (required && std::string(required) == "1")
+        if (required && *required && std::string(required) != "0")
             throw;
         WARN("skipped: " << error.what());
         return nullptr;
     }
+}
+
+std::shared_ptr<Device> open_here(bool spirv, bool validation = false)
+{
+    OpenOptions options;
+    options.validation = validation;
+    return open_or_skip([&] { return open_opengl(spirv, options); });
+}
+
+std::shared_ptr<opengl::Context> context_here(bool validation = false)
+{
+    return open_or_skip([&] { return opengl::Context::open(validation); });
 }
 
 #define TAUT_OPENGL_DEVICE(device)                       \
@@ -446,7 +457,7 @@ TEST_CASE("opengl: a barrier carries the indirect bit only where group counts we
     const std::vector<bool> barriers = derive_barriers(list);
     REQUIRE(barriers == std::vector<bool>{false, true, false, true, true, true});
 
-    const auto context = opengl::Context::open(false);
+    const auto context = context_here();
     const opengl::Context::Use use(*context);
     const opengl::ParamBlocks params(context, list);
     const std::vector<std::shared_ptr<opengl::Program>> programs(
@@ -466,7 +477,7 @@ TEST_CASE("opengl: nothing is bound twice in a row")
     const std::vector<BufferPtr> buffers = {device->make_buffer(256, "values")};
     const std::vector<Dispatch> list(
         100, Dispatch{&mark->info, {{0, 0, 256}}, std::vector<std::byte>(4), 64, {kNoBuffer, 0, 0}, ""});
-    const auto context = opengl::Context::open(false);
+    const auto context = context_here();
     const opengl::Context::Use use(*context);
     const opengl::ParamBlocks params(context, list);
     const std::vector<std::shared_ptr<opengl::Program>> programs(
@@ -540,23 +551,53 @@ TEST_CASE("opengl: each dispatch sees its own parameters")
     CHECK(device->read<float>(values, 100) == expected);
 }
 
-TEST_CASE("opengl: the driver's words about a bad kernel are in the error")
+TEST_CASE("opengl: the driver's words about a bad kernel are in the error, and the device goes on")
 {
-    if (!open_here(false))
-        return;
-    const auto device = open_here(false);
+    TAUT_OPENGL_DEVICE(device);
     const auto good = mark_kernel();
-    KernelInfo bad = good->info;
     const std::string text = "#version 450\nlayout(local_size_x = 64) in;\nvoid main() { nonsense_here(); }\n";
+    const std::array<std::uint32_t, 3> words = {1, 2, 3};
+    KernelInfo bad = good->info;
     bad.glsl = text;
+    bad.spirv_opengl = words;
     const BufferPtr values = device->make_buffer(256, "values");
-    Recorder recorder(device);
-    recorder.dispatch(bad, {values}, CountParams{64}, 64);
-    const Error error = refusal([&] { recorder.finish(); });
+    const auto run = [&](const KernelInfo& kernel) {
+        Recorder recorder(device);
+        recorder.dispatch(kernel, {values}, CountParams{64}, 64);
+        recorder.finish()->replay();
+    };
+    const Error error = refusal([&] { run(bad); });
     CHECK(error.code() == ErrorCode::kernel_compilation);
     CHECK(says(error, "kernel test"));
-    CHECK(says(error, "nonsense_here"));
-    device->wait(); // and the device goes on
+    if (!spirv)
+        CHECK(says(error, "nonsense_here"));
+    run(good->info);
+    CHECK(device->read<std::uint32_t>(values, 64)[63] == 64);
+}
+
+TEST_CASE("opengl: a kernel without the form that the device takes is refused")
+{
+    TAUT_OPENGL_DEVICE(device);
+    const auto good = mark_kernel();
+    KernelInfo bare = good->info;
+    bare.glsl = {};
+    bare.spirv_opengl = {};
+    Recorder recorder(device);
+    recorder.dispatch(bare, {device->make_buffer(256, "values")}, CountParams{64}, 64);
+    CHECK(refusal([&] { recorder.finish(); }).code() == ErrorCode::unsupported);
+}
+
+TEST_CASE("opengl: memory that the driver cannot give is a refusal, and the context goes on")
+{
+    const auto context = context_here();
+    if (!context)
+        return;
+    const opengl::Context::Use use(*context);
+    const Error error = refusal([&] { opengl::GlBuffer(context, std::uint64_t{1} << 60, "endless"); });
+    CHECK(error.code() == ErrorCode::out_of_memory);
+    CHECK(says(error, "endless"));
+    CHECK(context->counters().memory_blocks == 0);
+    CHECK_NOTHROW(opengl::GlBuffer(context, 64, "modest"));
 }
 
 TEST_CASE("opengl: a text whose layout is not the table's is refused")
@@ -589,7 +630,7 @@ TEST_CASE("opengl: a text whose layout is not the table's is refused")
 TEST_CASE("opengl: a context of the host stays current and keeps its objects")
 {
     TAUT_OPENGL_DEVICE(device);
-    const auto host = opengl::Context::open(false);
+    const auto host = context_here();
     GLuint theirs = 0, bound = 0;
     {
         const opengl::Context::Use use(*host);
@@ -620,6 +661,30 @@ TEST_CASE("opengl: a context of the host stays current and keeps its objects")
         host->gl().DeleteBuffers(1, &theirs);
     }
     CHECK_FALSE(host->is_current());
+}
+
+TEST_CASE("opengl: an OpenGL ES context of the host and its choice of API come back")
+{
+    TAUT_OPENGL_DEVICE(device);
+    const opengl::Egl& egl = opengl::egl_library();
+    const EGLDisplay display = opengl::windowless_displays(egl).front().display;
+    REQUIRE(egl.BindAPI(EGL_OPENGL_ES_API));
+    const EGLint es3[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+    const EGLContext theirs = egl.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, es3);
+    if (theirs == EGL_NO_CONTEXT)
+    {
+        WARN("skipped: no OpenGL ES here");
+        return;
+    }
+    REQUIRE(egl.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, theirs));
+    const BufferPtr values = device->make_buffer(256, "values");
+    CHECK(device->read<std::uint32_t>(values, 64)[63] == 0);
+    CHECK(egl.QueryAPI() == EGL_OPENGL_ES_API);
+    CHECK(egl.GetCurrentContext() == theirs);
+    egl.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl.DestroyContext(display, theirs);
+    CHECK(device->read<std::uint32_t>(values, 64)[63] == 0);
+    CHECK(egl.GetCurrentContext() == EGL_NO_CONTEXT);
 }
 
 TEST_CASE("opengl: several threads may use one device")
@@ -675,21 +740,9 @@ TEST_CASE("opengl: ordinary work gives the debug context nothing to say")
 
 TEST_CASE("opengl: the debug context counts a mistake, and the device is lost after it")
 {
-    const auto context = [] {
-        try
-        {
-            return opengl::Context::open(true);
-        }
-        catch (const Error&)
-        {
-            return std::shared_ptr<opengl::Context>();
-        }
-    }();
+    const auto context = context_here(true);
     if (!context)
-    {
-        WARN("skipped: no OpenGL");
         return;
-    }
     const opengl::Context::Use use(*context);
     context->gl().DispatchComputeIndirect(1); // not a multiple of four
     CHECK(context->counters().validation_messages >= 1);

@@ -1,0 +1,32 @@
+#pragma once
+// What a mesh file says, before welding and cleaning; and the readers of each format. They are
+// strict, take memory in proportion to the file, and check every index and number (docs/scene.md
+// says why they are not a library's).
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace taut::scene_file {
+
+struct RawMesh
+{
+    std::vector<glm::dvec3> positions;                    ///< finite, in file order
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices in range; larger faces are fanned
+};
+
+/// All throw Error{bad_input} naming `file` and the line or byte, what is there and what would be right.
+RawMesh read_obj(std::string_view text, const std::string& file);
+RawMesh read_off(std::string_view text, const std::string& file);
+RawMesh read_ply(std::string_view text, const std::string& file);
+RawMesh read_stl(std::string_view text, const std::string& file);
+
+/// Cuts a face into triangles at its first corner.
+void add_face(RawMesh& mesh, std::span<const std::uint32_t> corners);
+
+} // namespace taut::scene_file

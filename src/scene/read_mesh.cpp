@@ -1,0 +1,77 @@
+// Mesh files: the format by the file's extension, its text, its mesh.
+
+#include "taut/runtime/base/error.hpp"
+#include "taut/scene/checker.hpp"
+#include "taut/scene/file_text.hpp"
+#include "taut/scene/mesh.hpp"
+#include "taut/scene/weld.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+
+namespace scene_file {
+
+namespace {
+
+using Reader = RawMesh (*)(std::string_view, const std::string&);
+
+Reader reader_of(std::string extension, const std::string& file)
+{
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z')
+            c = static_cast<char>(c - 'A' + 'a');
+    if (extension == ".obj")
+        return read_obj;
+    if (extension == ".off")
+        return read_off;
+    if (extension == ".ply")
+        return read_ply;
+    if (extension == ".stl")
+        return read_stl;
+    throw Error(ErrorCode::bad_input,
+                file + ": the extension \"" + extension + "\" is not read; it must be .obj, .ply, .off or .stl");
+}
+
+/// Squares and cubes of coordinates must stay finite.
+void check_size(const RawMesh& raw, const std::string& file)
+{
+    for (std::size_t v = 0; v < raw.positions.size(); ++v)
+        for (int c = 0; c < 3; ++c)
+            if (!(std::abs(raw.positions[v][c]) <= kMaxValue))
+                throw Error(ErrorCode::bad_input, file + ": vertex " + std::to_string(v) + " is " +
+                                                      shown(raw.positions[v]) +
+                                                      "; coordinates must be at most 1e30 in magnitude");
+}
+
+} // namespace
+
+Mesh parse_mesh(std::string_view text, std::string extension, const std::string& file, double weld_distance,
+                MeshFindings& findings)
+{
+    const RawMesh raw = reader_of(std::move(extension), file)(text, file);
+    check_size(raw, file);
+    findings = {};
+    Mesh mesh = clean(raw, weld_distance, findings);
+    if (mesh.triangles.empty())
+        throw Error(ErrorCode::bad_input, file + ": it has " + std::to_string(raw.positions.size()) +
+                                              " vertices and no triangle with area; there is nothing to simulate");
+    return mesh;
+}
+
+} // namespace scene_file
+
+Mesh read_mesh(const std::filesystem::path& file, double weld_distance, MeshFindings* findings)
+{
+    // Vertices have 32-bit numbers, and a file needs more than a byte for each.
+    constexpr std::uintmax_t max_bytes = std::uintmax_t(1) << 32;
+    MeshFindings found;
+    Mesh mesh = scene_file::parse_mesh(scene_file::read_file(file, max_bytes), file.extension().string(),
+                                       file.string(), weld_distance, found);
+    if (findings)
+        *findings = std::move(found);
+    return mesh;
+}
+
+} // namespace taut

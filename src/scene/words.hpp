@@ -1,0 +1,54 @@
+#pragma once
+// Reads text files word by word, remembering the line for messages. Never reads past the text.
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace taut::scene_file {
+
+class Words
+{
+public:
+    Words(std::string_view text, const std::string& file) : text_(text), file_(&file) {}
+
+    /// Goes to the next line that has a word; false at the end. `#` starts a comment.
+    bool next_line();
+    /// The next word of the line; empty at its end.
+    std::string_view word();
+    /// The next word of the text, over line ends; empty at its end.
+    std::string_view any_word();
+
+    /// The next word (of the line) as a finite number, a position, or a whole number.
+    double number(std::string_view what);
+    glm::dvec3 position();
+    std::int64_t integer(std::string_view what);
+
+    /// A word as a number; refuses what is not one, and what is not finite.
+    double to_number(std::string_view word, std::string_view what) const;
+    std::int64_t to_integer(std::string_view word, std::string_view what) const;
+
+    std::size_t offset() const { return at_; } ///< bytes consumed
+    std::size_t left() const { return text_.size() - at_; }
+    void set_comment(char mark) { comment_ = mark; }
+    /// A backslash before the line end joins two lines (OBJ).
+    void join_lines() { joins_ = true; }
+
+    [[noreturn]] void fail(const std::string& text) const;
+
+private:
+    bool skip_blanks();
+
+    std::string_view text_;
+    const std::string* file_;
+    std::size_t at_ = 0, line_ = 1;
+    bool started_ = false, joins_ = false;
+    char comment_ = '#';
+};
+
+/// A word for messages: printable, cut short, in quotes.
+std::string quoted(std::string_view word);
+
+} // namespace taut::scene_file

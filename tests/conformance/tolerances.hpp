@@ -1,0 +1,51 @@
+#pragma once
+// How far a kernel may be from the fp64 reference, and which executors must equal cpu:serial bit for bit.
+//
+// An entry counts in units of eps * scale: eps is 2^-23 (float) or 2^-52 (double), and the scale is the size
+// of the terms that were added to make the value, which each reference computes beside the value. So a number
+// here is a count of roundings, not a fitted error. The reference rounds too: in double both sides contribute.
+
+#include "support/catch.hpp"
+#include "taut/runtime/device.hpp"
+
+#include <string_view>
+
+namespace taut::conformance {
+
+struct Tolerance
+{
+    std::string_view kernel;
+    double units;
+    std::string_view reason;
+};
+
+inline constexpr Tolerance kTolerances[] = {
+    {"predict", 4, "gravity product, sum, product with h, sum with low; a clamp adds a root, a quotient, a product"},
+    {"finish", 2, "one sum for the position (half a unit); a difference and a product for the velocity"},
+    {"damping", 1, "one product"},
+    {"external_force", 2, "two products and a sum"},
+    {"pin_motion", 3, "a quotient, a difference, a product, a sum, a difference"},
+    {"distance", 8, "difference, root, quotient for the direction, quotient for the multiplier, product, sum"},
+    {"bending", 24, "cross products of cross products: each gradient passes some ten roundings, the angle six"},
+    {"hub", 16, "as distance, and a tree of 64 partial sums of up to 16 terms each"},
+    {"plane", 8, "two dot products, a push, a slide and its removal, for each collider in turn"},
+    {"sphere", 16, "as plane, and a root of a quadratic for the way in"},
+};
+
+inline double tolerance_of(std::string_view kernel)
+{
+    for (const Tolerance& entry : kTolerances)
+        if (entry.kernel == kernel)
+            return entry.units;
+    FAIL("tests/conformance/tolerances.hpp has no entry for kernel " << kernel);
+    return 0;
+}
+
+/// The native executors always; software drivers because they round each operation as C++ does.
+/// Hardware may fuse products into sums and divide with up to 2.5 units of error: tolerance only.
+inline bool bitwise_equal_expected(const DeviceInfo& info)
+{
+    return !info.hardware_gpu;
+}
+
+} // namespace taut::conformance

@@ -1,0 +1,61 @@
+#include "support/catch.hpp"
+#include "taut/runtime/cpu/pool.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+using namespace taut;
+
+TEST_CASE("a pool runs every chunk of every job once, whatever the number of workers")
+{
+    struct Tally final : cpu::Job
+    {
+        std::vector<std::atomic<int>> runs = std::vector<std::atomic<int>>(200);
+        void run_chunk(std::uint32_t chunk, bool) override { ++runs[chunk]; }
+    };
+    for (const unsigned workers : {0u, 1u, 2u, 9u})
+    {
+        cpu::Pool pool(workers);
+        CHECK(pool.workers() == workers);
+        Tally tally;
+        for (std::uint32_t job = 0; job < 5000; ++job)
+            REQUIRE(pool.run(tally, job % 200).by_workers <= job % 200);
+        bool all = true;
+        for (std::uint32_t chunk = 0; chunk < 200; ++chunk)
+            all = all && tally.runs[chunk] == 25 * static_cast<int>(199 - chunk);
+        CHECK(all);
+    }
+}
+
+TEST_CASE("what a chunk throws reaches the caller after all chunks stopped, and the pool lives on")
+{
+    struct Thrower final : cpu::Job
+    {
+        std::atomic<int> running = 0;
+        void run_chunk(std::uint32_t chunk, bool) override
+        {
+            ++running;
+            if (chunk % 3 == 0)
+            {
+                --running;
+                throw std::runtime_error("chunk");
+            }
+            --running;
+        }
+    };
+    cpu::Pool pool(2);
+    Thrower thrower;
+    for (int i = 0; i < 100; ++i)
+    {
+        REQUIRE_THROWS_AS(pool.run(thrower, 16), std::runtime_error);
+        REQUIRE(thrower.running == 0);
+    }
+}
+
+TEST_CASE("pools come and go without work")
+{
+    for (int i = 0; i < 50; ++i)
+        cpu::Pool(3);
+}

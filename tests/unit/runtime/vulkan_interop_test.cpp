@@ -1,0 +1,358 @@
+// A host with a Vulkan device of its own, made here with nothing but the loader, hands it to Taut.
+
+#include "vulkan_support.hpp"
+
+#include "taut/runtime/cpu/cpu_device.hpp"
+#include "taut/runtime/vulkan/interop.hpp"
+
+#include <dlfcn.h>
+
+#include <cstring>
+#include <limits>
+
+using namespace taut;
+using namespace taut::vulkan_test;
+
+namespace {
+
+constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
+
+/// What an engine would have: instance, device, queue, command buffer, and its own count of validation
+/// messages.
+class Host
+{
+public:
+    static std::unique_ptr<Host> open(bool float64 = false)
+    {
+        auto host = std::unique_ptr<Host>(new Host);
+        void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+        if (list_vulkan().empty() || library == nullptr)
+        {
+            WARN("skipped: there is no Vulkan device");
+            return nullptr;
+        }
+        host->get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+        host->make_instance();
+        host->make_device(float64);
+        host->make_commands();
+        return host;
+    }
+
+    ~Host()
+    {
+        if (device != VK_NULL_HANDLE)
+        {
+            call<PFN_vkDestroyCommandPool>("vkDestroyCommandPool")(device, pool, nullptr);
+            call<PFN_vkDestroyDevice>("vkDestroyDevice")(device, nullptr);
+            call<PFN_vkDestroyDebugUtilsMessengerEXT>("vkDestroyDebugUtilsMessengerEXT")(instance, messenger,
+                                                                                         nullptr);
+            call<PFN_vkDestroyInstance>("vkDestroyInstance")(instance, nullptr);
+        }
+    }
+
+    template <typename Function>
+    Function call(const char* name) const
+    {
+        return reinterpret_cast<Function>(get(instance, name));
+    }
+
+    VulkanContext context() const
+    {
+        VulkanContext out;
+        out.instance = instance;
+        out.physical_device = physical;
+        out.device = device;
+        out.queue = queue;
+        out.queue_family = family;
+        out.get_instance_proc_addr = get;
+        out.api_version = VK_API_VERSION_1_1;
+        out.shader_float64 = float64_enabled;
+        return out;
+    }
+
+    void begin() const
+    {
+        VkCommandBufferBeginInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+        REQUIRE(call<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(commands, &info) == VK_SUCCESS);
+    }
+
+    void submit_and_wait() const
+    {
+        REQUIRE(call<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(commands) == VK_SUCCESS);
+        VkSubmitInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+        info.commandBufferCount = 1;
+        info.pCommandBuffers = &commands;
+        REQUIRE(call<PFN_vkQueueSubmit>("vkQueueSubmit")(queue, 1, &info, VK_NULL_HANDLE) == VK_SUCCESS);
+        REQUIRE(call<PFN_vkQueueWaitIdle>("vkQueueWaitIdle")(queue) == VK_SUCCESS);
+    }
+
+    std::string messages;
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t family = 0;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    PFN_vkGetInstanceProcAddr get = nullptr;
+    bool float64_enabled = false;
+
+private:
+    Host() = default;
+
+    static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                     VkDebugUtilsMessageTypeFlagsEXT,
+                                                     const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                     void* host)
+    {
+        static_cast<Host*>(host)->messages += std::string(data->pMessage) + "\n";
+        return VK_FALSE;
+    }
+
+    void make_instance()
+    {
+        VkApplicationInfo app = {};
+        app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+        app.apiVersion = VK_API_VERSION_1_1;
+        const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+        VkInstanceCreateInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+        info.pApplicationInfo = &app;
+        info.enabledLayerCount = 1;
+        info.ppEnabledLayerNames = &kLayer;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &extension;
+        REQUIRE(call<PFN_vkCreateInstance>("vkCreateInstance")(&info, nullptr, &instance) == VK_SUCCESS);
+        VkDebugUtilsMessengerCreateInfoEXT hear = {};
+        hear.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+        hear.messageSeverity =
+            VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+        hear.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+        hear.pfnUserCallback = on_message;
+        hear.pUserData = this;
+        REQUIRE(call<PFN_vkCreateDebugUtilsMessengerEXT>("vkCreateDebugUtilsMessengerEXT")(
+                    instance, &hear, nullptr, &messenger) == VK_SUCCESS);
+    }
+
+    void make_device(bool float64)
+    {
+        std::uint32_t count = 1;
+        call<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices")(instance, &count, &physical);
+        std::uint32_t families = 16;
+        VkQueueFamilyProperties properties[16];
+        call<PFN_vkGetPhysicalDeviceQueueFamilyProperties>("vkGetPhysicalDeviceQueueFamilyProperties")(
+            physical, &families, properties);
+        while (family < families && (properties[family].queueFlags & vulkan_requirements().queue_flags) == 0)
+            ++family;
+        const float priority = 1;
+        VkDeviceQueueCreateInfo queues = {};
+        queues.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+        queues.queueFamilyIndex = family;
+        queues.queueCount = 1;
+        queues.pQueuePriorities = &priority;
+        const VulkanRequirements needs =
+            vulkan_requirements(float64 ? Precision::float64 : Precision::float32);
+        VkDeviceCreateInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+        info.queueCreateInfoCount = 1;
+        info.pQueueCreateInfos = &queues;
+        info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());
+        info.ppEnabledExtensionNames = needs.device_extensions.data();
+        info.pEnabledFeatures = &needs.features;
+        float64_enabled = needs.features.shaderFloat64 == VK_TRUE;
+        REQUIRE(call<PFN_vkCreateDevice>("vkCreateDevice")(physical, &info, nullptr, &device) == VK_SUCCESS);
+        call<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(device, family, 0, &queue);
+    }
+
+    void make_commands()
+    {
+        VkCommandPoolCreateInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+        info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+        info.queueFamilyIndex = family;
+        REQUIRE(call<PFN_vkCreateCommandPool>("vkCreateCommandPool")(device, &info, nullptr, &pool) ==
+                VK_SUCCESS);
+        VkCommandBufferAllocateInfo one = {};
+        one.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+        one.commandPool = pool;
+        one.commandBufferCount = 1;
+        REQUIRE(call<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(device, &one, &commands) ==
+                VK_SUCCESS);
+    }
+
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+};
+
+std::unique_ptr<Recording> twice(const std::shared_ptr<Device>& device, const BufferPtr& x, std::uint32_t n)
+{
+    Recorder recorder(device);
+    recorder.dispatch(affine(), {x}, AffineParams{n, 2, 1}, n);
+    recorder.dispatch(affine(), {x}, AffineParams{n, 2, 1}, n);
+    return recorder.finish();
+}
+
+} // namespace
+
+TEST_CASE("a device that the host made computes, and is still the host's afterwards")
+{
+    const std::unique_ptr<Host> host = Host::open();
+    if (!host)
+        return;
+    {
+        const std::shared_ptr<Device> device = adopt(host->context());
+        CHECK(device->info().executor == "vulkan");
+        CHECK(device->info().selector == "adopted");
+        CHECK(!device->limits().float64);
+        const BufferPtr x = device->make_buffer(4 * 1000, "x");
+        const auto recording = twice(device, x, 1000);
+        recording->replay();
+        recording->replay();
+        CHECK(device->read<float>(x, 1000) == std::vector<float>(1000, 15.0f));
+        CHECK(recording->replay_timed().size() == 2);
+    }
+    host->begin(); // the queue and the device still work
+    host->submit_and_wait();
+    CHECK(host->messages == "");
+}
+
+TEST_CASE("two hosts' devices and an own one work side by side")
+{
+    const std::unique_ptr<Host> first = Host::open();
+    if (!first)
+        return;
+    const std::unique_ptr<Host> second = Host::open();
+    const std::vector<std::shared_ptr<Device>> devices = {adopt(first->context()), open_vulkan(0, {}),
+                                                          adopt(second->context())};
+    std::vector<BufferPtr> buffers;
+    for (const auto& device : devices)
+    {
+        buffers.push_back(device->make_buffer(64, "x"));
+        twice(device, buffers.back(), 16)->replay();
+    }
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        CHECK(devices[i]->read<float>(buffers[i], 16) == std::vector<float>(16, 3.0f));
+    CHECK(refusal([&] { devices[0]->read<float>(buffers[2], 1); }).code == ErrorCode::bad_input);
+    CHECK(first->messages + second->messages == "");
+}
+
+TEST_CASE("a host records a step among its own commands and copies from the simulation's buffer")
+{
+    const std::unique_ptr<Host> host = Host::open();
+    if (!host)
+        return;
+    {
+        const std::shared_ptr<Device> device = adopt(host->context());
+        const std::uint32_t n = 3000;
+        const BufferPtr x = device->make_buffer(4 * n, "x");
+        const BufferPtr copy = device->make_buffer(4 * n, "copy");
+        const auto recording = twice(device, x, n);
+        const std::uint64_t submissions = device->counters().submissions;
+
+        VkDeviceSize from = 77, to = 77;
+        const VkBuffer source = vulkan_buffer(x, &from);
+        const VkBuffer target = vulkan_buffer(copy, &to);
+        REQUIRE(source != VK_NULL_HANDLE);
+        host->begin();
+        // Fill, step, copy, step: the barriers around a step make this right without any of the host's.
+        const float one = 1;
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &one, 4);
+        host->call<PFN_vkCmdFillBuffer>("vkCmdFillBuffer")(host->commands, source, from, 4 * n, bits);
+        record_into(*recording, host->commands);
+        const VkBufferCopy region = {from, to, 4 * n};
+        host->call<PFN_vkCmdCopyBuffer>("vkCmdCopyBuffer")(host->commands, source, target, 1, &region);
+        record_into_vulkan(*recording, host->commands);
+        CHECK(device->counters().submissions == submissions);
+        host->submit_and_wait();
+
+        CHECK(device->read<float>(copy, n) == std::vector<float>(n, 7.0f));
+        CHECK(device->read<float>(x, n) == std::vector<float>(n, 31.0f));
+    }
+    CHECK(host->messages == "");
+}
+
+TEST_CASE("the host's queue mutex is held while Taut submits")
+{
+    const std::unique_ptr<Host> host = Host::open();
+    if (!host)
+        return;
+    std::mutex mutex;
+    VulkanContext context = host->context();
+    context.queue_mutex = &mutex;
+    const std::shared_ptr<Device> device = adopt(context);
+    const BufferPtr x = device->make_buffer(64, "x");
+    const auto recording = twice(device, x, 16);
+    recording->replay();
+    CHECK(mutex.try_lock()); // and given back
+    mutex.unlock();
+    CHECK(device->read<float>(x, 16) == std::vector<float>(16, 3.0f));
+}
+
+TEST_CASE("a host's device without 64-bit floats refuses double kernels, one with them takes them")
+{
+    const auto kernel = kernel_of("third",
+                                  "PARAMS { uint count; };\nUPDATE(0, real, x);\n"
+                                  "KERNEL(count) { x[i] = x[i] / real(3); }\n",
+                                  Precision::float64);
+    const auto run = [&](const Host& host) {
+        const std::shared_ptr<Device> device = adopt(host.context());
+        const BufferPtr x = upload(*device, std::vector<double>(8, 1.0));
+        Recorder recorder(device);
+        recorder.dispatch(kernel->info, {x}, CountParams{8}, 8);
+        recorder.finish()->replay();
+        return device->read<double>(x, 8);
+    };
+    const std::unique_ptr<Host> without = Host::open(false);
+    if (!without)
+        return;
+    CHECK(refusal([&] { run(*without); }).code == ErrorCode::unsupported);
+    CHECK(without->messages == "");
+    if (!list_vulkan().front().limits.float64)
+        return;
+    const std::unique_ptr<Host> with = Host::open(true);
+    CHECK(run(*with) == std::vector<double>(8, 1.0 / 3.0));
+    CHECK(with->messages == "");
+}
+
+TEST_CASE("an incomplete Vulkan context is refused with the name of the field")
+{
+    const std::unique_ptr<Host> host = Host::open();
+    if (!host)
+        return;
+    const auto broken = [&](const std::function<void(VulkanContext&)>& change) {
+        VulkanContext context = host->context();
+        change(context);
+        return refusal([&] { adopt(context); });
+    };
+    const auto names = [&](const char* field, ErrorCode code,
+                           const std::function<void(VulkanContext&)>& change) {
+        const Refusal refused = broken(change);
+        INFO(field << ": " << refused.text);
+        CHECK(refused.code == code);
+        CHECK(contains(refused.text, std::string("VulkanContext::") + field));
+    };
+    const ErrorCode bad = ErrorCode::bad_input;
+    names("instance", bad, [](VulkanContext& c) { c.instance = VK_NULL_HANDLE; });
+    names("physical_device", bad, [](VulkanContext& c) { c.physical_device = VK_NULL_HANDLE; });
+    names("device", bad, [](VulkanContext& c) { c.device = VK_NULL_HANDLE; });
+    names("queue", bad, [](VulkanContext& c) { c.queue = VK_NULL_HANDLE; });
+    names("get_instance_proc_addr", bad, [](VulkanContext& c) { c.get_instance_proc_addr = nullptr; });
+    names("queue_family", bad, [](VulkanContext& c) { c.queue_family = 1000; });
+    names("api_version", ErrorCode::unsupported,
+          [](VulkanContext& c) { c.api_version = VK_API_VERSION_1_0; });
+    names("api_version", ErrorCode::unsupported, [](VulkanContext& c) { c.api_version = 0; });
+    CHECK(host->messages == "");
+}
+
+TEST_CASE("recordings and buffers of other executors are refused where Vulkan handles are asked for")
+{
+    const std::shared_ptr<Device> device = open_cpu(CpuMode::serial, {});
+    const BufferPtr x = device->make_buffer(64, "x");
+    CHECK(refusal([&] { vulkan_buffer(x); }).code == ErrorCode::unsupported);
+    CHECK(refusal([&] { vulkan_buffer(nullptr); }).code == ErrorCode::unsupported);
+    const auto recording = Recorder(device).finish();
+    CHECK(refusal([&] { record_into_vulkan(*recording, nullptr); }).code == ErrorCode::unsupported);
+    CHECK(validation_messages(*device).empty());
+}

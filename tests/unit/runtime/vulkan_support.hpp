@@ -1,0 +1,123 @@
+#pragma once
+// Shared by the Vulkan tests: opening with validation, kernels from text, and the check that nothing was
+// said.
+
+#include "support/catch.hpp"
+
+#include "taut/runtime/compiler/compiler.hpp"
+#include "taut/runtime/device.hpp"
+#include "taut/runtime/vulkan/vulkan_device.hpp"
+
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace taut::vulkan_test {
+
+/// Null, with a visible reason, where there is no Vulkan, unless TAUT_REQUIRE_DEVICE=1.
+inline std::shared_ptr<Device> open_here(OpenOptions options = {.validation = true})
+{
+    try
+    {
+        return open_vulkan(0, options);
+    }
+    catch (const Error& error)
+    {
+        const char* required = std::getenv("TAUT_REQUIRE_DEVICE");
+        if (required && std::string(required) == "1")
+            throw;
+        WARN("skipped: " << error.what());
+        return nullptr;
+    }
+}
+
+inline std::string said(const Device& device)
+{
+    std::string text;
+    for (const std::string& message : validation_messages(device))
+        text += message + "\n";
+    return text;
+}
+
+/// Opens or leaves the test.
+#define TAUT_VULKAN_DEVICE(device)                                                                           \
+    const std::shared_ptr<taut::Device> device = taut::vulkan_test::open_here();                             \
+    if (!device)                                                                                             \
+    return
+
+/// The end of every test that uses the device as it should.
+#define CHECK_NOTHING_SAID(device)                                                                           \
+    do                                                                                                       \
+    {                                                                                                        \
+        INFO(taut::vulkan_test::said(*(device)));                                                            \
+        CHECK((device)->counters().validation_messages == 0);                                                \
+    } while (false)
+
+inline std::shared_ptr<const CompiledKernel> kernel_of(const std::string& name, const std::string& body,
+                                                       Precision precision = Precision::float32)
+{
+    KernelSource source;
+    source.name = name;
+    source.text = "#include \"shared/portable.glsl\"\n" + body;
+    source.precision = precision;
+    source.variant = kernel_variants(name, source.text).front();
+    return compile_kernel(source);
+}
+
+inline constexpr const char* kAffineText = "PARAMS { uint count; float factor; float add; };\n"
+                                           "UPDATE(0, float, x);\n"
+                                           "KERNEL(count) { x[i] = x[i] * factor + add; }\n";
+struct AffineParams
+{
+    std::uint32_t count = 0;
+    float factor = 0;
+    float add = 0;
+};
+
+/// x <- factor x + add.
+inline const KernelInfo& affine()
+{
+    static const auto kernel = kernel_of("affine", kAffineText);
+    return kernel->info;
+}
+
+struct CountParams
+{
+    std::uint32_t count = 0;
+};
+
+template <typename T>
+BufferPtr upload(Device& device, const std::vector<T>& values)
+{
+    BufferPtr buffer = device.make_buffer(values.size() * sizeof(T), "test");
+    device.write<T>(buffer, values);
+    return buffer;
+}
+
+/// The code and text of the error that `act` throws; no code when it throws none.
+struct Refusal
+{
+    std::optional<ErrorCode> code;
+    std::string text;
+};
+
+inline Refusal refusal(const std::function<void()>& act)
+{
+    try
+    {
+        act();
+    }
+    catch (const Error& error)
+    {
+        return {error.code(), error.what()};
+    }
+    return {};
+}
+
+inline bool contains(const std::string& text, std::string_view part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace taut::vulkan_test
