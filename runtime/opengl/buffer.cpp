@@ -5,7 +5,9 @@
 namespace taut::opengl {
 
 GlBuffer::GlBuffer(std::shared_ptr<Context> context, std::uint64_t bytes, std::string_view label)
-    : Buffer(bytes), context_(std::move(context)), label_(label)
+    : Buffer(bytes),
+      context_(std::move(context)),
+      label_(label)
 {
     const Gl& gl = context_->gl();
     // Whole words, because clearing by words is the fast way.

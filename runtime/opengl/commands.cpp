@@ -31,7 +31,8 @@ bool writes_to(const Dispatch& dispatch, const BufferRange& range)
 /// For each dispatch, the first dispatch that writes its group counts; size() if none does.
 std::vector<std::size_t> first_count_writers(const std::vector<Dispatch>& dispatches)
 {
-    std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t> known; // many dispatches share their counts
+    std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t>
+        known; // many dispatches share their counts
     std::vector<std::size_t> first(dispatches.size(), dispatches.size());
     for (std::size_t i = 0; i < dispatches.size(); ++i)
     {
@@ -81,7 +82,8 @@ public:
                           .offset = in_.params.offset(at),
                           .bytes = in_.params.bytes(at)});
         if (dispatch.indirect.buffer != kNoBuffer)
-            set(indirect_, {.op = Command::Op::bind_indirect, .object = buffer_id(in_, dispatch.indirect.buffer)});
+            set(indirect_,
+                {.op = Command::Op::bind_indirect, .object = buffer_id(in_, dispatch.indirect.buffer)});
     }
 
     void launch(std::size_t at)
@@ -129,7 +131,8 @@ private:
 } // namespace
 
 ParamBlocks::ParamBlocks(std::shared_ptr<Context> context, const std::vector<Dispatch>& dispatches)
-    : offsets_(dispatches.size()), sizes_(dispatches.size())
+    : offsets_(dispatches.size()),
+      sizes_(dispatches.size())
 {
     // std140 rounds a block up to 16 bytes, and the bound range must cover it.
     const auto step = static_cast<std::size_t>(

@@ -24,9 +24,10 @@ const char* error_name(GLenum error)
 } // namespace
 
 Context::Context(const Egl& egl, EGLDisplay display, EGLContext context)
-    : egl_(egl), display_(display), context_(context)
-{
-}
+    : egl_(egl),
+      display_(display),
+      context_(context)
+{}
 
 Context::~Context()
 {
@@ -96,9 +97,9 @@ std::shared_ptr<Context> Context::open(bool validation)
 void Context::load_functions()
 {
     const auto find = [&](const char* name) { return egl_.GetProcAddress(name); };
-#define TAUT_GL_LOAD(name, type)                                               \
-    gl_.name = reinterpret_cast<PFNGL##type##PROC>(find("gl" #name));          \
-    if (!gl_.name)                                                             \
+#define TAUT_GL_LOAD(name, type)                                                                             \
+    gl_.name = reinterpret_cast<PFNGL##type##PROC>(find("gl" #name));                                        \
+    if (!gl_.name)                                                                                           \
         throw Error(ErrorCode::no_device, "has no gl" #name);
     TAUT_GL_FUNCTIONS(TAUT_GL_LOAD)
 #undef TAUT_GL_LOAD
@@ -128,7 +129,8 @@ void Context::listen()
     gl_.DebugMessageCallback(&Context::on_message, this);
 }
 
-void APIENTRY Context::on_message(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar*, const void* self)
+void APIENTRY Context::on_message(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar*,
+                                  const void* self)
 {
     if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
         ++const_cast<Context*>(static_cast<const Context*>(self))->messages_;
@@ -158,10 +160,7 @@ std::int64_t Context::number(GLenum name) const
     return value;
 }
 
-bool Context::is_current() const
-{
-    return current_context(egl_).context == context_;
-}
+bool Context::is_current() const { return current_context(egl_).context == context_; }
 
 Context::Use::Use(Context& context) : context_(context), lock_(context.mutex_)
 {

@@ -11,10 +11,7 @@
 namespace taut::opengl {
 namespace {
 
-[[noreturn]] void refuse(const std::string& why)
-{
-    throw Error(ErrorCode::no_device, why);
-}
+[[noreturn]] void refuse(const std::string& why) { throw Error(ErrorCode::no_device, why); }
 
 bool has_word(const char* words, std::string_view word)
 {
@@ -44,7 +41,8 @@ EGLConfig choose_config(const Egl& egl, EGLDisplay display, const char* extensio
 
 std::vector<EGLint> context_attributes(const ContextWishes& wishes, bool reset_notice)
 {
-    std::vector<EGLint> list = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+    std::vector<EGLint> list = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                EGL_CONTEXT_MINOR_VERSION,       5,
                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
     if (wishes.debug)
         list.insert(list.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
@@ -180,10 +178,10 @@ EGLContext create_context(const Egl& egl, EGLDisplay display, const ContextWishe
 std::string egl_error(const Egl& egl)
 {
     static constexpr const char* kNames[] = {
-        "EGL_SUCCESS",     "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",        "EGL_BAD_ALLOC",
-        "EGL_BAD_ATTRIBUTE", "EGL_BAD_CONFIG",    "EGL_BAD_CONTEXT",       "EGL_BAD_CURRENT_SURFACE",
-        "EGL_BAD_DISPLAY", "EGL_BAD_MATCH",       "EGL_BAD_NATIVE_PIXMAP", "EGL_BAD_NATIVE_WINDOW",
-        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",   "EGL_CONTEXT_LOST"};
+        "EGL_SUCCESS",       "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",        "EGL_BAD_ALLOC",
+        "EGL_BAD_ATTRIBUTE", "EGL_BAD_CONFIG",      "EGL_BAD_CONTEXT",       "EGL_BAD_CURRENT_SURFACE",
+        "EGL_BAD_DISPLAY",   "EGL_BAD_MATCH",       "EGL_BAD_NATIVE_PIXMAP", "EGL_BAD_NATIVE_WINDOW",
+        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",     "EGL_CONTEXT_LOST"};
     const EGLint code = egl.GetError();
     char text[16];
     std::snprintf(text, sizeof(text), "0x%04X", static_cast<unsigned>(code));

@@ -12,21 +12,21 @@
 
 namespace taut::opengl {
 
-#define TAUT_EGL_FUNCTIONS(X) \
-    X(GetProcAddress)         \
-    X(QueryString)            \
-    X(GetError)               \
-    X(GetDisplay)             \
-    X(GetPlatformDisplay)     \
-    X(Initialize)             \
-    X(BindAPI)                \
-    X(QueryAPI)               \
-    X(ChooseConfig)           \
-    X(CreateContext)          \
-    X(DestroyContext)         \
-    X(MakeCurrent)            \
-    X(GetCurrentContext)      \
-    X(GetCurrentDisplay)      \
+#define TAUT_EGL_FUNCTIONS(X)                                                                                \
+    X(GetProcAddress)                                                                                        \
+    X(QueryString)                                                                                           \
+    X(GetError)                                                                                              \
+    X(GetDisplay)                                                                                            \
+    X(GetPlatformDisplay)                                                                                    \
+    X(Initialize)                                                                                            \
+    X(BindAPI)                                                                                               \
+    X(QueryAPI)                                                                                              \
+    X(ChooseConfig)                                                                                          \
+    X(CreateContext)                                                                                         \
+    X(DestroyContext)                                                                                        \
+    X(MakeCurrent)                                                                                           \
+    X(GetCurrentContext)                                                                                     \
+    X(GetCurrentDisplay)                                                                                     \
     X(GetCurrentSurface)
 
 struct Egl

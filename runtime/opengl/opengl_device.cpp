@@ -36,9 +36,9 @@ DeviceLimits read_limits(const Context& context)
 {
     DeviceLimits limits;
     limits.max_buffer_bytes = static_cast<std::uint64_t>(context.number(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
-    limits.offset_alignment = static_cast<std::uint64_t>(
-        std::max(context.number(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT),
-                 context.number(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT)));
+    limits.offset_alignment =
+        static_cast<std::uint64_t>(std::max(context.number(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT),
+                                            context.number(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT)));
     limits.max_groups_per_dimension = groups_per_dimension(context);
     limits.max_group_size = group_size(context);
     limits.max_shared_bytes = small(context.number(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE));
@@ -108,8 +108,9 @@ const GlBuffer& GlDevice::own(const BufferPtr& buffer) const
 {
     const auto* mine = dynamic_cast<const GlBuffer*>(buffer.get());
     if (!mine || &mine->context() != context_.get())
-        throw Error(ErrorCode::bad_input, std::string(buffer ? "a buffer of another device" : "a null buffer") +
-                                              " was given to " + info().name + ": make it with this device");
+        throw Error(ErrorCode::bad_input,
+                    std::string(buffer ? "a buffer of another device" : "a null buffer") + " was given to " +
+                        info().name + ": make it with this device");
     return *mine;
 }
 
@@ -119,7 +120,8 @@ const GlBuffer& GlDevice::own_range(const BufferPtr& buffer, std::uint64_t offse
     if (offset > mine.bytes() || bytes > mine.bytes() - offset)
         throw Error(ErrorCode::bad_input, "bytes " + std::to_string(offset) + " to " +
                                               std::to_string(offset + bytes) + " are outside buffer " +
-                                              mine.label() + " of " + std::to_string(mine.bytes()) + " bytes");
+                                              mine.label() + " of " + std::to_string(mine.bytes()) +
+                                              " bytes");
     return mine;
 }
 
@@ -159,7 +161,8 @@ std::unique_ptr<Recording> GlDevice::compile(RecordingDesc desc)
     for (const BufferPtr& buffer : desc.buffers)
         own(buffer);
     const Context::Use use(*context_);
-    std::map<const KernelInfo*, std::shared_ptr<Program>> once; // an edited kernel is compiled once a recording
+    std::map<const KernelInfo*, std::shared_ptr<Program>>
+        once; // an edited kernel is compiled once a recording
     std::vector<std::shared_ptr<Program>> programs;
     for (const Dispatch& dispatch : desc.dispatches)
     {
@@ -196,8 +199,8 @@ std::shared_ptr<Device> open_opengl(bool spirv, const OpenOptions& options)
 {
     const auto context = opengl::Context::open(options.validation);
     if (spirv && !context->takes_spirv())
-        throw Error(ErrorCode::unsupported, context->renderer() +
-                                                " takes no SPIR-V (no GL_ARB_gl_spirv): open \"opengl\" instead");
+        throw Error(ErrorCode::unsupported,
+                    context->renderer() + " takes no SPIR-V (no GL_ARB_gl_spirv): open \"opengl\" instead");
     const opengl::Context::Use use(*context);
     return std::make_shared<opengl::GlDevice>(context, spirv);
 }

@@ -154,9 +154,10 @@ void Program::check_buffers(const KernelInfo& kernel) const
             at != static_cast<GLint>(binding.slot))
             refuse(kernel, "buffer " + name + " sits at binding " + std::to_string(at) + ", expected " +
                                std::to_string(binding.slot));
-        if (const GLint stride = element_stride(block); stride != 0 && stride != static_cast<GLint>(binding.stride))
-            refuse(kernel, "elements of " + name + " are " + std::to_string(stride) + " bytes apart, expected " +
-                               std::to_string(binding.stride));
+        if (const GLint stride = element_stride(block);
+            stride != 0 && stride != static_cast<GLint>(binding.stride))
+            refuse(kernel, "elements of " + name + " are " + std::to_string(stride) +
+                               " bytes apart, expected " + std::to_string(binding.stride));
     }
 }
 

@@ -12,7 +12,8 @@ class Program
 {
 public:
     /// Call inside a Use. Throws Error{kernel_compilation} with the driver's words, or when the driver lays
-    /// out parameters or buffers differently from `kernel`; Error{unsupported} without that form of the kernel.
+    /// out parameters or buffers differently from `kernel`; Error{unsupported} without that form of the
+    /// kernel.
     Program(std::shared_ptr<Context> context, const KernelInfo& kernel, bool spirv);
     ~Program();
     Program(const Program&) = delete;

@@ -34,7 +34,8 @@ private:
 } // namespace
 
 GlRecording::GlRecording(std::shared_ptr<Context> context, RecordingDesc desc,
-                         std::vector<std::shared_ptr<Program>> programs, std::uint32_t max_groups_per_dimension)
+                         std::vector<std::shared_ptr<Program>> programs,
+                         std::uint32_t max_groups_per_dimension)
     : context_(std::move(context)),
       buffers_(std::move(desc.buffers)),
       programs_(std::move(programs)),

@@ -61,8 +61,8 @@ int check_scene(const std::string& file, bool json)
         return bad ? kBadInput : kDone;
     }
     for (const SceneIssue& issue : issues)
-        std::cout << (issue.error ? "error: " : "warning: ") << (issue.field.empty() ? "" : issue.field + ": ")
-                  << issue.text << "\n";
+        std::cout << (issue.error ? "error: " : "warning: ")
+                  << (issue.field.empty() ? "" : issue.field + ": ") << issue.text << "\n";
     if (!bad)
         std::cout << file << " is a sound scene" << (issues.empty() ? ".\n" : ", with the warnings above.\n");
     return bad ? kBadInput : kDone;
@@ -81,9 +81,8 @@ void add_check(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<Options>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([&chosen, options] {
-        chosen = [options] { return check_scene(options->scene, options->json); };
-    });
+    command->callback(
+        [&chosen, options] { chosen = [options] { return check_scene(options->scene, options->json); }; });
 }
 
 } // namespace taut::cli

@@ -35,9 +35,10 @@ std::string pipeline_cache()
 
 void add_device_option(CLI::App& command, std::string& selector)
 {
-    command.add_option("--device", selector,
-                       "auto, vulkan, vulkan:1, part of a device's name, opengl, opengl:spirv, cpu, cpu:serial "
-                       "(default: TAUT_DEVICE, else auto)");
+    command.add_option(
+        "--device", selector,
+        "auto, vulkan, vulkan:1, part of a device's name, opengl, opengl:spirv, cpu, cpu:serial "
+        "(default: TAUT_DEVICE, else auto)");
 }
 
 std::shared_ptr<Device> open_device(const std::string& selector)

@@ -7,10 +7,7 @@ namespace {
 
 volatile std::sig_atomic_t received = 0;
 
-extern "C" void receive(int)
-{
-    received = 1;
-}
+extern "C" void receive(int) { received = 1; }
 
 } // namespace
 
@@ -32,9 +29,6 @@ InterruptGuard::~InterruptGuard()
     std::signal(SIGTERM, SIG_DFL);
 }
 
-bool InterruptGuard::interrupted() const
-{
-    return received != 0;
-}
+bool InterruptGuard::interrupted() const { return received != 0; }
 
 } // namespace taut::cli

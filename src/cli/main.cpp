@@ -51,8 +51,10 @@ cli::Command parse(int argc, char** argv, int& status)
     }
     catch (const CLI::ParseError& error)
     {
-        const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr;
-        const std::string what = unknown ? "there is no command \"" + std::string(argv[1]) + "\"" : error.what();
+        const auto named = [&](CLI::App* command) { return command->get_name() == argv[1]; };
+        const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands(named).empty();
+        const std::string what =
+            unknown ? "there is no command \"" + std::string(argv[1]) + "\"" : error.what();
         status = complain(what + " (taut --help lists commands and options)", cli::kBadInput);
         return {};
     }

@@ -74,7 +74,8 @@ fs::path MeshSequence::file_name(std::size_t index) const
 
 void MeshSequence::write(const std::vector<glm::dvec3>& positions, std::uint64_t frame, double time)
 {
-    std::string text = "# taut, frame " + std::to_string(frame) + ", time " + number(time, 9) + " s, metres\n";
+    std::string text =
+        "# taut, frame " + std::to_string(frame) + ", time " + number(time, 9) + " s, metres\n";
     text.reserve(positions.size() * 40);
     std::size_t vertex = 0;
     for (std::size_t body = 0; body < faces_.size(); ++body)
@@ -101,8 +102,7 @@ void MeshSequence::remove_older() const
 {
     std::error_code ignored;
     for (std::size_t index = count_; fs::remove(file_name(index), ignored); ++index)
-    {
-    }
+    {}
 }
 
 } // namespace taut::cli

@@ -29,7 +29,7 @@ private:
     std::filesystem::path file_name(std::size_t index) const;
 
     std::filesystem::path folder_;
-    std::vector<std::string> faces_;   ///< per body: its name, faces and links, ready to write
+    std::vector<std::string> faces_;    ///< per body: its name, faces and links, ready to write
     std::vector<std::size_t> vertices_; ///< per body
     std::size_t count_ = 0;
 };

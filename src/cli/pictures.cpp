@@ -15,7 +15,8 @@ std::vector<std::uint64_t> snapshot_frames(std::uint64_t frames)
     return list;
 }
 
-std::vector<std::string> draw_pictures(const Scene&, const std::vector<Snapshot>&, const std::filesystem::path&)
+std::vector<std::string> draw_pictures(const Scene&, const std::vector<Snapshot>&,
+                                       const std::filesystem::path&)
 {
     return {};
 }

@@ -12,8 +12,8 @@ namespace taut::cli {
 
 struct Snapshot
 {
-    double time = 0;                    ///< s
-    std::vector<glm::dvec3> positions;  ///< m, in the order of the scene
+    double time = 0;                   ///< s
+    std::vector<glm::dvec3> positions; ///< m, in the order of the scene
 };
 
 /// Frames worth a snapshot for the contact sheet: spread evenly, first and last among them.

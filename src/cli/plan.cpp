@@ -55,11 +55,13 @@ std::string to_table(const Plan& plan)
 {
     std::vector<std::vector<std::string>> rows = {{"effect", "dispatches", "allocated", "moved", "kernels"}};
     for (const EffectCost& effect : plan.effects)
-        rows.push_back({effect.name, std::to_string(effect.dispatches_per_step), bytes_text(effect.bytes_allocated),
-                        bytes_text(effect.bytes_per_step), join(effect.kernels)});
+        rows.push_back({effect.name, std::to_string(effect.dispatches_per_step),
+                        bytes_text(effect.bytes_allocated), bytes_text(effect.bytes_per_step),
+                        join(effect.kernels)});
     std::string text = table(rows) + "\n";
-    text += std::to_string(plan.vertex_count) + " vertices, " + std::string(to_string(plan.precision)) + ", " +
-            std::to_string(plan.substeps) + " substeps of " + std::to_string(plan.iterations) + " iterations\n";
+    text += std::to_string(plan.vertex_count) + " vertices, " + std::string(to_string(plan.precision)) +
+            ", " + std::to_string(plan.substeps) + " substeps of " + std::to_string(plan.iterations) +
+            " iterations\n";
     const auto colours = plan.colour_counts();
     for (const auto& [kind, count] : plan.constraint_counts())
     {
@@ -68,7 +70,8 @@ std::string to_table(const Plan& plan)
                 std::to_string(found == colours.end() ? 0 : found->second) + " colours\n";
     }
     text += "a step: " + std::to_string(plan.passes.size()) + " dispatches, " +
-            std::to_string(plan.barrier_count()) + " barriers, " + bytes_text(plan.bytes_allocated()) + " allocated\n";
+            std::to_string(plan.barrier_count()) + " barriers, " + bytes_text(plan.bytes_allocated()) +
+            " allocated\n";
     return text;
 }
 
@@ -92,7 +95,8 @@ int show_plan(const PlanCommand& options)
 
 void add_plan(CLI::App& app, Command& chosen)
 {
-    CLI::App* command = app.add_subcommand("plan", "Show what a step would run: passes, barriers, bytes, per effect");
+    CLI::App* command =
+        app.add_subcommand("plan", "Show what a step would run: passes, barriers, bytes, per effect");
     const auto options = std::make_shared<PlanCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);

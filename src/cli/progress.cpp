@@ -18,7 +18,8 @@ void Progress::update(std::uint64_t done)
     const std::uint64_t filled = kWidth * done / total_;
     const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
     const double spent = std::chrono::duration<double>(now - start_).count();
-    const double left = done == 0 ? 0 : spent / static_cast<double>(done) * static_cast<double>(total_ - done);
+    const double left =
+        done == 0 ? 0 : spent / static_cast<double>(done) * static_cast<double>(total_ - done);
     std::fprintf(stderr, "\r[%s] %llu/%llu frames, %.0f s left \033[K", bar.c_str(),
                  static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_), left);
     std::fflush(stderr);

@@ -36,7 +36,8 @@ std::uint64_t frame_count(const RunCommand& options, const Scene& scene)
     // 4 s of 1/60 s are 240 frames, whatever the last bit of the quotient says.
     const double frames = std::ceil(scene.duration / scene.timestep - 1e-6);
     if (!(frames < std::numeric_limits<std::uint32_t>::max()))
-        throw Error(ErrorCode::bad_input, options.scene + ": duration " + number(scene.duration) + " s has more than " +
+        throw Error(ErrorCode::bad_input, options.scene + ": duration " + number(scene.duration) +
+                                              " s has more than " +
                                               "4294967295 time steps; shorten it or give --frames.");
     return static_cast<std::uint64_t>(std::max(frames, 0.0));
 }
@@ -57,7 +58,8 @@ void forget_older_run(const fs::path& folder)
         std::error_code error;
         fs::remove(folder / name, error);
         if (error)
-            throw Error(ErrorCode::io, "cannot replace " + (folder / name).string() + ": " + error.message() + ".");
+            throw Error(ErrorCode::io,
+                        "cannot replace " + (folder / name).string() + ": " + error.message() + ".");
     }
 }
 
@@ -66,11 +68,13 @@ class Runner
 {
 public:
     Runner(const RunCommand& options, World& world, std::uint64_t frames)
-        : options_(options), world_(world), frames_(frames), every_(mesh_interval(options, world.scene())),
+        : options_(options),
+          world_(world),
+          frames_(frames),
+          every_(mesh_interval(options, world.scene())),
           snapshot_frames_(options.no_picture ? std::vector<std::uint64_t>{} : snapshot_frames(frames)),
           meshes_(world.scene(), options.folder)
-    {
-    }
+    {}
 
     /// True if it was interrupted.
     bool run()
@@ -102,7 +106,8 @@ private:
         const auto start = std::chrono::steady_clock::now();
         world_.step();
         world_.device().wait();
-        step_ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        step_ms_.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         ++done_;
         finite_ = world_.events().non_finite == 0;
     }

@@ -56,7 +56,8 @@ Json to_json(const RunResult& result)
     json["status"] = to_string(report.status);
     json["warnings"] = report.warnings;
     json["messages"] = result.messages;
-    json["step_ms"] = {{"median", percentile(result.step_ms, 0.5)}, {"p95", percentile(result.step_ms, 0.95)}};
+    json["step_ms"] = {{"median", percentile(result.step_ms, 0.5)},
+                       {"p95", percentile(result.step_ms, 0.95)}};
     json["passes"] = passes_json(result.passes);
     json["max_stretch"] = report.max_stretch;
     json["rms_stretch"] = report.rms_stretch;
@@ -83,9 +84,9 @@ std::string summary(const RunResult& result)
             number(percentile(result.step_ms, 0.95), 3) + " ms at the 95th percentile, " +
             std::to_string(result.vertices) + " vertices\n";
     text += "errors  stretch " + number(100 * report.max_stretch, 3) + " % largest, " +
-            number(100 * report.rms_stretch, 3) + " % rms; penetration " + number(1000 * report.penetration, 3) +
-            " mm; residuals " + number(report.primal_residual, 2) + " primal, " + number(report.dual_residual, 2) +
-            " dual\n";
+            number(100 * report.rms_stretch, 3) + " % rms; penetration " +
+            number(1000 * report.penetration, 3) + " mm; residuals " + number(report.primal_residual, 2) +
+            " primal, " + number(report.dual_residual, 2) + " dual\n";
     for (const auto& [word, count] : report.warnings)
         text += "warning " + word + " (" + std::to_string(count) + ")\n";
     for (const std::string& message : result.messages)

@@ -20,10 +20,10 @@ struct RunResult
     std::uint64_t vertices = 0;
     std::map<std::string, std::uint64_t> constraints, colours; ///< by kind
     StepReport report;
-    std::vector<double> step_ms;      ///< wall time of each frame, ms
-    std::vector<EffectTime> passes;   ///< device time of one frame by effect; empty after an interruption
+    std::vector<double> step_ms;       ///< wall time of each frame, ms
+    std::vector<EffectTime> passes;    ///< device time of one frame by effect; empty after an interruption
     std::vector<std::string> messages; ///< what scene and plan warn of, in sentences
-    std::size_t meshes = 0;           ///< files written
+    std::size_t meshes = 0;            ///< files written
     std::vector<std::string> pictures; ///< files written, relative to the folder
 };
 

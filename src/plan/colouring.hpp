@@ -30,7 +30,7 @@ struct Colouring
     /// A constraint between two hubs belongs to the lower one. Members of one list share the hub and
     /// may share other vertices, and two lists may share vertices: solve them one after another.
     std::vector<std::uint32_t> hub_constraints;
-    std::vector<std::uint32_t> hub_start;    ///< hubs + 1
+    std::vector<std::uint32_t> hub_start; ///< hubs + 1
     std::size_t colour_count() const { return colour_start.empty() ? 0 : colour_start.size() - 1; }
 };
 
@@ -47,7 +47,11 @@ Colouring colour_greedy(const ConstraintGraph& graph, const ColouringOptions& = 
 
 /// Colours for the springs of a grid by direction and parity: 4 structural, 8 with both diagonals,
 /// 12 with the skip-one springs. Ordered by colour, then row by row. Optimal and balanced.
-struct GridSpring { std::uint32_t a, b; std::uint8_t colour; };
+struct GridSpring
+{
+    std::uint32_t a, b;
+    std::uint8_t colour;
+};
 std::vector<GridSpring> grid_springs(std::uint32_t columns_of_vertices, std::uint32_t rows_of_vertices,
                                      bool diagonals, bool skip_one);
 

@@ -22,9 +22,8 @@ public:
     std::pair<std::uint32_t, std::uint32_t> ends(std::uint32_t edge) const
     {
         std::pair<std::uint32_t, std::uint32_t> out{kNone, kNone};
-        for_each_moving(a_.graph, edge, [&](std::uint32_t v) {
-            (out.first == kNone ? out.first : out.second) = v;
-        });
+        for_each_moving(a_.graph, edge,
+                        [&](std::uint32_t v) { (out.first == kNone ? out.first : out.second) = v; });
         return out;
     }
 
@@ -154,8 +153,8 @@ bool Paths::colour_by_fan(std::uint32_t edge, std::uint32_t centre)
     {
         fan.push_back(next);
         free_there = free_at(other_end(next, centre));
-        const auto both = std::find_first_of(free_here.begin(), free_here.end(), free_there.begin(),
-                                             free_there.end());
+        const auto both =
+            std::find_first_of(free_here.begin(), free_here.end(), free_there.begin(), free_there.end());
         if (both != free_here.end())
         {
             rotate(fan, fan.size() - 1, *both);

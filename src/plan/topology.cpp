@@ -44,7 +44,8 @@ struct Side
                                           " to itself; its corners must be different vertices");
 }
 
-template <class Visit> void for_each_side(const Mesh& mesh, Visit visit)
+template <class Visit>
+void for_each_side(const Mesh& mesh, Visit visit)
 {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     {

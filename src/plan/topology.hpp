@@ -13,8 +13,8 @@ namespace taut {
 /// An interior or boundary edge with the triangles at it.
 struct MeshEdge
 {
-    std::uint32_t a = 0, b = 0;             ///< a < b
-    std::vector<std::uint32_t> triangles;   ///< ascending; empty for a link
+    std::uint32_t a = 0, b = 0;           ///< a < b
+    std::vector<std::uint32_t> triangles; ///< ascending; empty for a link
 };
 
 /// Every edge once, sorted by (a, b): the sides of the triangles and the links. Throws

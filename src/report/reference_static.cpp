@@ -48,6 +48,7 @@ public:
 private:
     bool factor(Curvature curvature, double shift);
     bool step(const State& g);
+    bool stagnates(const State& g);
     bool search(const State& g, const Eigen::VectorXd& direction);
     void polish(const State& g);
     bool leave_saddle();
@@ -62,6 +63,9 @@ private:
     double max_move_ = 0;
     std::uint32_t factorisations_ = 0;
     int escapes_ = 0;
+    double moved_ = 0;     // m, largest move of the last step
+    int idle_ = 0;         // steps since the residual or the cloth last moved
+    double lowest_ = HUGE_VAL; // N, residual
     Cholesky cholesky_;
 };
 
@@ -111,6 +115,7 @@ bool Newton::search(const State& g, const Eigen::VectorXd& direction)
                 next[i] = next[i] + static_cast<Real>(length) *
                                         Vec<Real>{direction[u], direction[u + 1], direction[u + 2]};
         const bool lower = energy_.value(next) <= before + static_cast<Real>(1e-4 * length) * slope;
+        moved_ = length * move;
         if (lower || largest_component(energy_.gradient(next)) < 0.9 * force * (tries == 0 && length == 1))
         {
             x_ = std::move(next);
@@ -143,6 +148,16 @@ bool Newton::step(const State& g)
     return false;
 }
 
+/// True after ten steps that neither moved anything nor lowered the residual: the number format is used up.
+bool Newton::stagnates(const State& g)
+{
+    const double residual = largest_component(g);
+    const bool idle = moved_ < 1e-12 * model_.diameter && residual > 0.9 * lowest_;
+    idle_ = idle ? idle_ + 1 : 0;
+    lowest_ = std::min(lowest_, residual);
+    return idle_ == 10;
+}
+
 /// One more step: from the tolerance to what the number format resolves.
 void Newton::polish(const State& g)
 {
@@ -164,6 +179,7 @@ bool Newton::leave_saddle()
         if (energy_.unknown(i) >= 0)
             x_[i] = x_[i] + Vec<Real>{draw(), draw(), draw()};
     shift_ = kShiftStart;
+    lowest_ = HUGE_VAL;
     return true;
 }
 
@@ -211,9 +227,14 @@ StaticReference Newton::run()
             reason = "not converged after " + std::to_string(factorisations_) + " factorisations";
             break;
         }
+        else if (stagnates(g))
+        {
+            reason = "rounding: the residual cannot fall further, the forces are too large beside the weight";
+            break;
+        }
         else if (!step(g))
         {
-            reason = "no step lowers the energy any more: rounding, or a part that nothing holds in place";
+            reason = "no step lowers the energy any more";
             break;
         }
     }

@@ -75,7 +75,8 @@ TEST_CASE("a folder that cannot be written ends with status 2 and leaves it as i
     const Folder folder;
     const std::string scene = folder.file("cloth.json", scenes::cloth());
     const std::string file = folder.file("in_the_way", "text");
-    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--out", file});
+    const Result result =
+        folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--out", file});
     check_refused(result, 2, "in_the_way");
     CHECK(program::read(file) == "text");
 }
@@ -84,8 +85,8 @@ TEST_CASE("a refused scene does not touch what an earlier run wrote")
 {
     const Folder folder;
     const std::string scene = folder.file("cloth.json", scenes::cloth());
-    const std::vector<std::string> arguments = {"run", scene, "--device", "cpu:serial", "--frames", "1",
-                                                "--out", folder / "o", "--no-picture"};
+    const std::vector<std::string> arguments = {"run", scene,   "--device",   "cpu:serial",  "--frames",
+                                                "1",   "--out", folder / "o", "--no-picture"};
     REQUIRE(folder.taut(arguments).status == 0);
     const std::string before = program::read(folder / "o/report.json");
     folder.file("cloth.json", scenes::cloth("-1"));

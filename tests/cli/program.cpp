@@ -51,7 +51,8 @@ std::string Folder::file(const std::string& name, const std::string& text) const
     return (path_ / name).string();
 }
 
-Result Folder::taut(const std::vector<std::string>& arguments, const std::function<void(int)>& meanwhile) const
+Result Folder::taut(const std::vector<std::string>& arguments,
+                    const std::function<void(int)>& meanwhile) const
 {
     std::vector<std::string> text = {TAUT_PROGRAM};
     text.insert(text.end(), arguments.begin(), arguments.end());
@@ -94,9 +95,6 @@ std::string read(const fs::path& file)
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-nlohmann::json parse(const std::string& text)
-{
-    return nlohmann::json::parse(text);
-}
+nlohmann::json parse(const std::string& text) { return nlohmann::json::parse(text); }
 
 } // namespace program

@@ -32,7 +32,8 @@ public:
     std::string file(const std::string& name, const std::string& text) const;
 
     /// Starts the program. `meanwhile` is called again and again with the process id while it runs.
-    Result taut(const std::vector<std::string>& arguments, const std::function<void(int)>& meanwhile = {}) const;
+    Result taut(const std::vector<std::string>& arguments,
+                const std::function<void(int)>& meanwhile = {}) const;
 
     /// Names of what is in the folder below, sorted.
     std::vector<std::string> list(const std::string& below) const;

@@ -15,11 +15,29 @@ using program::Result;
 
 namespace {
 
-const std::vector<std::string> kRunKeys = {
-    "device", "executor", "precision", "frames", "simulated_seconds", "vertices", "constraints", "colours",
-    "status", "step_ms", "passes", "max_stretch", "rms_stretch", "penetration", "kinetic_energy",
-    "potential_energy", "momentum_error", "primal_residual", "dual_residual", "position_hash", "warnings",
-    "taut", "scene"};
+const std::vector<std::string> kRunKeys = {"device",
+                                           "executor",
+                                           "precision",
+                                           "frames",
+                                           "simulated_seconds",
+                                           "vertices",
+                                           "constraints",
+                                           "colours",
+                                           "status",
+                                           "step_ms",
+                                           "passes",
+                                           "max_stretch",
+                                           "rms_stretch",
+                                           "penetration",
+                                           "kinetic_energy",
+                                           "potential_energy",
+                                           "momentum_error",
+                                           "primal_residual",
+                                           "dual_residual",
+                                           "position_hash",
+                                           "warnings",
+                                           "taut",
+                                           "scene"};
 
 void check_keys(const nlohmann::json& report)
 {
@@ -50,8 +68,8 @@ TEST_CASE("run writes meshes and a report, and prints the same report as one JSO
 {
     const Folder folder;
     const std::string scene = folder.file("cloth.json", scenes::cloth());
-    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "4", "--every", "1",
-                                       "--out", folder / "o", "--json", "--no-picture"});
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "4", "--every",
+                                       "1", "--out", folder / "o", "--json", "--no-picture"});
     INFO(result.err);
     REQUIRE(result.status == 0);
     CHECK(result.err.empty());
@@ -98,8 +116,10 @@ TEST_CASE("a mesh file holds every body under its own name")
 {
     const Folder folder;
     const std::string scene = folder.file("two.json", scenes::two_bodies());
-    REQUIRE(folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--out", folder / "o",
-                         "--no-picture"}).status == 0);
+    REQUIRE(folder
+                .taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--out", folder / "o",
+                       "--no-picture"})
+                .status == 0);
     const std::string mesh = program::read(folder / "o/mesh_00000.obj");
     CHECK(count_lines(mesh, "v ") == 9 + 4);
     CHECK(count_lines(mesh, "f ") == 8);
@@ -114,8 +134,8 @@ TEST_CASE("the same run again gives the same positions, and a shorter one leaves
     const Folder folder;
     const std::string scene = folder.file("cloth.json", scenes::cloth());
     const auto run = [&](const char* frames) {
-        const Result result = folder.taut({"run", scene, "--device", "cpu", "--frames", frames, "--every", "1",
-                                           "--out", folder / "o", "--json", "--no-picture"});
+        const Result result = folder.taut({"run", scene, "--device", "cpu", "--frames", frames, "--every",
+                                           "1", "--out", folder / "o", "--json", "--no-picture"});
         REQUIRE(result.status == 0);
         return program::parse(result.out);
     };
@@ -123,7 +143,8 @@ TEST_CASE("the same run again gives the same positions, and a shorter one leaves
     CHECK(first["position_hash"] == second["position_hash"]);
     CHECK(folder.list("o").size() == 7);
     run("2");
-    const std::vector<std::string> files = {"mesh_00000.obj", "mesh_00001.obj", "mesh_00002.obj", "report.json"};
+    const std::vector<std::string> files = {"mesh_00000.obj", "mesh_00001.obj", "mesh_00002.obj",
+                                            "report.json"};
     CHECK(folder.list("o") == files);
 }
 
@@ -131,8 +152,8 @@ TEST_CASE("without --out, files go to out/<scene> of the working folder")
 {
     const Folder folder;
     folder.file("cloth.json", scenes::cloth());
-    const Result result = folder.taut({"run", "cloth.json", "--device", "cpu:serial", "--frames", "1",
-                                       "--every", "0", "--no-picture"});
+    const Result result = folder.taut(
+        {"run", "cloth.json", "--device", "cpu:serial", "--frames", "1", "--every", "0", "--no-picture"});
     REQUIRE(result.status == 0);
     CHECK(folder.list("out/cloth") == std::vector<std::string>{"report.json"});
     CHECK(result.out.find("out/cloth/report.json") != std::string::npos);
@@ -142,8 +163,8 @@ TEST_CASE("no frames at all is a run too")
 {
     const Folder folder;
     const std::string scene = folder.file("cloth.json", scenes::cloth());
-    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "0", "--out",
-                                       folder / "o", "--json"});
+    const Result result = folder.taut(
+        {"run", scene, "--device", "cpu:serial", "--frames", "0", "--out", folder / "o", "--json"});
     INFO(result.err);
     REQUIRE(result.status == 0);
     const auto report = program::parse(result.out);
@@ -158,8 +179,8 @@ TEST_CASE("an interrupted run ends with what is done: a whole report that says s
     const std::string scene = folder.file("cloth.json", scenes::cloth());
     bool sent = false;
     // The third mesh is there: the loop over frames runs, and a hundred thousand frames are left.
-    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1000000", "--every",
-                                       "50", "--out", folder / "o", "--json"},
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1000000",
+                                       "--every", "50", "--out", folder / "o", "--json"},
                                       [&](int process) {
                                           if (!sent && std::filesystem::exists(folder / "o/mesh_00002.obj"))
                                               sent = kill(process, signal) == 0;

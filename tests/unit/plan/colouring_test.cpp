@@ -526,7 +526,10 @@ TEST_CASE("a colouring that loses, repeats or invents a constraint is not valid"
     CHECK(broken([](Colouring& c) { c.order[0] = c.order[1]; }));
     CHECK(broken([](Colouring& c) { c.order[0] = 1000; }));
     CHECK(broken([](Colouring& c) { c.order.pop_back(); }));
-    CHECK(broken([](Colouring& c) { c.order.pop_back(); --c.colour_start.back(); }));
+    CHECK(broken([](Colouring& c) {
+        c.order.pop_back();
+        --c.colour_start.back();
+    }));
     CHECK(broken([](Colouring& c) { c.colour_start[0] = 1; }));
     CHECK(broken([](Colouring& c) { c.hub_start.back() += 1; }));
     CHECK(broken([](Colouring& c) { c.hubs[0] = 5; }));

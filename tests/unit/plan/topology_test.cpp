@@ -56,7 +56,8 @@ bool same(const Hinge& h, std::uint32_t edge0, std::uint32_t edge1, std::uint32_
 }
 
 /// The code of the error that an action throws; fails the test if it throws none.
-template <class Action> ErrorCode code_of(Action action, std::string* text = nullptr)
+template <class Action>
+ErrorCode code_of(Action action, std::string* text = nullptr)
 {
     try
     {

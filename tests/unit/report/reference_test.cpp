@@ -28,8 +28,9 @@ Body hanging_cloth(std::uint32_t cells, double stretch, double bending)
 }
 
 /// A strip of length 1 and width 0.1, weight `gamma` times B per length^3, clamped level. The clamp of a
-/// hinge chain is half a cell before its last pinned column, so a cell is 1/(n + 1/2).
-Scene heavy_strip(std::uint32_t n, double gamma)
+/// hinge chain is half a cell before its last pinned column, so a cell is 1/(n + 1/2). The diagonals are
+/// made stiff: left as they are, they share the folds (next test).
+PhysicalModel heavy_strip(std::uint32_t n, double gamma)
 {
     const double dx = 1 / (n + 0.5), width = 0.1, rigidity = 0.01;
     Body body;
@@ -42,7 +43,36 @@ Scene heavy_strip(std::uint32_t n, double gamma)
     body.vertex_masses.assign(2 * (n + 2), joint);
     body.vertex_masses[n + 1] = body.vertex_masses[2 * n + 3] = joint / 2;
     body.pins.emplace_back().vertices = {0, 1, n + 2, n + 3};
-    return samples::scene_of(std::move(body));
+    PhysicalModel model = make_model(samples::scene_of(std::move(body)));
+    for (BendElement& h : model.hinges)
+        if (h.edge1 - h.edge0 != n + 2 && h.edge0 - h.edge1 != n + 2)
+            h.compliance *= 1e-5;
+    return model;
+}
+
+/// Drop of the tip over that of the heavy elastica with gamma = 1, for a strip of 4 rows of squares.
+double drop_of_free_strip(std::uint32_t n)
+{
+    const double dx = 1 / (n + 0.5), rigidity = 0.01;
+    Body body;
+    body.mesh = samples::right_triangles(n + 1, 4, dx, dx);
+    for (std::uint32_t r = 0; r <= 4; ++r)
+        for (std::uint32_t c = 0; c < n + 2; ++c)
+            body.vertex_masses.push_back(rigidity / 9.81 * dx * dx * (r % 4 ? 1 : 0.5) * (c == n + 1 ? 0.5 : 1));
+    for (glm::dvec3& p : body.mesh.positions)
+        p = {p.x - dx, 0, p.y};
+    body.material.stretch_stiffness = 1e3;
+    body.material.bending_stiffness = rigidity;
+    body.pins.emplace_back();
+    for (std::uint32_t r = 0; r <= 4; ++r)
+        body.pins[0].vertices.insert(body.pins[0].vertices.end(), {r * (n + 2), r * (n + 2) + 1});
+    const PhysicalModel model = make_model(samples::scene_of(std::move(body)));
+    const StaticReference at_rest = solve_static(model, model.start);
+    REQUIRE(at_rest.converged);
+    double drop = 0;
+    for (std::uint32_t r = 0; r <= 4; ++r)
+        drop -= at_rest.positions[r * (n + 2) + n + 1].y / 5;
+    return drop / 0.123471401983;
 }
 
 } // namespace
@@ -113,8 +143,10 @@ TEST_CASE("a clamped strip bends under its weight as the heavy elastica, at seco
     for (int level = 0; level < 3; ++level)
     {
         const std::uint32_t n = 8u << level;
-        const PhysicalModel model = make_model(heavy_strip(n, golden.gamma));
-        const StaticReference at_rest = solve_static(model, model.start);
+        const PhysicalModel model = heavy_strip(n, golden.gamma);
+        StaticOptions options;
+        options.tolerance = 1e-10; // the strip weighs 0.001 N and is 1e5 N/m stiff
+        const StaticReference at_rest = solve_static(model, model.start, options);
         REQUIRE(at_rest.converged);
         CHECK(at_rest.stable);
         const glm::dvec3 tip = 0.5 * (at_rest.positions[n + 1] + at_rest.positions[2 * n + 3]);
@@ -125,6 +157,14 @@ TEST_CASE("a clamped strip bends under its weight as the heavy elastica, at seco
     CHECK(error[2] < 1e-3 * golden.drop);
     CHECK(reach == Approx(golden.reach).epsilon(1e-3));
     CHECK(std::log2(error[0] / error[1]) == Approx(2).margin(0.3));
+}
+
+TEST_CASE("a free strip of right triangles is softer than its plate, because diagonals share the folds",
+          "[reference]")
+{
+    // The mesh error of hinges on this pattern, stated: it does not go away with refinement.
+    CHECK(drop_of_free_strip(8) == Approx(1.148).epsilon(0.005));
+    CHECK(drop_of_free_strip(32) == Approx(1.211).epsilon(0.005));
 }
 
 TEST_CASE("hanging cloth converges to a stable state, slack and wrinkled parts included", "[reference]")
@@ -200,6 +240,18 @@ TEST_CASE("what the static reference cannot answer it refuses with a reason", "[
     scene.bodies.push_back(scene.bodies[0]);
     scene.bodies[1].pins.clear();
     CHECK(reason().find("not held") != std::string::npos);
+}
+
+TEST_CASE("a tolerance below what the number format resolves ends with a reason, soon", "[reference]")
+{
+    const PhysicalModel model = make_model(samples::scene_of(hanging_cloth(6, 1e7, 1e-4)));
+    StaticOptions options;
+    options.tolerance = 1e-24;
+    const StaticReference out = solve_static(model, model.start, options);
+    CHECK_FALSE(out.converged);
+    CHECK(out.reason.find("rounding") == 0);
+    CHECK(out.relative_residual < 1e-9);
+    CHECK(out.iterations < 600);
 }
 
 TEST_CASE("an iteration limit is reported with the residual it left", "[reference]")

@@ -57,7 +57,7 @@ void write_text(const fs::path& path, const std::string& text)
 /// Opens with a cache, compiles one kernel, computes, closes.
 bool use_cache(const std::string& path)
 {
-    const std::shared_ptr<Device> device = open_here({.validation = true, .pipeline_cache = path});
+    const std::shared_ptr<Device> device = open_here(true, path);
     if (!device)
         return false;
     const BufferPtr x = device->make_buffer(64, "x");
@@ -98,7 +98,7 @@ TEST_CASE("a pipeline cache is written when the device closes, and not before")
     const Folder folder;
     const std::string path = (folder.path / "pipelines.bin").string();
     {
-        const std::shared_ptr<Device> device = open_here({.pipeline_cache = path});
+        const std::shared_ptr<Device> device = open_here(false, path);
         if (!device)
             return;
         CHECK(folder.file_count() == 0);
@@ -162,7 +162,7 @@ TEST_CASE("a pipeline cache in a folder that does not exist is refused when the 
         return;
     const Folder folder;
     const std::string path = (folder.path / "no" / "pipelines.bin").string();
-    const Refusal refused = refusal([&] { open_vulkan(0, {.pipeline_cache = path}); });
+    const Refusal refused = refusal([&] { open_here(false, path); });
     CHECK(refused.code == ErrorCode::io);
     CHECK(contains(refused.text, path));
 }

@@ -197,7 +197,7 @@ TEST_CASE("a key that stands twice in one object is refused, in two objects not"
 
 TEST_CASE("text that is not JSON is refused with line and column")
 {
-    CHECK_THAT(refusal("{\n  \"taut\": 1,\n  \"name\": oops\n}"), Contains("my.json: line 3, column 12 is not JSON"));
+    CHECK_THAT(refusal("{\n  \"taut\": 1,\n  \"name\": oops\n}"), Contains("my.json: line 3, column 11 is not JSON"));
     CHECK_THAT(refusal("{\"taut\": 1"), Contains("line 1, column 11 is not JSON"));
     CHECK_THAT(refusal(""), Contains("line 1, column 1 is not JSON"));
     CHECK_THAT(refusal("{\"taut\": 1} x"), Contains("line 1, column 13"));

@@ -1,0 +1,222 @@
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+#include "taut/plan/plan.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+
+using namespace taut;
+
+namespace {
+
+std::vector<std::string> effect_names(const Plan& plan)
+{
+    std::vector<std::string> names;
+    for (const EffectCost& effect : plan.effects)
+        names.push_back(effect.name);
+    return names;
+}
+
+bool same_pass(const Dispatch& a, const Dispatch& b)
+{
+    const auto same_range = [](const BufferRange& x, const BufferRange& y) {
+        return x.buffer == y.buffer && x.offset == y.offset && x.bytes == y.bytes;
+    };
+    return a.kernel == b.kernel && a.params == b.params && a.count == b.count && a.label == b.label &&
+           std::equal(a.bindings.begin(), a.bindings.end(), b.bindings.begin(), b.bindings.end(), same_range);
+}
+
+PlanOptions without_groups()
+{
+    PlanOptions options;
+    options.small_bodies = PlanOptions::SmallBodies::never;
+    return options;
+}
+
+/// Costs under which no two colours are worth merging.
+DeviceTraits wide_device()
+{
+    DeviceTraits traits;
+    traits.dispatch_ns = 1;
+    traits.group_barrier_ns = 1000;
+    return traits;
+}
+
+} // namespace
+
+TEST_CASE("a scene gets the effects that it calls for and no others")
+{
+    CHECK(effect_names(make_plan(test::hanging())) == std::vector<std::string>{"motion", "distance"});
+    const auto all = effect_names(make_plan(test::everything()));
+    for (const char* name : {"damping", "external_force", "motion", "pin_motion", "distance", "bending", "plane", "sphere", "friction"})
+        CHECK(std::count(all.begin(), all.end(), name) == 1);
+    const Scene still = resolve(Scene{});
+    CHECK(make_plan(still).passes.empty());
+    CHECK(make_plan(still).buffers.empty());
+}
+
+TEST_CASE("an absent effect has no kernel, no buffer and no dispatch")
+{
+    const Plan plan = make_plan(test::hanging());
+    for (const Dispatch& pass : plan.passes)
+        CHECK((pass.kernel->name == "predict" || pass.kernel->name == "finish" || pass.kernel->name == "distance"));
+    for (const PlanBuffer& buffer : plan.buffers)
+        CHECK((buffer.effect == "motion" || buffer.effect == "distance"));
+}
+
+TEST_CASE("dispatches follow the formula: substeps (1 + iterations colours + 1)")
+{
+    Scene scene = test::hanging(16);
+    for (const std::uint32_t substeps : {1u, 7u})
+        for (const std::uint32_t iterations : {1u, 3u})
+        {
+            scene.method.substeps = substeps;
+            scene.method.iterations = iterations;
+            const Plan plan = make_plan(scene, wide_device(), without_groups());
+            const std::uint64_t colours = plan.colour_counts().at("distance");
+            CHECK(colours == 8);
+            CHECK(plan.passes.size() == substeps * (1 + iterations * colours + 1));
+            std::uint64_t sum = 0;
+            for (const EffectCost& effect : plan.effects)
+                sum += effect.dispatches_per_step;
+            CHECK(sum == plan.passes.size());
+        }
+}
+
+TEST_CASE("the accounts notice a pass that the scene did not ask for")
+{
+    Plan plan = make_plan(test::hanging(), wide_device(), without_groups());
+    plan.passes.push_back(plan.passes.back());
+    std::uint64_t sum = 0;
+    for (const EffectCost& effect : plan.effects)
+        sum += effect.dispatches_per_step;
+    CHECK(sum != plan.passes.size());
+}
+
+TEST_CASE("no barrier is missing, and one taken away is found")
+{
+    const Plan plan = make_plan(test::everything());
+    CHECK(find_hazards(plan.passes, plan.barrier_before).empty());
+    std::vector<bool> without = plan.barrier_before;
+    const auto barrier = std::find(without.begin() + static_cast<long>(without.size() / 2), without.end(), true);
+    REQUIRE(barrier != without.end());
+    *barrier = false;
+    CHECK_FALSE(find_hazards(plan.passes, without).empty());
+}
+
+TEST_CASE("a plan in which further effects exist equals one in which they do not (G08)")
+{
+    PlanOptions only;
+    only.available_effects = {"motion", "distance"};
+    const Plan a = make_plan(test::hanging()), b = make_plan(test::hanging(), {}, only);
+    REQUIRE(a.passes.size() == b.passes.size());
+    for (std::size_t i = 0; i < a.passes.size(); ++i)
+        REQUIRE(same_pass(a.passes[i], b.passes[i]));
+    CHECK(a.barrier_before == b.barrier_before);
+    CHECK(a.bytes_allocated() == b.bytes_allocated());
+}
+
+TEST_CASE("a body whose vertices are all held has no constraint to solve (A13)")
+{
+    Scene scene = test::hanging(2);
+    for (std::uint32_t v = 0; v < 9; ++v)
+        scene.bodies[0].pins[0].vertices.push_back(v);
+    scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
+    scene.bodies[0].start_positions[0].x -= 0.5;
+    const Plan plan = make_plan(scene);
+    CHECK(plan.constraints.empty());
+    REQUIRE(plan.warnings.size() == 1);
+    CHECK(plan.warnings[0].find("conflict") == 0);
+}
+
+TEST_CASE("a star of 10,000 springs is a hub and not 10,000 dispatches (C03)")
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::chain;
+    body.shape.links = 10000;
+    body.material.stretch_stiffness = 0;
+    for (std::uint32_t v = 1; v <= 10000; ++v)
+        body.springs.push_back({0, v, 1.0, 0.0});
+    scene.bodies = {body};
+    scene.method.substeps = 1;
+    const Plan plan = make_plan(resolve(scene));
+    CHECK(plan.passes.size() == 3);
+    CHECK(plan.passes[1].kernel->name == "hub");
+    CHECK(plan.constraint_counts().at("distance") == 10000);
+}
+
+TEST_CASE("a doubled spring at a hub is not solved twice at once")
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::chain;
+    body.shape.links = 200;
+    body.material.stretch_stiffness = 0;
+    for (std::uint32_t v = 1; v <= 200; ++v)
+        body.springs.push_back({0, v, 1.0, 0.0});
+    body.springs.push_back({7, 0, 1.0, 0.0});
+    scene.bodies = {body};
+    scene.method.substeps = 1;
+    const Plan plan = make_plan(resolve(scene));
+    CHECK(std::count_if(plan.passes.begin(), plan.passes.end(), [](const Dispatch& d) { return d.kernel->name == "hub"; }) == 2);
+}
+
+TEST_CASE("many small bodies share one dispatch a sweep when the device's costs say so")
+{
+    Scene scene = test::hanging(3);
+    scene.bodies.resize(50, scene.bodies[0]);
+    scene.method.substeps = 1;
+    DeviceTraits costly;
+    costly.dispatch_ns = 5000;
+    costly.group_barrier_ns = 50;
+    costly.element_ns = 0.1;
+    costly.lane_element_ns = 10;
+    CHECK(make_plan(scene, costly).passes.size() == 3);
+    CHECK(make_plan(scene, wide_device()).passes.size() == 2 + 8);
+    PlanOptions always;
+    always.small_bodies = PlanOptions::SmallBodies::always;
+    CHECK(make_plan(scene, wide_device(), always).passes.size() == 3);
+}
+
+TEST_CASE("limits and wrong settings are refused in words")
+{
+    Scene scene = test::hanging();
+    const auto code_of = [](const Scene& s, const DeviceTraits& traits) {
+        try
+        {
+            make_plan(s, traits);
+        }
+        catch (const Error& error)
+        {
+            return std::string(to_string(error.code()));
+        }
+        return std::string("none");
+    };
+    DeviceTraits tiny;
+    tiny.max_buffer_bytes = 100;
+    CHECK(code_of(scene, tiny) == "limit");
+    DeviceTraits single;
+    single.float64 = false;
+    scene.method.precision = "double";
+    CHECK(code_of(scene, single) == "unsupported");
+    scene.method.precision = "float";
+    scene.method.type = "magic";
+    CHECK(code_of(scene, {}) == "unsupported");
+    scene.method.type = "xpbd";
+    for (const double h : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e30})
+    {
+        scene.timestep = h;
+        CHECK(code_of(scene, {}) == "bad_timestep");
+    }
+}
+
+TEST_CASE("constraints stay within their body and colours of bodies are merged")
+{
+    Scene one = test::hanging(4), two = one;
+    two.bodies.push_back(one.bodies[0]);
+    const Plan a = make_plan(one, wide_device(), without_groups()), b = make_plan(two, wide_device(), without_groups());
+    CHECK(b.passes.size() == a.passes.size());
+    CHECK(b.constraint_counts().at("distance") == 2 * a.constraint_counts().at("distance"));
+}
