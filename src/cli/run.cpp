@@ -76,10 +76,9 @@ public:
           meshes_(world.scene(), options.folder)
     {}
 
-    /// True if it was interrupted.
-    bool run()
+    /// Up to the last frame, an interruption or a value that is not finite.
+    void run(const InterruptGuard& guard)
     {
-        const InterruptGuard guard;
         Progress progress(frames_);
         keep();
         while (done_ < frames_ && !guard.interrupted() && finite_)
@@ -92,7 +91,6 @@ public:
         if (done_ > 0)
             keep_last();
         meshes_.remove_older();
-        return done_ < frames_ && guard.interrupted();
     }
 
     std::uint64_t done() const { return done_; }
@@ -194,22 +192,23 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     return result;
 }
 
-RunResult simulate(const RunCommand& options, const Scene& scene, const std::shared_ptr<Device>& device)
+RunResult simulate(const RunCommand& options, const Scene& scene, const std::shared_ptr<Device>& device,
+                   const InterruptGuard& guard)
 {
     World world(scene, device);
     const std::uint64_t frames = frame_count(options, scene);
     make_folder(options.folder);
     forget_older_run(options.folder);
     Runner runner(options, world, frames);
-    const bool interrupted = runner.run();
+    runner.run(guard);
 
     RunResult result = describe(options, world, runner);
     result.frames_wanted = frames;
-    if (interrupted && sound(result.report.status))
+    if (runner.done() < frames && sound(result.report.status))
         result.report.status = Status::interrupted;
     if (!options.no_picture && sound(result.report.status))
         result.pictures = draw_pictures(world.scene(), runner.snapshots(), options.folder);
-    if (result.report.status == Status::completed)
+    if (result.report.status == Status::completed && !guard.interrupted())
     {
         measure_residuals(world, device, result.report);
         result.passes = time_passes(world);
@@ -224,7 +223,8 @@ int run(RunCommand options)
     if (options.folder.empty())
         options.folder = fs::path("out") / fs::path(options.scene).stem();
     const auto device = open_device(options.device);
-    RunResult result = simulate(options, scene, device);
+    const InterruptGuard guard; // until the report is written
+    RunResult result = simulate(options, scene, device, guard);
     for (const SceneIssue& issue : issues)
         result.messages.push_back((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
     const std::string report = to_text(to_json(result));
