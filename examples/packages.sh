@@ -64,14 +64,16 @@ as_root()
     if [[ $(id -u) -eq 0 ]]; then "$@"; else sudo "$@"; fi
 }
 
+# Installs those of the groups that apt knows; status 1 if it knows not all of them or one fails.
 apt_install()
 {
-    local group name names=()
+    local group name names=() all_known=0
     for group in "$@"; do
-        name=$(first_known "$group") || return 1
-        names+=("$name")
+        if name=$(first_known "$group"); then names+=("$name"); else all_known=1; fi
     done
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${names[@]}" >&2
+    if [[ ${#names[@]} -eq 0 ]]; then return 1; fi
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${names[@]}" >&2 || return 1
+    return "$all_known"
 }
 
 say_what_to_install()
@@ -97,11 +99,11 @@ ensure_packages()
         return 1
     fi
     say "Installing: ${missing[*]//|/ or }"
-    # Old package lists name files that are gone, so a failure is worth one fresh look.
+    # Missing or old package lists are the usual reason for a failure, so one is worth a fresh look.
     if apt_install "${missing[@]}"; then return 0; fi
     if as_root apt-get update >&2 && apt_install "${missing[@]}"; then return 0; fi
-    say "The packages could not be installed."
-    say_what_to_install "${missing[@]}"
+    mapfile -t missing < <(missing_packages "$@")
+    say "These packages could not be installed: ${missing[*]//|/ or }"
     return 1
 }
 

@@ -27,7 +27,7 @@ done
 
 ensure_packages "${taut_packages_build[@]}" "${taut_packages_run[@]}" || say "Going on with what is there."
 check_cmake
-# Without tests, so that a first look takes the shortest way. The log goes to standard error: what
+# Only the program, so that a first look takes the shortest way. The log goes to standard error: what
 # `taut run --json` prints must stay one JSON object.
 configure "$root" "$build" >&2
 cmake --build "$build" --target taut-cli --parallel "$(job_count)" >&2

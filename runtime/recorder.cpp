@@ -13,47 +13,59 @@ constexpr std::uint64_t kGroupCountBytes = 12; // uint32 x, y, z
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
-std::string describe(const KernelInfo& kernel)
+/// Beginning of a message. A value, because a string for every binding that is right would cost more than
+/// the checks.
+struct Where
 {
-    std::string text = "kernel \"" + std::string(kernel.name) + "\"";
-    if (!kernel.variant.empty())
-        text += " (variant " + std::string(kernel.variant) + ")";
-    return text;
-}
+    const KernelInfo* kernel = nullptr;
+    std::size_t binding = kNone; ///< index, kNone for the kernel as a whole, or kGroupCounts
 
-std::string describe(const KernelInfo& kernel, std::size_t binding)
-{
-    return describe(kernel) + ", binding " + number(binding) + " \"" +
-           std::string(kernel.bindings[binding].name) + "\"";
-}
+    static constexpr std::size_t kNone = ~std::size_t{0};
+    static constexpr std::size_t kGroupCounts = kNone - 1;
+
+    std::string text() const
+    {
+        if (!kernel)
+            return "a dispatch";
+        std::string text = "kernel \"" + std::string(kernel->name) + "\"";
+        if (!kernel->variant.empty())
+            text += " (variant " + std::string(kernel->variant) + ")";
+        if (binding == kGroupCounts)
+            text += ", indirect group counts";
+        else if (binding != kNone)
+            text +=
+                ", binding " + number(binding) + " \"" + std::string(kernel->bindings[binding].name) + "\"";
+        return text;
+    }
+};
 
 [[noreturn]] void refuse(ErrorCode code, const std::string& text) { throw Error(code, text); }
 
-/// `what` begins the sentence: "kernel "x", binding 1 "position"".
-void check_inside(const std::string& what, const BufferRange& range, std::uint64_t buffer_bytes)
+void check_inside(const Where& where, const BufferRange& range, std::uint64_t buffer_bytes)
 {
     if (range.bytes == 0)
-        refuse(ErrorCode::bad_input, what + ": the range is empty: it begins at byte " +
+        refuse(ErrorCode::bad_input, where.text() + ": the range is empty: it begins at byte " +
                                          number(range.offset) + " of a buffer of " + number(buffer_bytes) +
                                          " bytes");
     if (range.offset > buffer_bytes || range.bytes > buffer_bytes - range.offset)
-        refuse(ErrorCode::bad_input,
-               what + ": bytes " + number(range.offset) + " to " + number(range.offset + range.bytes) +
-                   " lie outside the buffer, which has " + number(buffer_bytes) + " bytes");
+        refuse(ErrorCode::bad_input, where.text() + ": bytes " + number(range.offset) + " to " +
+                                         number(range.offset + range.bytes) +
+                                         " lie outside the buffer, which has " + number(buffer_bytes) +
+                                         " bytes");
 }
 
-void check_alignment(ErrorCode code, const std::string& what, std::uint64_t offset, std::uint64_t alignment)
+void check_alignment(ErrorCode code, const Where& where, std::uint64_t offset, std::uint64_t alignment)
 {
     if (alignment > 1 && offset % alignment != 0)
-        refuse(code, what + ": offset " + number(offset) + " is not a multiple of the " + number(alignment) +
-                         " bytes that this device requires");
+        refuse(code, where.text() + ": offset " + number(offset) + " is not a multiple of the " +
+                         number(alignment) + " bytes that this device requires");
 }
 
 /// A range that was asked for by its size must hold whole elements; "to the end" may not.
-void check_elements(const std::string& what, std::uint64_t bytes, std::uint32_t stride, bool whole)
+void check_elements(const Where& where, std::uint64_t bytes, std::uint32_t stride, bool whole)
 {
     if (stride != 0 && (bytes < stride || (whole && bytes % stride != 0)))
-        refuse(ErrorCode::bad_input, what + ": " + number(bytes) +
+        refuse(ErrorCode::bad_input, where.text() + ": " + number(bytes) +
                                          " bytes are not a whole number of elements of " + number(stride) +
                                          " bytes");
 }
@@ -61,14 +73,14 @@ void check_elements(const std::string& what, std::uint64_t bytes, std::uint32_t 
 void check_params(const KernelInfo& kernel, std::size_t bytes)
 {
     if (bytes != kernel.param_bytes)
-        refuse(ErrorCode::bad_input, describe(kernel) + " takes " + number(kernel.param_bytes) +
+        refuse(ErrorCode::bad_input, Where{&kernel}.text() + " takes " + number(kernel.param_bytes) +
                                          " bytes of parameters, but " + number(bytes) + " were given");
 }
 
 void check_binding_count(const KernelInfo& kernel, std::size_t count)
 {
     if (count != kernel.bindings.size())
-        refuse(ErrorCode::bad_input, describe(kernel) + " has " + number(kernel.bindings.size()) +
+        refuse(ErrorCode::bad_input, Where{&kernel}.text() + " has " + number(kernel.bindings.size()) +
                                          " bindings, but " + number(count) + " buffers were given");
 }
 
@@ -82,22 +94,22 @@ BufferRange range_of(const Recorder::Binding& binding)
 void check_binding(const KernelInfo& kernel, std::size_t index, const Recorder::Binding& binding,
                    const DeviceLimits& limits)
 {
-    const std::string what = describe(kernel, index);
+    const Where where{&kernel, index};
     if (!binding.buffer)
-        refuse(ErrorCode::bad_input, what + ": there is no buffer");
+        refuse(ErrorCode::bad_input, where.text() + ": there is no buffer");
     const BufferRange range = range_of(binding);
-    check_inside(what, range, binding.buffer->bytes());
-    check_alignment(ErrorCode::bad_input, what, range.offset, limits.offset_alignment);
-    check_elements(what, range.bytes, kernel.bindings[index].stride, binding.bytes != 0);
+    check_inside(where, range, binding.buffer->bytes());
+    check_alignment(ErrorCode::bad_input, where, range.offset, limits.offset_alignment);
+    check_elements(where, range.bytes, kernel.bindings[index].stride, binding.bytes != 0);
 }
 
 void check_group_counts(const KernelInfo& kernel, const Recorder::Binding& counts)
 {
-    const std::string what = describe(kernel) + ", indirect group counts";
+    const Where where{&kernel, Where::kGroupCounts};
     if (!counts.buffer)
-        refuse(ErrorCode::bad_input, what + ": there is no buffer");
-    check_inside(what, {kNoBuffer, counts.offset, kGroupCountBytes}, counts.buffer->bytes());
-    check_alignment(ErrorCode::bad_input, what, counts.offset, 4);
+        refuse(ErrorCode::bad_input, where.text() + ": there is no buffer");
+    check_inside(where, {kNoBuffer, counts.offset, kGroupCountBytes}, counts.buffer->bytes());
+    check_alignment(ErrorCode::bad_input, where, counts.offset, 4);
 }
 
 } // namespace
@@ -164,23 +176,23 @@ std::size_t Recording::barrier_count() const
 
 namespace {
 
-void check_at_most(const std::string& what, const char* thing, std::uint64_t is, std::uint64_t limit)
+void check_at_most(const Where& where, const char* thing, std::uint64_t is, std::uint64_t limit)
 {
     if (is > limit)
-        refuse(ErrorCode::limit, what + " needs " + number(is) + " " + thing +
+        refuse(ErrorCode::limit, where.text() + " needs " + number(is) + " " + thing +
                                      ", but this device has a limit of " + number(limit));
 }
 
 void check_kernel(const KernelInfo& kernel, const DeviceInfo& info)
 {
-    const std::string what = describe(kernel);
+    const Where where{&kernel};
     const DeviceLimits& limits = info.limits;
-    check_at_most(what, "storage buffers", kernel.bindings.size(), limits.max_bindings);
-    check_at_most(what, "invocations a group", kernel.group_size, limits.max_group_size);
-    check_at_most(what, "bytes of group memory", kernel.shared_bytes, limits.max_shared_bytes);
-    check_at_most(what, "bytes of parameters", kernel.param_bytes, limits.max_param_bytes);
+    check_at_most(where, "storage buffers", kernel.bindings.size(), limits.max_bindings);
+    check_at_most(where, "invocations a group", kernel.group_size, limits.max_group_size);
+    check_at_most(where, "bytes of group memory", kernel.shared_bytes, limits.max_shared_bytes);
+    check_at_most(where, "bytes of parameters", kernel.param_bytes, limits.max_param_bytes);
     if (kernel.precision == Precision::float64 && !limits.float64)
-        refuse(ErrorCode::unsupported, what + " computes in double, but \"" + info.name +
+        refuse(ErrorCode::unsupported, where.text() + " computes in double, but \"" + info.name +
                                            "\" has no 64-bit floats: use precision float or the device cpu");
 }
 
@@ -190,13 +202,13 @@ void check_ranges(const Dispatch& dispatch, const std::vector<BufferPtr>& buffer
     for (std::size_t i = 0; i < dispatch.bindings.size(); ++i)
     {
         const BufferRange& range = dispatch.bindings[i];
-        const std::string what = describe(kernel, i);
+        const Where where{&kernel, i};
         if (range.buffer >= buffers.size() || !buffers[range.buffer])
-            refuse(ErrorCode::bad_input, what + ": buffer number " + number(range.buffer) +
+            refuse(ErrorCode::bad_input, where.text() + ": buffer number " + number(range.buffer) +
                                              " is not one of the " + number(buffers.size()) + " buffers");
-        check_inside(what, range, buffers[range.buffer]->bytes());
-        check_at_most(what, "bytes in one binding", range.bytes, limits.max_buffer_bytes);
-        check_alignment(ErrorCode::limit, what, range.offset, limits.offset_alignment);
+        check_inside(where, range, buffers[range.buffer]->bytes());
+        check_at_most(where, "bytes in one binding", range.bytes, limits.max_buffer_bytes);
+        check_alignment(ErrorCode::limit, where, range.offset, limits.offset_alignment);
     }
 }
 
@@ -205,12 +217,12 @@ void check_indirect(const Dispatch& dispatch, const std::vector<BufferPtr>& buff
     const BufferRange& range = dispatch.indirect;
     if (range.buffer == kNoBuffer)
         return;
-    const std::string what = describe(*dispatch.kernel) + ", indirect group counts";
+    const Where where{dispatch.kernel, Where::kGroupCounts};
     if (range.buffer >= buffers.size() || !buffers[range.buffer])
-        refuse(ErrorCode::bad_input, what + ": buffer number " + number(range.buffer) +
+        refuse(ErrorCode::bad_input, where.text() + ": buffer number " + number(range.buffer) +
                                          " is not one of the " + number(buffers.size()) + " buffers");
-    check_inside(what, {kNoBuffer, range.offset, kGroupCountBytes}, buffers[range.buffer]->bytes());
-    check_alignment(ErrorCode::bad_input, what, range.offset, 4);
+    check_inside(where, {kNoBuffer, range.offset, kGroupCountBytes}, buffers[range.buffer]->bytes());
+    check_alignment(ErrorCode::bad_input, where, range.offset, 4);
 }
 
 } // namespace
@@ -235,7 +247,7 @@ void check_limits(const RecordingDesc& desc, const DeviceInfo& info)
         check_ranges(dispatch, desc.buffers, info.limits);
         check_indirect(dispatch, desc.buffers);
         const std::uint32_t per_dimension = info.limits.max_groups_per_dimension;
-        check_at_most(describe(kernel), "groups", group_count(kernel, dispatch.count),
+        check_at_most(Where{&kernel}, "groups", group_count(kernel, dispatch.count),
                       std::uint64_t{per_dimension} * per_dimension);
     }
 }
@@ -253,7 +265,7 @@ GroupFold fold_groups(std::uint32_t count, std::uint32_t max_per_dimension)
     if (count <= max_per_dimension)
         return {count, count == 0 ? 0u : 1u};
     const std::uint64_t limit = max_per_dimension;
-    check_at_most("a dispatch", "groups", count, limit * limit);
+    check_at_most(Where{}, "groups", count, limit * limit);
     const std::uint64_t y = (count + limit - 1) / limit;
     const std::uint64_t x = (count + y - 1) / y;
     return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};

@@ -29,6 +29,15 @@
 #define rvec4 vec4
 #endif
 
+// Drivers add the products of dot in different orders (Mesa's OpenGL last to first, its Vulkan first to
+// last). Written out, every executor adds as GLM does and results agree to the last bit.
+real taut_dot(rvec3 a, rvec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+real taut_dot(rvec4 a, rvec4 b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
+real taut_length(rvec3 a) { return sqrt(taut_dot(a, a)); }
+real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
+#define dot(a, b) taut_dot(a, b)
+#define length(a) taut_length(a)
+
 #define INOUT(T) inout T
 #define PRECISE precise
 #define LAYOUT_STRUCT(name) struct name

@@ -42,9 +42,9 @@ public:
 
 private:
     static constexpr double kPauseFactor = 8;
-    static constexpr double kMostCredit = 500'000; ///< ns; good times long ago excuse nothing
-    double credit_ = 0;                            ///< ns
-    double pause_ = 0;                             ///< ns of work still to do alone
+    static constexpr double kMostCredit = 3e6; ///< ns; good times long ago excuse little
+    double credit_ = 0;                        ///< ns
+    double pause_ = 0;                         ///< ns of work still to do alone
 };
 
 /// The chunks of the passes between two barriers.

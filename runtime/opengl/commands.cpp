@@ -31,8 +31,8 @@ bool writes_to(const Dispatch& dispatch, const BufferRange& range)
 /// For each dispatch, the first dispatch that writes its group counts; size() if none does.
 std::vector<std::size_t> first_count_writers(const std::vector<Dispatch>& dispatches)
 {
-    std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t>
-        known; // many dispatches share their counts
+    // Many dispatches share their counts.
+    std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t> known;
     std::vector<std::size_t> first(dispatches.size(), dispatches.size());
     for (std::size_t i = 0; i < dispatches.size(); ++i)
     {

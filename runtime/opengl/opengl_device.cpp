@@ -157,12 +157,11 @@ std::shared_ptr<Program> GlDevice::program(const KernelInfo& kernel)
 
 std::unique_ptr<Recording> GlDevice::compile(RecordingDesc desc)
 {
-    check_limits(desc, info_);
     for (const BufferPtr& buffer : desc.buffers)
         own(buffer);
+    check_limits(desc, info_);
     const Context::Use use(*context_);
-    std::map<const KernelInfo*, std::shared_ptr<Program>>
-        once; // an edited kernel is compiled once a recording
+    std::map<const KernelInfo*, std::shared_ptr<Program>> once; // an edited text: once a recording
     std::vector<std::shared_ptr<Program>> programs;
     for (const Dispatch& dispatch : desc.dispatches)
     {

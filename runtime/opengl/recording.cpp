@@ -81,8 +81,7 @@ std::vector<DispatchTime> GlRecording::replay_timed()
     context_->wait();
     std::vector<DispatchTime> times(dispatches_.size());
     for (std::size_t i = 0; i < times.size(); ++i)
-        times[i] = {i, static_cast<double>(queries.nanoseconds(2 * i + 1)) -
-                           static_cast<double>(queries.nanoseconds(2 * i))};
+        times[i] = {i, static_cast<double>(queries.nanoseconds(2 * i + 1) - queries.nanoseconds(2 * i))};
     return times;
 }
 

@@ -53,9 +53,10 @@ std::shared_ptr<Device> adopt(const VulkanContext& context);
 /// the recording state and outside a render pass. A barrier stands before (all earlier commands and host
 /// writes -> compute) and after (compute -> all later commands and host reads), so that the caller may copy
 /// into or draw from the buffers around it in the same queue without barriers of its own.
-/// The caller submits to the queue of this device, at most once unless in order, and keeps `recording` alive
-/// until the work is done. Compute pipeline, descriptor set 0 and push constants of `commands` are changed.
-/// Throws Error{unsupported} for a recording of another executor.
+/// The caller submits to the queue that this device uses (or orders its own queue after it by a semaphore)
+/// and keeps `recording` alive until the work is done; Device::wait does not know of such work, Device::read
+/// on the same queue comes after it. Compute pipeline, descriptor set 0 and push constants of `commands` are
+/// changed. Throws Error{unsupported} for a recording of another executor.
 void record_into(Recording& recording, VkCommandBuffer commands);
 
 /// The VkBuffer behind a buffer, to draw from it without a copy (vertex, index, storage, indirect and

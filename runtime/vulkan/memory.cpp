@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string>
 
 namespace taut::vulkan {
 namespace {
@@ -51,15 +52,38 @@ Memory::~Memory()
 
 Memory::Block& Memory::add_block(std::uint32_t type, VkDeviceSize bytes)
 {
+    const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
+    if (bytes > heap)
+        throw Error(ErrorCode::out_of_memory, "a Vulkan allocation of " + std::to_string(bytes) +
+                                                  " bytes does not fit the device's memory of " +
+                                                  std::to_string(heap) + " bytes; use smaller buffers");
     auto info = start<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     info.allocationSize = bytes;
     info.memoryTypeIndex = type;
     auto block = std::make_unique<Block>();
-    health_.check(vk_.vkAllocateMemory(device_, &info, nullptr, &block->memory), "vkAllocateMemory");
+    const VkResult result = vk_.vkAllocateMemory(device_, &info, nullptr, &block->memory);
+    if (result != VK_SUCCESS)
+        health_.check(result, ("vkAllocateMemory of " + std::to_string(bytes) + " bytes").c_str());
     block->bytes = bytes;
     block->type = type;
     block->free.emplace(0, bytes);
     return *blocks_.emplace_back(std::move(block));
+}
+
+Memory::Block& Memory::add_shared_block(std::uint32_t type, VkDeviceSize needed)
+{
+    try
+    {
+        Block& block = add_block(type, std::max(next_bytes_, align_up(needed, kFirstBlock)));
+        next_bytes_ = std::min(kLargestBlock, next_bytes_ * 2);
+        return block;
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::out_of_memory)
+            throw;
+        return add_block(type, needed); // an almost full device may still hold just this
+    }
 }
 
 bool Memory::take(Block& block, const VkMemoryRequirements& requirements, Allocation& out)
@@ -94,12 +118,9 @@ Allocation Memory::allocate(const VkMemoryRequirements& requirements)
         if (block->type == static_cast<std::uint32_t>(type) && take(*block, requirements, out))
             return out;
     // Beyond half a block, sharing would waste more than it saves.
-    const bool own_block = requirements.size > kLargestBlock / 2;
-    const VkDeviceSize bytes =
-        own_block ? requirements.size : std::max(next_bytes_, align_up(requirements.size, kFirstBlock));
-    Block& block = add_block(static_cast<std::uint32_t>(type), bytes);
-    if (!own_block)
-        next_bytes_ = std::min(kLargestBlock, next_bytes_ * 2);
+    const auto type_index = static_cast<std::uint32_t>(type);
+    Block& block = requirements.size > kLargestBlock / 2 ? add_block(type_index, requirements.size)
+                                                         : add_shared_block(type_index, requirements.size);
     [[maybe_unused]] const bool taken = take(block, requirements, out);
     assert(taken);
     return out;

@@ -51,6 +51,7 @@ private:
     };
 
     Block& add_block(std::uint32_t type, VkDeviceSize bytes);
+    Block& add_shared_block(std::uint32_t type, VkDeviceSize needed);
     static bool take(Block& block, const VkMemoryRequirements& requirements, Allocation& out);
 
     const VolkDeviceTable& vk_;

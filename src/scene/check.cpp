@@ -48,12 +48,14 @@ void check_times(const Scene& scene, const Checker& out)
 {
     const bool good = scene.timestep > 0 && scene.timestep <= kMaxTimestep;
     if (!good)
-        out.error("timestep", "is " + shown(scene.timestep) + " s; it must be greater than 0 s and at most 1 s",
+        out.error("timestep",
+                  "is " + shown(scene.timestep) + " s; it must be greater than 0 s and at most 1 s",
                   ErrorCode::bad_timestep);
     out.not_negative("duration", scene.duration, "s");
     if (good && scene.duration <= kMaxValue && scene.duration / scene.timestep > kMaxSteps)
         out.error("duration", "is " + shown(scene.duration) + " s, that is " +
-                                  shown(scene.duration / scene.timestep) + " time steps; at most 1e9 are run");
+                                  shown(scene.duration / scene.timestep) +
+                                  " time steps; at most 1e9 are run");
 }
 
 void check_method(const MethodSettings& method, const Checker& out)
@@ -114,14 +116,16 @@ void check_material(const ClothMaterial& material, const Checker& out)
 void check_pin_box(const Pin& pin, const Checker& out)
 {
     const bool finite = out.finite("box.min", pin.box_min, "m") && out.finite("box.max", pin.box_max, "m");
-    if (finite && (pin.box_min.x > pin.box_max.x || pin.box_min.y > pin.box_max.y || pin.box_min.z > pin.box_max.z))
+    if (finite &&
+        (pin.box_min.x > pin.box_max.x || pin.box_min.y > pin.box_max.y || pin.box_min.z > pin.box_max.z))
         out.error("box", "goes from " + shown(pin.box_min) + " to " + shown(pin.box_max) +
                              "; each number of min must be at most that of max");
 }
 
 void check_pin_names(const Pin& pin, ShapeKind kind, const Checker& out)
 {
-    constexpr std::array<std::string_view, 4> grid_corners = {"top_left", "top_right", "bottom_left", "bottom_right"};
+    constexpr std::array<std::string_view, 4> grid_corners = {"top_left", "top_right", "bottom_left",
+                                                              "bottom_right"};
     constexpr std::array<std::string_view, 2> chain_ends = {"first", "last"};
     constexpr std::array<std::string_view, 4> grid_edges = {"top", "bottom", "left", "right"};
     if (kind == ShapeKind::mesh && !pin.corners.empty())
@@ -177,8 +181,8 @@ void check_body(const Body& body, const Checker& out)
     for (std::size_t i = 0; i < body.start_positions.size(); ++i)
         out.at("start_positions", i).finite("", body.start_positions[i], "m");
     if (body.shape.kind == ShapeKind::grid)
-        scene_file::check_counts(body, (std::size_t(body.shape.cells.x) + 1) * (std::size_t(body.shape.cells.y) + 1),
-                                 out);
+        scene_file::check_counts(
+            body, (std::size_t(body.shape.cells.x) + 1) * (std::size_t(body.shape.cells.y) + 1), out);
     else if (body.shape.kind == ShapeKind::chain)
         scene_file::check_counts(body, std::size_t(body.shape.links) + 1, out);
 }
@@ -188,9 +192,10 @@ void check_collider(const Collider& collider, const Checker& out)
     if (collider.kind == ColliderKind::plane)
     {
         out.finite("plane.point", collider.point, "m");
-        if (out.finite("plane.normal", collider.normal, "any length but 0") && !(glm::length(collider.normal) > 0))
-            out.error("plane.normal", "is " + shown(collider.normal) +
-                                          "; it must have a direction, for example [0, 1, 0]");
+        if (out.finite("plane.normal", collider.normal, "any length but 0") &&
+            !(glm::length(collider.normal) > 0))
+            out.error("plane.normal",
+                      "is " + shown(collider.normal) + "; it must have a direction, for example [0, 1, 0]");
     }
     else
     {

@@ -38,7 +38,8 @@ public:
     void positive(std::string_view member, double value, std::string_view unit) const;
     void not_negative(std::string_view member, double value, std::string_view unit) const;
     void range(std::string_view member, std::uint32_t value, std::uint32_t low, std::uint32_t high) const;
-    void word(std::string_view member, const std::string& value, std::span<const std::string_view> known) const;
+    void word(std::string_view member, const std::string& value,
+              std::span<const std::string_view> known) const;
 
 private:
     std::string join(std::string_view member) const;

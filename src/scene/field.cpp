@@ -25,9 +25,10 @@ std::string shown(const nlohmann::json& value)
 } // namespace
 
 Field::Field(const nlohmann::json& value, const std::string& file, std::string path)
-    : value_(&value), file_(&file), path_(std::move(path))
-{
-}
+    : value_(&value),
+      file_(&file),
+      path_(std::move(path))
+{}
 
 void Field::fail(const std::string& text) const
 {

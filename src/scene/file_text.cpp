@@ -32,7 +32,8 @@ std::string read_file(const std::filesystem::path& file, std::uintmax_t max_byte
     std::error_code code;
     const auto status = std::filesystem::status(file, code);
     if (!std::filesystem::exists(status))
-        fail(file, "there is no such file (looked for " + std::filesystem::absolute(file, code).string() + ")");
+        fail(file,
+             "there is no such file (looked for " + std::filesystem::absolute(file, code).string() + ")");
     if (!std::filesystem::is_regular_file(status))
         fail(file, "this is not a regular file; name a file");
     const std::uintmax_t bytes = std::filesystem::file_size(file, code);

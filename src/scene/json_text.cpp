@@ -41,7 +41,8 @@ public:
     {
         if (depth > kMaxDepth)
             throw Error(ErrorCode::bad_input, file_ + ": " + path() + " is nested more than " +
-                                                  std::to_string(kMaxDepth) + " levels deep; a scene needs 8");
+                                                  std::to_string(kMaxDepth) +
+                                                  " levels deep; a scene needs 8");
         switch (event)
         {
         case json::parse_event_t::object_start: enter(false); break;
@@ -121,8 +122,8 @@ json parse_json(std::string_view text, const std::string& file)
         const std::string what = error.what();
         const std::size_t open = what.find('\''), close = what.rfind('\'');
         const std::size_t at = open < close ? text.find(what.substr(open + 1, close - open - 1)) : 0;
-        throw Error(ErrorCode::bad_input, file + ": " + place(text, at) + ": " + reason(what) +
-                                              "; numbers must be below 1e308");
+        throw Error(ErrorCode::bad_input,
+                    file + ": " + place(text, at) + ": " + reason(what) + "; numbers must be below 1e308");
     }
 }
 

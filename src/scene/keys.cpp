@@ -36,7 +36,8 @@ std::span<const KeySet> all_keys()
 const KeySet& keys_of(std::string_view object)
 {
     const auto sets = all_keys();
-    const auto found = std::find_if(sets.begin(), sets.end(), [&](const KeySet& s) { return s.object == object; });
+    const auto found =
+        std::find_if(sets.begin(), sets.end(), [&](const KeySet& s) { return s.object == object; });
     assert(found != sets.end());
     return *found;
 }

@@ -28,7 +28,8 @@ std::string_view exactly_one(const Field& object, const std::array<std::string_v
         if (!object.find(key))
             continue;
         if (!chosen.empty())
-            object.fail("has both \"" + std::string(chosen) + "\" and \"" + std::string(key) + "\"; keep one");
+            object.fail("has both \"" + std::string(chosen) + "\" and \"" + std::string(key) +
+                        "\"; keep one");
         chosen = key;
     }
     if (chosen.empty())
@@ -169,7 +170,8 @@ void read_transform(Field field, Transform& transform)
 Body::Spring read_spring(Field field)
 {
     field.object("spring");
-    Body::Spring spring{field.need("a").count(), field.need("b").count(), field.need("rest_length").number(), 0};
+    Body::Spring spring{field.need("a").count(), field.need("b").count(), field.need("rest_length").number(),
+                        0};
     field.read("compliance", spring.compliance);
     return spring;
 }

@@ -14,7 +14,7 @@ namespace taut {
 
 struct Mesh
 {
-    std::vector<glm::dvec3> positions;                        ///< m
+    std::vector<glm::dvec3> positions; ///< m
     std::vector<std::array<std::uint32_t, 3>> triangles;
     /// Edges that belong to no triangle: the links of a chain.
     std::vector<std::array<std::uint32_t, 2>> links;
@@ -27,8 +27,8 @@ struct Mesh
 struct MeshFindings
 {
     std::size_t welded_vertices = 0;
-    std::size_t unused_vertices = 0;                             ///< dropped
-    std::vector<std::uint32_t> degenerate_triangles;             ///< dropped; index in the file
+    std::size_t unused_vertices = 0;                              ///< dropped
+    std::vector<std::uint32_t> degenerate_triangles;              ///< dropped; index in the file
     std::vector<std::array<std::uint32_t, 2>> non_manifold_edges; ///< more than two triangles
     std::size_t boundary_edges = 0;
 };

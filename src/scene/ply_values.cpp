@@ -64,7 +64,8 @@ PlyFormat format_named(std::string_view name, const Words& words)
         return PlyFormat::little_endian;
     if (name == "binary_big_endian")
         return PlyFormat::big_endian;
-    words.fail("the format is " + quoted(name) + "; it must be ascii, binary_little_endian or binary_big_endian");
+    words.fail("the format is " + quoted(name) +
+               "; it must be ascii, binary_little_endian or binary_big_endian");
 }
 
 PlyProperty read_property(Words& words)
@@ -128,7 +129,10 @@ PlyHeader read_ply_header(std::string_view text, const std::string& file)
 }
 
 PlyValues::PlyValues(std::string_view body, const std::string& file, PlyFormat format)
-    : body_(body), file_(&file), format_(format), words_(body, file)
+    : body_(body),
+      file_(&file),
+      format_(format),
+      words_(body, file)
 {
     words_.set_comment('\0');
 }

@@ -10,8 +10,23 @@
 
 namespace taut::scene_file {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-enum class PlyFormat { ascii, little_endian, big_endian };
+enum class PlyType
+{
+    int8,
+    uint8,
+    int16,
+    uint16,
+    int32,
+    uint32,
+    float32,
+    float64
+};
+enum class PlyFormat
+{
+    ascii,
+    little_endian,
+    big_endian
+};
 
 struct PlyProperty
 {

@@ -16,8 +16,8 @@ namespace taut::scene_file {
 
 struct RawMesh
 {
-    std::vector<glm::dvec3> positions;                    ///< finite, in file order
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices in range; larger faces are fanned
+    std::vector<glm::dvec3> positions;                   ///< finite, in file order
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices in range; larger faces are fanned
 };
 
 /// All throw Error{bad_input} naming `file` and the line or byte, what is there and what would be right.

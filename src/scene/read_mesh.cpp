@@ -30,8 +30,8 @@ Reader reader_of(std::string extension, const std::string& file)
         return read_ply;
     if (extension == ".stl")
         return read_stl;
-    throw Error(ErrorCode::bad_input,
-                file + ": the extension \"" + extension + "\" is not read; it must be .obj, .ply, .off or .stl");
+    throw Error(ErrorCode::bad_input, file + ": the extension \"" + extension +
+                                          "\" is not read; it must be .obj, .ply, .off or .stl");
 }
 
 /// Squares and cubes of coordinates must stay finite.
@@ -55,8 +55,9 @@ Mesh parse_mesh(std::string_view text, std::string extension, const std::string&
     findings = {};
     Mesh mesh = clean(raw, weld_distance, findings);
     if (mesh.triangles.empty())
-        throw Error(ErrorCode::bad_input, file + ": it has " + std::to_string(raw.positions.size()) +
-                                              " vertices and no triangle with area; there is nothing to simulate");
+        throw Error(ErrorCode::bad_input,
+                    file + ": it has " + std::to_string(raw.positions.size()) +
+                        " vertices and no triangle with area; there is nothing to simulate");
     return mesh;
 }
 

@@ -18,8 +18,9 @@ std::uint32_t corner_index(std::string_view word, std::size_t vertex_count, cons
     if (index < 0 && index >= -count)
         return static_cast<std::uint32_t>(count + index);
     if (index <= 0 || index > std::numeric_limits<std::uint32_t>::max())
-        words.fail("a corner of a face is " + quoted(word) + "; vertices are numbered from 1, or from -1 backwards" +
-                   ", and " + std::to_string(vertex_count) + " stand before this line");
+        words.fail("a corner of a face is " + quoted(word) +
+                   "; vertices are numbered from 1, or from -1 backwards" + ", and " +
+                   std::to_string(vertex_count) + " stand before this line");
     return static_cast<std::uint32_t>(index - 1);
 }
 

@@ -15,8 +15,8 @@ std::size_t read_count(Words& words, std::string_view what, std::size_t bytes_ea
 {
     const std::int64_t count = words.integer(what);
     if (count < 0 || static_cast<std::uint64_t>(count) > words.left() / bytes_each)
-        words.fail(std::string(what) + " is " + std::to_string(count) + "; the " + std::to_string(words.left()) +
-                   " bytes that follow have no room for so many");
+        words.fail(std::string(what) + " is " + std::to_string(count) + "; the " +
+                   std::to_string(words.left()) + " bytes that follow have no room for so many");
     return static_cast<std::size_t>(count);
 }
 
@@ -24,7 +24,8 @@ void read_face(Words& words, RawMesh& mesh, std::vector<std::uint32_t>& corners)
 {
     const std::int64_t corner_count = words.integer("the number of corners of a face");
     if (corner_count < 3 || static_cast<std::uint64_t>(corner_count) > words.left() / 2 + 1)
-        words.fail("a face has " + std::to_string(corner_count) + " corners; it needs 3 or more, all on this line");
+        words.fail("a face has " + std::to_string(corner_count) +
+                   " corners; it needs 3 or more, all on this line");
     corners.clear();
     for (std::int64_t i = 0; i < corner_count; ++i)
     {
@@ -73,7 +74,8 @@ RawMesh read_off(std::string_view text, const std::string& file)
     for (std::size_t face = 0; face < faces; ++face)
     {
         if (!words.next_line())
-            words.fail("the file ends after " + std::to_string(face) + " of " + std::to_string(faces) + " faces");
+            words.fail("the file ends after " + std::to_string(face) + " of " + std::to_string(faces) +
+                       " faces");
         read_face(words, mesh, corners);
     }
     return mesh;

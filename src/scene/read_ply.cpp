@@ -43,7 +43,8 @@ void read_vertices(PlyValues& values, const PlyElement& element, RawMesh& mesh)
                 p[static_cast<int>(which - at.begin())] = values.value(property.type);
         }
         if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-            values.fail("vertex " + std::to_string(v) + " has a coordinate that is not finite; every number must be");
+            values.fail("vertex " + std::to_string(v) +
+                        " has a coordinate that is not finite; every number must be");
         mesh.positions.push_back(p);
     }
 }

@@ -33,7 +33,8 @@ RawMesh read_binary(std::string_view text, const std::string& file)
 {
     const auto fail = [&](const std::string& what) { throw Error(ErrorCode::bad_input, file + ": " + what); };
     if (text.size() < kHeaderBytes + 4)
-        fail("it has " + std::to_string(text.size()) + " bytes; an STL file starts with \"solid\" or has 84 or more");
+        fail("it has " + std::to_string(text.size()) +
+             " bytes; an STL file starts with \"solid\" or has 84 or more");
     const std::uint64_t count = little_endian(text, kHeaderBytes);
     if (count > (text.size() - kHeaderBytes - 4) / kTriangleBytes)
         fail("byte 80 announces " + std::to_string(count) + " triangles; the " + std::to_string(text.size()) +
@@ -49,7 +50,8 @@ RawMesh read_binary(std::string_view text, const std::string& file)
             for (std::size_t c = 0; c < 3; ++c)
                 p[static_cast<int>(c)] = std::bit_cast<float>(little_endian(text, at + 4 * c));
             if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-                fail("triangle " + std::to_string(t) + " has a corner that is not finite; every number must be");
+                fail("triangle " + std::to_string(t) +
+                     " has a corner that is not finite; every number must be");
             add_corner(mesh, p);
         }
     return mesh;
@@ -98,8 +100,7 @@ RawMesh read_text(std::string_view text, const std::string& file)
         if (const std::string_view first = words.word(); first != "solid")
             words.fail("there is " + quoted(first) + " where \"solid\" must stand");
         while (!words.word().empty()) // the name
-        {
-        }
+        {}
         std::string_view word = words.any_word();
         for (; word == "facet"; word = words.any_word())
             read_facet(words, mesh);
@@ -114,8 +115,9 @@ RawMesh read_text(std::string_view text, const std::string& file)
 RawMesh read_stl(std::string_view text, const std::string& file)
 {
     // Binary files may start with "solid" too; theirs is the only length that fits the count exactly.
-    const bool exact = text.size() >= kHeaderBytes + 4 &&
-                       text.size() == kHeaderBytes + 4 + std::uint64_t(little_endian(text, kHeaderBytes)) * kTriangleBytes;
+    const bool exact =
+        text.size() >= kHeaderBytes + 4 &&
+        text.size() == kHeaderBytes + 4 + std::uint64_t(little_endian(text, kHeaderBytes)) * kTriangleBytes;
     const std::size_t start = text.find_first_not_of(" \t\r\n");
     const bool solid = start != std::string_view::npos && text.substr(start).starts_with("solid");
     return solid && !exact ? read_text(text, file) : read_binary(text, file);

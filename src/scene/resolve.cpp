@@ -38,10 +38,11 @@ void warn_of(const MeshFindings& findings, const Checker& out)
     if (findings.unused_vertices > 0)
         out.warning("mesh", "had " + count(findings.unused_vertices, "vertices of no triangle, dropped"));
     if (!findings.non_manifold_edges.empty())
-        out.warning("mesh", "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
-                                "; the first joins vertices " +
-                                std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
-                                std::to_string(findings.non_manifold_edges.front()[1]));
+        out.warning("mesh",
+                    "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
+                        "; the first joins vertices " +
+                        std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
+                        std::to_string(findings.non_manifold_edges.front()[1]));
 }
 
 /// The rest mesh in its own space.
@@ -50,7 +51,8 @@ Mesh make_mesh(const Shape& shape, const std::filesystem::path& directory, const
     switch (shape.kind)
     {
     case ShapeKind::grid:
-        return make_grid(shape.cells.x, shape.cells.y, shape.size.x, shape.size.y, shape.diagonals == "alternating");
+        return make_grid(shape.cells.x, shape.cells.y, shape.size.x, shape.size.y,
+                         shape.diagonals == "alternating");
     case ShapeKind::chain: return make_chain(shape.links, shape.length, shape.width);
     case ShapeKind::mesh: break;
     }
@@ -62,8 +64,8 @@ Mesh make_mesh(const Shape& shape, const std::filesystem::path& directory, const
 
 void apply(const Transform& transform, Mesh& mesh)
 {
-    const std::vector<Keyframe> turn = {{0, transform.translate, transform.rotate_axis, transform.rotate_degrees,
-                                         glm::dvec3(0)}};
+    const std::vector<Keyframe> turn = {
+        {0, transform.translate, transform.rotate_axis, transform.rotate_degrees, glm::dvec3(0)}};
     for (glm::dvec3& position : mesh.positions)
         position = pose(turn, 0, position * transform.scale);
     mesh.link_width *= transform.scale;
@@ -119,7 +121,8 @@ void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Chec
         add_edge(edge, body.mesh, vertices);
     const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
     if (pin.use_box && add_box(pin, start, vertices) == 0)
-        out.warning("box", "from " + scene_file::shown(pin.box_min) + " to " + scene_file::shown(pin.box_max) +
+        out.warning("box", "from " + scene_file::shown(pin.box_min) + " to " +
+                               scene_file::shown(pin.box_max) +
                                " holds no vertex at the start; boxes are in world space, m");
     std::sort(vertices.begin(), vertices.end());
     pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .motion = std::move(pin.motion)};
@@ -136,7 +139,8 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
     body.mesh = make_mesh(body.shape, directory, out);
     apply(body.transform, body.mesh);
     for (std::size_t v = 0; v < body.mesh.positions.size(); ++v)
-        if (!out.at("transform").finite("", body.mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
+        if (!out.at("transform")
+                 .finite("", body.mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
             break;
     if (body.shape.kind == ShapeKind::mesh)
         scene_file::check_counts(body, body.mesh.positions.size(), out);

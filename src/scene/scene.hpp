@@ -5,7 +5,6 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/mesh.hpp"
 
-#include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -20,21 +19,21 @@ namespace taut {
 /// Cloth material. All stiffnesses are continuum values, so they do not depend on the mesh.
 struct ClothMaterial
 {
-    double density = 0.2;            ///< kg/m^2, > 0
-    double stretch_stiffness = 1e4;  ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
-    double bending_stiffness = 0;    ///< N m, plate rigidity; 0 = no bending effect
-    double thickness = 0.001;        ///< m, gap kept from colliders, >= 0
+    double density = 0.2;           ///< kg/m^2, > 0
+    double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
+    double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect
+    double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
 };
 
 /// One key of a motion: the pose relative to the rest pose at a time; linear in between, constant
 /// before the first and after the last.
 struct Keyframe
 {
-    double time = 0;                       ///< s
-    glm::dvec3 translate{0};               ///< m
-    glm::dvec3 rotate_axis{0, 1, 0};       ///< unit after normalisation
-    double rotate_degrees = 0;             ///< about rotate_axis through rotate_centre
-    glm::dvec3 rotate_centre{0};           ///< m, world
+    double time = 0;                 ///< s
+    glm::dvec3 translate{0};         ///< m
+    glm::dvec3 rotate_axis{0, 1, 0}; ///< unit after normalisation
+    double rotate_degrees = 0;       ///< about rotate_axis through rotate_centre
+    glm::dvec3 rotate_centre{0};     ///< m, world
 };
 
 /// Where `rest` [m, world] is at `time` [s]: turned about the centre, then translated. Translation,
@@ -47,37 +46,43 @@ struct Pin
 {
     std::vector<std::uint32_t> vertices; ///< indices of the mesh as loaded (after welding)
     bool use_box = false;
-    glm::dvec3 box_min{0}, box_max{0};   ///< world, after the body's transform, m
-    std::vector<std::string> corners;    ///< grid: "top_left", "top_right", "bottom_left", "bottom_right"; chain: "first", "last"
-    std::vector<std::string> edges;      ///< grid: "top", "bottom", "left", "right"
+    glm::dvec3 box_min{0}, box_max{0}; ///< world, after the body's transform, m
+    std::vector<std::string>
+        corners; ///< grid: "top_left", "top_right", "bottom_left", "bottom_right"; chain: "first", "last"
+    std::vector<std::string> edges; ///< grid: "top", "bottom", "left", "right"
     std::vector<Keyframe> motion;
 };
 
 struct Transform
 {
-    glm::dvec3 translate{0};               ///< m
+    glm::dvec3 translate{0}; ///< m
     glm::dvec3 rotate_axis{0, 1, 0};
     double rotate_degrees = 0;
-    double scale = 1;                      ///< > 0; applied first, then rotation, then translation
+    double scale = 1; ///< > 0; applied first, then rotation, then translation
 };
 
-enum class ShapeKind { grid, chain, mesh };
+enum class ShapeKind
+{
+    grid,
+    chain,
+    mesh
+};
 
 /// Where a body's rest shape comes from.
 struct Shape
 {
     ShapeKind kind = ShapeKind::grid;
     /// grid: cells along x and along -y in the plane z = 0, centred at the origin; the row y = +h/2 is "top".
-    glm::uvec2 cells{32, 32};              ///< >= 1 each
-    glm::dvec2 size{1, 1};                 ///< m
+    glm::uvec2 cells{32, 32}; ///< >= 1 each
+    glm::dvec2 size{1, 1};    ///< m
     /// grid: how quads are cut: "alternating" (union-jack) or "uniform" (one direction)
     std::string diagonals = "alternating";
     /// chain: links along -y from the origin, `length` metres in all, each carrying a strip of `width`.
-    std::uint32_t links = 10;              ///< >= 0 (0 = one free particle)
-    double length = 1;                     ///< m
-    double width = 0.01;                   ///< m, > 0
-    std::filesystem::path file;            ///< mesh: OBJ, PLY, OFF or STL
-    double weld_distance = 0;              ///< mesh: vertices this close become one, m in file units; < 0 = keep all
+    std::uint32_t links = 10;   ///< >= 0 (0 = one free particle)
+    double length = 1;          ///< m
+    double width = 0.01;        ///< m, > 0
+    std::filesystem::path file; ///< mesh: OBJ, PLY, OFF or STL
+    double weld_distance = 0;   ///< mesh: vertices this close become one, m in file units; < 0 = keep all
 };
 
 struct Body
@@ -87,18 +92,27 @@ struct Body
     ClothMaterial material;
     Transform transform;
     std::vector<Pin> pins;
-    glm::dvec3 velocity{0};                ///< m/s at start
+    glm::dvec3 velocity{0}; ///< m/s at start
     /// Per-vertex overrides, for tests and tools; empty = from shape and material.
-    std::vector<double> vertex_masses;     ///< kg, > 0
+    std::vector<double> vertex_masses;       ///< kg, > 0
     std::vector<glm::dvec3> start_positions; ///< world, m; rest lengths still come from the shape
     /// Further distance constraints {a, b, rest length m, compliance m/N} beside the mesh edges.
-    struct Spring { std::uint32_t a, b; double rest_length; double compliance; };
+    struct Spring
+    {
+        std::uint32_t a, b;
+        double rest_length;
+        double compliance;
+    };
     std::vector<Spring> springs;
     /// Filled by resolve(): the rest mesh in world space.
     Mesh mesh;
 };
 
-enum class ColliderKind { plane, sphere };
+enum class ColliderKind
+{
+    plane,
+    sphere
+};
 
 struct Collider
 {
@@ -114,22 +128,22 @@ struct Collider
 struct MethodSettings
 {
     std::string type = "xpbd";
-    std::uint32_t substeps = 10;   ///< per time step, 1..1000
-    std::uint32_t iterations = 1;  ///< per substep, 1..1000
+    std::uint32_t substeps = 10;     ///< per time step, 1..1000
+    std::uint32_t iterations = 1;    ///< per substep, 1..1000
     std::string precision = "float"; ///< or "double"
 };
 
 struct Scene
 {
-    int version = 1;               ///< the key "taut"
+    int version = 1; ///< the key "taut"
     std::string name;
-    double timestep = 1.0 / 60;    ///< s, (0, 1]
-    double duration = 4;           ///< s, >= 0
-    glm::dvec3 gravity{0, -9.81, 0}; ///< m/s^2
-    double damping = 0;            ///< 1/s, velocities decay as exp(-damping t); 0 = no damping effect
-    double max_speed = 0;          ///< m/s; 0 = none but the guard against overflow
+    double timestep = 1.0 / 60;       ///< s, (0, 1]
+    double duration = 4;              ///< s, >= 0
+    glm::dvec3 gravity{0, -9.81, 0};  ///< m/s^2
+    double damping = 0;               ///< 1/s, velocities decay as exp(-damping t); 0 = no damping effect
+    double max_speed = 0;             ///< m/s; 0 = none but the guard against overflow
     double depenetration_speed = 0.5; ///< m/s, fastest way out of an initial penetration
-    bool external_forces = false;  ///< allow World::set_force; costs a buffer and a pass
+    bool external_forces = false;     ///< allow World::set_force; costs a buffer and a pass
     MethodSettings method;
     std::vector<Body> bodies;
     std::vector<Collider> colliders;
@@ -141,7 +155,8 @@ struct Scene
 Scene load_scene(const std::filesystem::path& file);
 
 /// The same from text. `directory` resolves mesh paths; `name` stands in messages.
-Scene parse_scene(std::string_view json, const std::filesystem::path& directory = {}, std::string_view name = "scene");
+Scene parse_scene(std::string_view json, const std::filesystem::path& directory = {},
+                  std::string_view name = "scene");
 
 /// One thing that is wrong (error) or doubtful (warning) with a scene.
 struct SceneIssue

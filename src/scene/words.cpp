@@ -55,8 +55,7 @@ bool Words::next_line()
 {
     if (started_) // leave the rest of the current line
         while (word().size() > 0)
-        {
-        }
+        {}
     started_ = true;
     while (!skip_blanks())
     {

@@ -172,6 +172,19 @@ TEST_CASE("no frames at all is a run too")
     CHECK(report["simulated_seconds"] == 0);
 }
 
+TEST_CASE("a run whose result is not sound ends with status 1 and reports all the same")
+{
+    const Folder folder;
+    const std::string scene = folder.file("lost.json", scenes::lost_cloth());
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "2", "--json"});
+    INFO(result.err);
+    CHECK(result.status == 1);
+    const auto report = program::parse(result.out);
+    check_keys(report);
+    CHECK(report["status"] == "diverged");
+    CHECK(report == program::parse(program::read(folder / "out/lost/report.json")));
+}
+
 TEST_CASE("an interrupted run ends with what is done: a whole report that says so")
 {
     const int signal = GENERATE(SIGINT, SIGTERM);

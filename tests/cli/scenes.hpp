@@ -21,4 +21,11 @@ inline std::string two_bodies()
         {"chain": {"links": 3, "length": 1}, "transform": {"translate": [0, 2, 0]}}]})";
 }
 
+/// So far away that it counts as diverged, while every number stays finite.
+inline std::string lost_cloth()
+{
+    return R"({"taut": 1, "bodies": [{"grid": {"cells": [2, 2], "size": [1, 1]},
+                                      "transform": {"translate": [1e13, 0, 0]}}]})";
+}
+
 } // namespace scenes

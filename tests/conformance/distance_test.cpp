@@ -48,17 +48,17 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
     s.multiplier_scale[k] = std::abs(before) + terms / (wa + wb + soft);
 }
 
-/// Adds a colour: `count` constraints between random disjoint pairs.
+/// Adds a colour: `count` constraints between random disjoint pairs of `vertices` vertices from `base` on.
 template <typename Real>
-void add_colour(Input<Real>& in, Random& random, std::uint32_t count)
+void add_colour(Input<Real>& in, Random& random, std::uint32_t count, std::uint32_t base, std::uint32_t vertices)
 {
-    const auto order = random.shuffled(static_cast<std::uint32_t>(in.position.size()));
+    const auto order = random.shuffled(vertices);
     static constexpr double kCompliances[] = {0, 1e-9, 1e-6, 1e-3};
     for (std::uint32_t i = 0; i < count; ++i)
     {
         const Real rest = random.uniform<Real>(0.2, 2);
         const Real compliance = static_cast<Real>(kCompliances[random.below(4)]);
-        in.constraint.push_back({order[2 * i], order[2 * i + 1], rest, compliance});
+        in.constraint.push_back({base + order[2 * i], base + order[2 * i + 1], rest, compliance});
         in.multiplier.push_back(random.uniform<Real>(-1e-3, 1e-3));
     }
     in.colour_start.push_back(static_cast<std::uint32_t>(in.constraint.size()));
@@ -127,12 +127,13 @@ TEMPLATE_TEST_CASE("a distance constraint moves both ends by the XPBD formula", 
     const std::uint64_t seed = 600 + count;
     CAPTURE(count, mode.variant(), mode.first_iteration, mode.report, seed);
     Random random(seed);
-    auto in = vertices<Real>(random, 2 * std::max(count, 5u) + 7);
-    add_colour(in, random, 5); // before and after: other colours, which must not be touched
-    add_colour(in, random, count);
-    add_colour(in, random, 5);
+    const std::uint32_t size = 2 * std::max(count, 5u) + 7;
+    auto in = vertices<Real>(random, size);
+    for (const std::uint32_t n : {5u, count, 5u}) // before and after: other colours, which must not be touched
+        add_colour(in, random, n, 0, size);
+    in.groups = {{1, 2}};
     plant(in);
-    check_colours<Params>(kernels::distance::info, in, mode, 1, 2, precision_of<Real>(), project<Real>);
+    check_colours<Params>(kernels::distance::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
 TEMPLATE_TEST_CASE("the tail of a colouring gives what one distance dispatch per colour gives, bit for bit", "", float,
@@ -145,13 +146,18 @@ TEMPLATE_TEST_CASE("the tail of a colouring gives what one distance dispatch per
     const std::uint64_t seed = 650;
     CAPTURE(mode.lambda, mode.first_iteration, seed);
     Random random(seed);
-    auto in = vertices<Real>(random, 1000); // so that colours share vertices
-    for (const std::uint32_t count : {5u, 64u, 1u, 63u, 65u, 200u, 9u})
-        add_colour(in, random, count);
+    auto in = vertices<Real>(random, 1000); // few, so that colours share vertices
+    for (const std::uint32_t count : {5u, 64u, 1u, 63u, 65u, 200u})
+        add_colour(in, random, count, 0, 500);
+    for (const std::uint32_t count : {9u, 100u, 3u}) // a second body, a group of its own
+        add_colour(in, random, count, 500, 490);
+    add_colour(in, random, 5, 990, 10); // a third
+    add_colour(in, random, 4, 0, 1000); // belongs to no group
+    in.groups = {{1, 6}, {6, 9}, {9, 10}};
     plant(in);
     check_tail_equals_dispatches<Params>(kernels::distance::info, in, mode, precision_of<Real>());
     mode.tail = true;
-    check_colours<Params>(kernels::distance::info, in, mode, 1, in.colours() - 1, precision_of<Real>(), project<Real>);
+    check_colours<Params>(kernels::distance::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
 TEMPLATE_TEST_CASE("the first distance iteration with multipliers moves vertices bitwise as the one without", "", float,
@@ -162,8 +168,9 @@ TEMPLATE_TEST_CASE("the first distance iteration with multipliers moves vertices
     CAPTURE(seed);
     Random random(seed);
     auto in = vertices<Real>(random, 2100);
-    add_colour(in, random, 100);
-    add_colour(in, random, 1000);
+    add_colour(in, random, 100, 0, 2100);
+    add_colour(in, random, 1000, 0, 2100);
+    in.groups = {{0, 2}};
     plant(in);
     check_first_iteration_equals_base<Params>(kernels::distance::info, in, precision_of<Real>());
 }
@@ -180,7 +187,8 @@ TEMPLATE_TEST_CASE("ends a hair apart are moved along their direction or counted
     in.step.inverse_substep = Real(600);
     in.constraint = {{0, 1, Real(0.25), Real(0)}};
     in.colour_start = {0, 1};
-    const auto launches = colour_launches<Params>(kernels::distance::info, precision_of<Real>(), {}, in.colour_start, 0, 1);
+    in.groups = {{0, 1}};
+    const auto launches = colour_launches<Params>(kernels::distance::info, precision_of<Real>(), Mode(), in);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);

@@ -11,13 +11,17 @@
 
 namespace taut::conformance {
 
+inline constexpr std::uint32_t kTableFirst = 3; ///< words before the groups in the table of a tail
+
 /// Input of a constraint kernel. Colour k has the constraints colour_start[k] .. colour_start[k + 1] - 1.
+/// The tail variants take `groups` of colours {begin, end}; groups share no vertex.
 template <typename Real, template <typename> typename Constraint>
 struct Colours
 {
     std::vector<glm::vec<4, Real>> position, delta;
     std::vector<Constraint<Real>> constraint;
     std::vector<std::uint32_t> colour_start = {0};
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> groups;
     std::vector<Real> multiplier;
     layout::StepValues<Real> step{};
 
@@ -25,10 +29,24 @@ struct Colours
     {
         return {{"constraint", bytes_of(constraint)},     {"position", bytes_of(position)},
                 {"delta", bytes_of(delta)},               {"step_values", bytes_of(std::vector{step})},
-                {"events", no_events()},                  {"colour_start", bytes_of(colour_start)},
+                {"events", no_events()},                  {"table", bytes_of(table())},
                 {"multiplier", bytes_of(multiplier)}};
     }
-    std::uint32_t colours() const { return static_cast<std::uint32_t>(colour_start.size() - 1); }
+
+    /// What the tail variants read: unused words, two words per group, then the colours' first constraints.
+    std::vector<std::uint32_t> table() const
+    {
+        std::vector<std::uint32_t> words(kTableFirst, 0xFFFFFFFFu);
+        const std::size_t base = kTableFirst + 2 * groups.size();
+        for (const auto& [begin, end] : groups)
+        {
+            words.push_back(static_cast<std::uint32_t>(base + begin));
+            words.push_back(static_cast<std::uint32_t>(base + end));
+        }
+        words.insert(words.end(), colour_start.begin(), colour_start.end());
+        return words;
+    }
+
 };
 
 /// What a reference works on, with the size of everything that was added up so far per vertex and constraint.
@@ -92,36 +110,37 @@ struct Mode
 
 using KernelTable = const KernelInfo& (*)(std::string_view, Precision);
 
-/// Colours `begin`..`end`-1, one dispatch each, or all in one group (tail).
-template <typename Params>
-std::vector<Launch> colour_launches(KernelTable info, Precision precision, const Mode& mode,
-                                    const std::vector<std::uint32_t>& start, std::uint32_t begin, std::uint32_t end)
+/// The colours of all groups: one dispatch each, or all in one dispatch (tail).
+template <typename Params, typename Input>
+std::vector<Launch> colour_launches(KernelTable info, Precision precision, const Mode& mode, const Input& in)
 {
     const KernelInfo& kernel = info(mode.variant(), precision);
     const std::uint32_t first_iteration = mode.first_iteration, report = mode.report;
     if (mode.tail)
-        return {make_launch(kernel, Params{begin, end - begin, first_iteration, report}, 1)};
+        return {make_launch(kernel, Params{kTableFirst, 0, first_iteration, report},
+                            static_cast<std::uint32_t>(in.groups.size()))};
     std::vector<Launch> launches;
-    for (std::uint32_t c = begin; c < end; ++c)
-    {
-        const std::uint32_t count = start[c + 1] - start[c];
-        launches.push_back(make_launch(kernel, Params{start[c], count, first_iteration, report}, count));
-    }
+    for (const auto& [begin, end] : in.groups)
+        for (std::uint32_t c = begin; c < end; ++c)
+        {
+            const std::uint32_t count = in.colour_start[c + 1] - in.colour_start[c];
+            launches.push_back(make_launch(kernel, Params{in.colour_start[c], count, first_iteration, report}, count));
+        }
     return launches;
 }
 
-/// Projects colours begin..end-1 by `project(state, constraint, k)` and checks every executor against it.
+/// Projects the constraints of all groups by `project(state, constraint, k)`; checks every executor against it.
 template <typename Params, typename Input, typename Project>
-void check_colours(KernelTable info, const Input& in, const Mode& mode, std::uint32_t begin, std::uint32_t end,
-                   Precision precision, Project project)
+void check_colours(KernelTable info, const Input& in, const Mode& mode, Precision precision, Project project)
 {
     Case c;
     c.precision = precision;
     c.in = in.buffers();
-    c.launches = colour_launches<Params>(info, precision, mode, in.colour_start, begin, end);
+    c.launches = colour_launches<Params>(info, precision, mode, in);
     State state = state_of(in, mode.lambda, mode.first_iteration, mode.report);
-    for (std::uint32_t k = in.colour_start[begin]; k < in.colour_start[end]; ++k)
-        project(state, in.constraint[k], k);
+    for (const auto& [begin, end] : in.groups)
+        for (std::uint32_t k = in.colour_start[begin]; k < in.colour_start[end]; ++k)
+            project(state, in.constraint[k], k);
     c.expected["delta"] = state.delta_field();
     if (mode.lambda)
         c.expected["multiplier"] = {state.multiplier, state.multiplier_scale};
@@ -129,7 +148,7 @@ void check_colours(KernelTable info, const Input& in, const Mode& mode, std::uin
     check_on_every_device(c);
 }
 
-/// Modes in which the same colours must give the same bits: one dispatch a colour against one group for all.
+/// The same colours give the same bits: one dispatch a colour, or one dispatch for all groups.
 template <typename Params, typename Input>
 void check_tail_equals_dispatches(KernelTable info, const Input& in, Mode mode, Precision precision)
 {
@@ -140,12 +159,12 @@ void check_tail_equals_dispatches(KernelTable info, const Input& in, Mode mode, 
             continue;
         CAPTURE(selector);
         mode.tail = false;
-        const auto each = colour_launches<Params>(info, precision, mode, in.colour_start, 0, in.colours());
+        const auto each = colour_launches<Params>(info, precision, mode, in);
         mode.tail = true;
-        const auto group = colour_launches<Params>(info, precision, mode, in.colour_start, 0, in.colours());
+        const auto group = colour_launches<Params>(info, precision, mode, in);
         Buffers a = run(*device, each, in.buffers());
         Buffers b = run(*device, group, in.buffers());
-        b.erase("colour_start");
+        b.erase("table");
         CHECK(differing_buffers(b, a) == "");
     }
 }
@@ -161,9 +180,9 @@ void check_first_iteration_equals_base(KernelTable info, const Input& in, Precis
             continue;
         CAPTURE(selector);
         Mode mode;
-        const auto base = colour_launches<Params>(info, precision, mode, in.colour_start, 0, in.colours());
+        const auto base = colour_launches<Params>(info, precision, mode, in);
         mode.lambda = true;
-        const auto first = colour_launches<Params>(info, precision, mode, in.colour_start, 0, in.colours());
+        const auto first = colour_launches<Params>(info, precision, mode, in);
         const Buffers a = run(*device, base, in.buffers());
         const Buffers b = run(*device, first, in.buffers());
         CHECK(differing_buffers(a, b) == "");

@@ -58,7 +58,10 @@ double drop_of_free_strip(std::uint32_t n)
     body.mesh = samples::right_triangles(n + 1, 4, dx, dx);
     for (std::uint32_t r = 0; r <= 4; ++r)
         for (std::uint32_t c = 0; c < n + 2; ++c)
-            body.vertex_masses.push_back(rigidity / 9.81 * dx * dx * (r % 4 ? 1 : 0.5) * (c == n + 1 ? 0.5 : 1));
+        {
+            const double share = (r % 4 ? 1 : 0.5) * (c == n + 1 ? 0.5 : 1);
+            body.vertex_masses.push_back(rigidity / 9.81 * dx * dx * share);
+        }
     for (glm::dvec3& p : body.mesh.positions)
         p = {p.x - dx, 0, p.y};
     body.material.stretch_stiffness = 1e3;
@@ -278,8 +281,11 @@ TEST_CASE("the Hessian is the slope of the gradient, and its projection is never
         x[i] = {model.start[i].x + draw(), model.start[i].y + draw(), model.start[i].z + draw()};
     }
     const int n = energy.unknowns();
-    const auto full = [&](reference::Curvature curvature)
-    { return Eigen::MatrixXd(Eigen::MatrixXd(energy.hessian(x, curvature, 0)).selfadjointView<Eigen::Lower>()); };
+    const auto full = [&](reference::Curvature curvature) -> Eigen::MatrixXd
+    {
+        const Eigen::MatrixXd lower = energy.hessian(x, curvature, 0);
+        return lower.selfadjointView<Eigen::Lower>();
+    };
     const Eigen::MatrixXd exact = full(reference::Curvature::exact);
     double worst = 0;
     for (std::size_t i = 0; i < x.size(); ++i)

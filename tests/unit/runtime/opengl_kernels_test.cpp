@@ -237,11 +237,11 @@ TEST_CASE("opengl: a text whose layout is not the table's is refused")
         CHECK(error.code == ErrorCode::kernel_compilation);
         return error;
     };
-    CHECK(says(change("PARAMS { uint count; }", "PARAMS { uint spare; uint count; }"),
-               "parameter count sits at byte 4, expected 0"));
-    CHECK(says(change("UPDATE(0, uint, values)", "UPDATE(1, uint, values)"), "binding 1, expected 0"));
-    CHECK(says(change("UPDATE(0, uint, values);\nKERNEL(count) { values[i] +=",
-                      "UPDATE(0, uvec2, values);\nKERNEL(count) { values[i].x +="),
-               "8 bytes apart, expected 4"));
-    CHECK(says(change("#define TAUT_GROUP_SIZE 64", "#define TAUT_GROUP_SIZE 32"), "groups of 32"));
+    CHECK(change("PARAMS { uint count; }", "PARAMS { uint spare; uint count; }")
+              .says("parameter count sits at byte 4, expected 0"));
+    CHECK(change("UPDATE(0, uint, values)", "UPDATE(1, uint, values)").says("binding 1, expected 0"));
+    CHECK(change("UPDATE(0, uint, values);\nKERNEL(count) { values[i] +=",
+                 "UPDATE(0, uvec2, values);\nKERNEL(count) { values[i].x +=")
+              .says("8 bytes apart, expected 4"));
+    CHECK(change("#define TAUT_GROUP_SIZE 64", "#define TAUT_GROUP_SIZE 32").says("groups of 32"));
 }

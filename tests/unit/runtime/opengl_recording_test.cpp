@@ -64,9 +64,8 @@ TEST_CASE("opengl: a timed replay does the same work and gives a time for each d
         CHECK(times[i].dispatch == i);
         CHECK(times[i].nanoseconds >= 0);
     }
-    // A million times the work: only a clock that does not tick could disagree.
-    CHECK(times[1].nanoseconds > times[0].nanoseconds);
-    CHECK(times[1].nanoseconds > times[2].nanoseconds);
+    // 4,000 steps, each of which needs the one before: no device does one in a tenth of a nanosecond.
+    CHECK(times[1].nanoseconds > 400);
 }
 
 TEST_CASE("opengl: consecutive replays see each other's results")

@@ -222,10 +222,18 @@ TEST_CASE("opengl: ordinary work gives the debug context nothing to say")
     const auto device = open_here(spirv, true);
     if (!device)
         return;
-    Pairs<float> host(100);
-    kernels::distance::Params params;
-    params.count = 100;
-    host.on(device, kernels::distance::info(), params);
+    const auto mark = mark_kernel();
+    const std::vector<std::uint32_t> start(64, 1);
+    const BufferPtr values = buffer_with(*device, start, "values");
+    const BufferPtr groups = buffer_with(*device, std::vector<std::uint32_t>{1, 1, 1}, "groups");
+    const CountParams params{64};
+    Recorder recorder(device);
+    recorder.dispatch(mark->info, {values}, params, 64);
+    recorder.dispatch_indirect(mark->info, {values}, bytes_of(params), {groups, 0, 12}, 64);
+    const auto recording = recorder.finish();
+    recording->replay();
+    recording->replay_timed();
+    CHECK(device->read<std::uint32_t>(values, 64)[63] == 1 + 4 * 64);
     CHECK(device->counters().validation_messages == 0);
 }
 

@@ -132,7 +132,8 @@ TEST_CASE("a damaged, truncated or foreign pipeline cache is ignored and rewritt
     std::vector<std::string> bad = {
         "", "x", good.substr(0, 20), good.substr(0, 56), good.substr(0, good.size() - 1), good + "x"};
     // Every field of the header: magic, version, vendor, device, driver, UUID, size, hash; then the contents.
-    for (const std::size_t at : {0, 8, 12, 16, 20, 24, 40, 48, 56})
+    const std::size_t fields[] = {0, 8, 12, 16, 20, 24, 40, 48, 56};
+    for (const std::size_t at : fields)
     {
         bad.push_back(good);
         bad.back()[at] = static_cast<char>(bad.back()[at] ^ 1);

@@ -1,11 +1,10 @@
 // A host with a Vulkan device of its own, made here with nothing but the loader, hands it to Taut.
 
+#include "vulkan_host.hpp"
 #include "vulkan_support.hpp"
 
 #include "taut/runtime/cpu/cpu_device.hpp"
 #include "taut/runtime/vulkan/interop.hpp"
-
-#include <dlfcn.h>
 
 #include <cstring>
 #include <thread>
@@ -14,176 +13,6 @@ using namespace taut;
 using namespace taut::vulkan_test;
 
 namespace {
-
-constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-
-/// What an engine would have: instance, device, queue, command buffer, and its own count of validation
-/// messages.
-class Host
-{
-public:
-    static std::unique_ptr<Host> open(bool float64 = false)
-    {
-        auto host = std::unique_ptr<Host>(new Host);
-        void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
-        if (list_vulkan().empty() || library == nullptr)
-        {
-            WARN("skipped: there is no Vulkan device");
-            return nullptr;
-        }
-        host->get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
-        host->make_instance();
-        host->make_device(float64);
-        host->make_commands();
-        return host;
-    }
-
-    ~Host()
-    {
-        if (device != VK_NULL_HANDLE)
-        {
-            call<PFN_vkDestroyCommandPool>("vkDestroyCommandPool")(device, pool, nullptr);
-            call<PFN_vkDestroyDevice>("vkDestroyDevice")(device, nullptr);
-            call<PFN_vkDestroyDebugUtilsMessengerEXT>("vkDestroyDebugUtilsMessengerEXT")(instance, messenger,
-                                                                                         nullptr);
-            call<PFN_vkDestroyInstance>("vkDestroyInstance")(instance, nullptr);
-        }
-    }
-
-    template <typename Function>
-    Function call(const char* name) const
-    {
-        return reinterpret_cast<Function>(get(instance, name));
-    }
-
-    VulkanContext context() const
-    {
-        VulkanContext out;
-        out.instance = instance;
-        out.physical_device = physical;
-        out.device = device;
-        out.queue = queue;
-        out.queue_family = family;
-        out.get_instance_proc_addr = get;
-        out.api_version = VK_API_VERSION_1_1;
-        out.shader_float64 = float64_enabled;
-        return out;
-    }
-
-    void begin() const
-    {
-        VkCommandBufferBeginInfo info = {};
-        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-        REQUIRE(call<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(commands, &info) == VK_SUCCESS);
-    }
-
-    void submit_and_wait() const
-    {
-        REQUIRE(call<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(commands) == VK_SUCCESS);
-        VkSubmitInfo info = {};
-        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-        info.commandBufferCount = 1;
-        info.pCommandBuffers = &commands;
-        REQUIRE(call<PFN_vkQueueSubmit>("vkQueueSubmit")(queue, 1, &info, VK_NULL_HANDLE) == VK_SUCCESS);
-        REQUIRE(call<PFN_vkQueueWaitIdle>("vkQueueWaitIdle")(queue) == VK_SUCCESS);
-    }
-
-    std::string messages;
-    VkInstance instance = VK_NULL_HANDLE;
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    std::uint32_t family = 0;
-    VkCommandPool pool = VK_NULL_HANDLE;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    PFN_vkGetInstanceProcAddr get = nullptr;
-    bool float64_enabled = false;
-
-private:
-    Host() = default;
-
-    static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                                     VkDebugUtilsMessageTypeFlagsEXT,
-                                                     const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                                     void* host)
-    {
-        static_cast<Host*>(host)->messages += std::string(data->pMessage) + "\n";
-        return VK_FALSE;
-    }
-
-    void make_instance()
-    {
-        VkApplicationInfo app = {};
-        app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
-        app.apiVersion = VK_API_VERSION_1_1;
-        const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-        VkInstanceCreateInfo info = {};
-        info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
-        info.pApplicationInfo = &app;
-        info.enabledLayerCount = 1;
-        info.ppEnabledLayerNames = &kLayer;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
-        REQUIRE(call<PFN_vkCreateInstance>("vkCreateInstance")(&info, nullptr, &instance) == VK_SUCCESS);
-        VkDebugUtilsMessengerCreateInfoEXT hear = {};
-        hear.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
-        hear.messageSeverity =
-            VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-        hear.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-        hear.pfnUserCallback = on_message;
-        hear.pUserData = this;
-        REQUIRE(call<PFN_vkCreateDebugUtilsMessengerEXT>("vkCreateDebugUtilsMessengerEXT")(
-                    instance, &hear, nullptr, &messenger) == VK_SUCCESS);
-    }
-
-    void make_device(bool float64)
-    {
-        std::uint32_t count = 1;
-        call<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices")(instance, &count, &physical);
-        std::uint32_t families = 16;
-        VkQueueFamilyProperties properties[16];
-        call<PFN_vkGetPhysicalDeviceQueueFamilyProperties>("vkGetPhysicalDeviceQueueFamilyProperties")(
-            physical, &families, properties);
-        while (family < families && (properties[family].queueFlags & vulkan_requirements().queue_flags) == 0)
-            ++family;
-        const float priority = 1;
-        VkDeviceQueueCreateInfo queues = {};
-        queues.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-        queues.queueFamilyIndex = family;
-        queues.queueCount = 1;
-        queues.pQueuePriorities = &priority;
-        const VulkanRequirements needs =
-            vulkan_requirements(float64 ? Precision::float64 : Precision::float32);
-        VkDeviceCreateInfo info = {};
-        info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-        info.queueCreateInfoCount = 1;
-        info.pQueueCreateInfos = &queues;
-        info.enabledExtensionCount = static_cast<std::uint32_t>(needs.device_extensions.size());
-        info.ppEnabledExtensionNames = needs.device_extensions.data();
-        info.pEnabledFeatures = &needs.features;
-        float64_enabled = needs.features.shaderFloat64 == VK_TRUE;
-        REQUIRE(call<PFN_vkCreateDevice>("vkCreateDevice")(physical, &info, nullptr, &device) == VK_SUCCESS);
-        call<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(device, family, 0, &queue);
-    }
-
-    void make_commands()
-    {
-        VkCommandPoolCreateInfo info = {};
-        info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-        info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-        info.queueFamilyIndex = family;
-        REQUIRE(call<PFN_vkCreateCommandPool>("vkCreateCommandPool")(device, &info, nullptr, &pool) ==
-                VK_SUCCESS);
-        VkCommandBufferAllocateInfo one = {};
-        one.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-        one.commandPool = pool;
-        one.commandBufferCount = 1;
-        REQUIRE(call<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(device, &one, &commands) ==
-                VK_SUCCESS);
-    }
-
-    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-};
 
 std::unique_ptr<Recording> twice(const std::shared_ptr<Device>& device, const BufferPtr& x, std::uint32_t n)
 {
@@ -394,6 +223,82 @@ TEST_CASE("an incomplete Vulkan context is refused with the name of the field")
     names("api_version", ErrorCode::unsupported,
           [](VulkanContext& c) { c.api_version = VK_API_VERSION_1_0; });
     names("api_version", ErrorCode::unsupported, [](VulkanContext& c) { c.api_version = 0; });
+    CHECK(host->messages == "");
+}
+
+namespace {
+
+/// A loader that makes the device look worse than it is.
+struct Poor
+{
+    static inline PFN_vkGetInstanceProcAddr loader = nullptr;
+    static inline VkInstance instance = VK_NULL_HANDLE;
+    static inline std::string what;
+
+    template <typename Function>
+    static Function real(const char* name)
+    {
+        return reinterpret_cast<Function>(loader(instance, name));
+    }
+
+    static VKAPI_ATTR void VKAPI_CALL families(VkPhysicalDevice device, std::uint32_t* count,
+                                               VkQueueFamilyProperties* out)
+    {
+        real<PFN_vkGetPhysicalDeviceQueueFamilyProperties>("vkGetPhysicalDeviceQueueFamilyProperties")(
+            device, count, out);
+        for (std::uint32_t i = 0; out != nullptr && i < *count; ++i)
+            out[i].queueFlags &= ~VkQueueFlags{VK_QUEUE_COMPUTE_BIT};
+    }
+
+    static VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice device, VkPhysicalDeviceFeatures* out)
+    {
+        real<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures")(device, out);
+        out->shaderFloat64 = VK_FALSE;
+    }
+
+    static VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice device, VkPhysicalDeviceProperties* out)
+    {
+        real<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties")(device, out);
+        out->apiVersion = VK_API_VERSION_1_0;
+    }
+
+    static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get(VkInstance, const char* name)
+    {
+        if (what != name)
+            return loader(instance, name);
+        if (what == "vkGetPhysicalDeviceQueueFamilyProperties")
+            return reinterpret_cast<PFN_vkVoidFunction>(families);
+        if (what == "vkGetPhysicalDeviceFeatures")
+            return reinterpret_cast<PFN_vkVoidFunction>(features);
+        if (what == "vkGetPhysicalDeviceProperties")
+            return reinterpret_cast<PFN_vkVoidFunction>(properties);
+        return nullptr;
+    }
+};
+
+} // namespace
+
+TEST_CASE("a host's device that lacks what Taut needs is refused with the reason")
+{
+    const std::unique_ptr<Host> host = Host::open();
+    if (!host)
+        return;
+    VulkanContext context = host->context();
+    context.shader_float64 = true;
+    Poor::loader = context.get_instance_proc_addr;
+    Poor::instance = context.instance;
+    context.get_instance_proc_addr = Poor::get;
+    const auto refused = [&](const char* function, ErrorCode code, const char* word) {
+        Poor::what = function;
+        const Refusal found = refusal([&] { adopt(context); });
+        INFO(found.text);
+        CHECK(found.code == code);
+        CHECK(contains(found.text, word));
+    };
+    refused("vkGetPhysicalDeviceQueueFamilyProperties", ErrorCode::unsupported, "VK_QUEUE_COMPUTE_BIT");
+    refused("vkGetPhysicalDeviceFeatures", ErrorCode::unsupported, "shader_float64");
+    refused("vkGetPhysicalDeviceProperties", ErrorCode::unsupported, "1.1");
+    refused("vkCreateDevice", ErrorCode::bad_input, "vkCreateDevice"); // a loader that does not know it
     CHECK(host->messages == "");
 }
 

@@ -85,6 +85,16 @@ inline const KernelInfo& affine()
     return kernel->info;
 }
 
+/// Runs `passes` passes x <- 2 x + 1 in one recording, one barrier between each two.
+inline std::unique_ptr<Recording> affine_chain(const std::shared_ptr<Device>& device, const BufferPtr& x,
+                                               std::uint32_t count, int passes)
+{
+    Recorder recorder(device);
+    for (int i = 0; i < passes; ++i)
+        recorder.dispatch(affine(), {x}, AffineParams{count, 2.0f, 1.0f}, count, "chain");
+    return recorder.finish();
+}
+
 struct CountParams
 {
     std::uint32_t count = 0;

@@ -20,32 +20,6 @@
 using namespace taut;
 using namespace taut::vulkan_test;
 
-namespace {
-
-std::vector<std::byte> pattern(std::size_t bytes, unsigned seed)
-{
-    std::vector<std::byte> out(bytes);
-    std::uint32_t state = seed * 2654435761u + 1;
-    for (std::byte& b : out)
-    {
-        state = state * 1664525u + 1013904223u;
-        b = static_cast<std::byte>(state >> 24);
-    }
-    return out;
-}
-
-/// Runs `passes` affine passes over x in one recording, one barrier between each two.
-std::unique_ptr<Recording> affine_chain(const std::shared_ptr<Device>& device, const BufferPtr& x,
-                                        std::uint32_t count, int passes)
-{
-    Recorder recorder(device);
-    for (int i = 0; i < passes; ++i)
-        recorder.dispatch(affine(), {x}, AffineParams{count, 2.0f, 1.0f}, count, "chain");
-    return recorder.finish();
-}
-
-} // namespace
-
 TEST_CASE("a Vulkan device says who it is and what it can do")
 {
     TAUT_VULKAN_DEVICE(device);
@@ -80,118 +54,6 @@ TEST_CASE("a Vulkan device that is not there is refused with the number that is"
     CHECK(contains(refused.text, std::to_string(list_vulkan().size())));
 }
 
-TEST_CASE("new Vulkan memory is zero, also where others wrote before")
-{
-    TAUT_VULKAN_DEVICE(device);
-    for (int round = 0; round < 2; ++round)
-    {
-        const BufferPtr buffer = device->make_buffer(10'001, "zero");
-        const std::vector<std::byte> found = device->read<std::byte>(buffer, 10'001);
-        CHECK(std::all_of(found.begin(), found.end(), [](std::byte b) { return b == std::byte{0}; }));
-        device->write<std::byte>(buffer, std::vector<std::byte>(10'001, std::byte{0xFF}));
-    }
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("bytes come back from a Vulkan device as they went, at any offset and size")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const std::size_t total = (std::size_t{20} << 20) + 5; // more than two blocks of staging
-    const BufferPtr buffer = device->make_buffer(total, "bytes");
-    std::vector<std::byte> expected(total, std::byte{0});
-    const auto put = [&](std::size_t offset, std::size_t bytes, unsigned seed) {
-        const std::vector<std::byte> data = pattern(bytes, seed);
-        device->write<std::byte>(buffer, data, offset);
-        std::copy(data.begin(), data.end(), expected.begin() + static_cast<std::ptrdiff_t>(offset));
-    };
-    put(3, total - 9, 1);
-    put(7, 13, 2);
-    put(1, 1, 3);
-    put(total - 1, 1, 4);
-    put((std::size_t{8} << 20) - 3, 7, 5);
-    CHECK(device->read<std::byte>(buffer, total) == expected);
-    const std::vector<std::byte> middle = device->read<std::byte>(buffer, 1021, 77'777);
-    CHECK(std::equal(middle.begin(), middle.end(), expected.begin() + 77'777));
-    device->write<std::byte>(buffer, std::span<const std::byte>{}, total);
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("a transfer beyond the end of a Vulkan buffer is refused")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const BufferPtr buffer = device->make_buffer(100, "short");
-    const std::vector<std::byte> data(50);
-    CHECK(refusal([&] { device->write<std::byte>(buffer, data, 51); }).code == ErrorCode::bad_input);
-    CHECK(refusal([&] { device->read<std::byte>(buffer, 1, 100); }).code == ErrorCode::bad_input);
-    CHECK(refusal([&] { device->write<std::byte>(buffer, data, ~std::uint64_t{0} - 10); }).code ==
-          ErrorCode::bad_input);
-    CHECK(contains(refusal([&] { device->write<std::byte>(buffer, data, 51); }).text, "100"));
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("many small Vulkan buffers share few allocations and give them back")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const std::uint64_t blocks_before = device->counters().memory_blocks;
-    std::vector<BufferPtr> buffers;
-    std::uint64_t sum = 0;
-    for (unsigned i = 0; i < 60; ++i)
-    {
-        const std::uint64_t bytes = 200'000 + 12'345 * (i % 7);
-        sum += bytes;
-        buffers.push_back(device->make_buffer(bytes, "small"));
-        device->write<std::byte>(buffers.back(), pattern(bytes, i));
-    }
-    CHECK(device->counters().bytes_allocated == sum);
-    CHECK(device->counters().memory_blocks <= blocks_before + 2);
-    for (std::size_t i = 0; i < buffers.size(); i += 2)
-        buffers[i].reset();
-    for (std::size_t i = 0; i < buffers.size(); i += 2)
-    {
-        buffers[i] = device->make_buffer(150'001, "again");
-        device->write<std::byte>(buffers[i], pattern(150'001, static_cast<unsigned>(i) + 100));
-    }
-    CHECK(device->counters().memory_blocks <= blocks_before + 2);
-    for (unsigned i = 0; i < buffers.size(); ++i)
-        CHECK(device->read<std::byte>(buffers[i], buffers[i]->bytes()) ==
-              pattern(buffers[i]->bytes(), i % 2 == 0 ? i + 100 : i));
-    const BufferPtr large = device->make_buffer(std::uint64_t{40} << 20, "large");
-    CHECK(device->counters().memory_blocks <= blocks_before + 3);
-    buffers.clear();
-    CHECK(device->counters().bytes_allocated == large->bytes());
-    CHECK(device->counters().memory_blocks == blocks_before + 1);
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("sizes that no Vulkan binding can hold are refused with both numbers")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const std::uint64_t most = device->limits().max_buffer_bytes;
-    const Refusal refused = refusal([&] { device->make_buffer(most + 1, "huge"); });
-    CHECK(refused.code == ErrorCode::limit);
-    CHECK(contains(refused.text, "huge"));
-    CHECK(contains(refused.text, std::to_string(most + 1)));
-    CHECK(contains(refused.text, std::to_string(most)));
-    CHECK(refusal([&] { device->make_buffer(0, "none"); }).code == ErrorCode::bad_input);
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("a binding at an offset that Vulkan cannot bind is refused")
-{
-    TAUT_VULKAN_DEVICE(device);
-    if (device->limits().offset_alignment < 8)
-        return;
-    const BufferPtr x = device->make_buffer(1024, "x");
-    const Refusal refused = refusal([&] {
-        Recorder recorder(device);
-        recorder.dispatch(affine(), {{x, 4, 64}}, AffineParams{16, 1, 0}, 16);
-        recorder.finish();
-    });
-    REQUIRE(refused.code);
-    CHECK(contains(refused.text, std::to_string(device->limits().offset_alignment)));
-    CHECK_NOTHING_SAID(device);
-}
-
 TEST_CASE("a kernel compiled from text at run time computes on Vulkan")
 {
     TAUT_VULKAN_DEVICE(device);
@@ -219,57 +81,6 @@ TEST_CASE("a Vulkan dispatch binds the part of the buffer that it was given")
     for (std::uint32_t i = 0; i < 3 * count; ++i)
         REQUIRE(found[i] == (i / count == 1 ? 5.0f : 1.0f));
     CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("a Vulkan replay is one submission, whatever the number of passes")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const BufferPtr x = device->make_buffer(256, "x");
-    for (const int passes : {1, 10, 500})
-    {
-        const auto recording = affine_chain(device, x, 64, passes);
-        CHECK(recording->barrier_count() == static_cast<std::size_t>(passes - 1));
-        for (int replay = 0; replay < 3; ++replay)
-        {
-            const DeviceCounters before = device->counters();
-            recording->replay();
-            const DeviceCounters after = device->counters();
-            CHECK(after.submissions == before.submissions + 1);
-            CHECK(after.dispatches == before.dispatches + static_cast<std::uint64_t>(passes));
-            CHECK(after.barriers == before.barriers + static_cast<std::uint64_t>(passes - 1));
-        }
-        const std::uint64_t submissions = device->counters().submissions;
-        device->wait();
-        CHECK(device->counters().submissions == submissions);
-    }
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("Vulkan replays that were not waited for run one after another")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const BufferPtr x = device->make_buffer(4 * 5000, "x");
-    const auto recording = affine_chain(device, x, 5000, 1);
-    for (int i = 0; i < 12; ++i)
-        recording->replay();
-    const std::vector<float> found = device->read<float>(x, 5000);
-    CHECK(std::all_of(found.begin(), found.end(), [](float v) { return v == 4095.0f; })); // 2^12 - 1
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("a Vulkan recording may be dropped while it runs, and outlive its device")
-{
-    std::shared_ptr<Device> device = open_here();
-    if (!device)
-        return;
-    const BufferPtr x = device->make_buffer(4 * 50'000, "x");
-    affine_chain(device, x, 50'000, 20)->replay();
-    const auto recording = affine_chain(device, x, 50'000, 1);
-    device->wait();
-    const std::shared_ptr<vulkan::ValidationLog> log = vulkan::context_of(*device)->instance->log;
-    device.reset();
-    recording->replay();
-    CHECK(log->count() == 0);
 }
 
 TEST_CASE("the distance kernel gives the bits of native code on lavapipe")
@@ -324,46 +135,6 @@ TEST_CASE("the distance kernel gives the bits of native code on lavapipe")
                 REQUIRE(a == Approx(b).margin(1e-5));
             }
     }
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("timestamps are positive, in order of the list, and leave the fast replay as it was")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const std::uint32_t n = 20'000;
-    const BufferPtr x = device->make_buffer(4 * n, "x");
-    const BufferPtr tiny = device->make_buffer(256, "tiny");
-    Recorder recorder(device);
-    recorder.dispatch(affine(), {x}, AffineParams{n, 2, 1}, n);
-    recorder.dispatch(affine(), {tiny}, AffineParams{1, 2, 1}, 1);
-    recorder.dispatch(affine(), {x}, AffineParams{n, 2, 1}, n);
-    const auto recording = recorder.finish();
-    const std::vector<DispatchTime> times = recording->replay_timed();
-    REQUIRE(times.size() == 3);
-    for (std::size_t i = 0; i < times.size(); ++i)
-    {
-        CHECK(times[i].dispatch == i);
-        CHECK(times[i].nanoseconds > 0);
-        CHECK(times[i].nanoseconds < 1e10);
-    }
-    recording->replay();
-    recording->replay_timed();
-    CHECK(device->read<float>(x, n) == std::vector<float>(n, 63.0f)); // 2^6 - 1
-    CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("a list longer than one query pool is timed whole")
-{
-    TAUT_VULKAN_DEVICE(device);
-    const BufferPtr x = device->make_buffer(256, "x");
-    const int passes = 5000; // 10,000 timestamps
-    Recorder recorder(device);
-    for (int i = 0; i < passes; ++i)
-        recorder.dispatch(affine(), {x}, AffineParams{1, 1, 1}, 1);
-    const std::vector<DispatchTime> times = recorder.finish()->replay_timed();
-    REQUIRE(times.size() == static_cast<std::size_t>(passes));
-    CHECK(std::all_of(times.begin(), times.end(), [](const DispatchTime& t) { return t.nanoseconds > 0; }));
-    CHECK(device->read<float>(x, 1) == std::vector{static_cast<float>(passes)});
     CHECK_NOTHING_SAID(device);
 }
 
@@ -479,9 +250,14 @@ TEST_CASE("a lost Vulkan device refuses everything from then on")
         return;
     const BufferPtr x = device->make_buffer(256, "x");
     const auto recording = affine_chain(device, x, 64, 1);
-    vulkan::Health& health = vulkan::context_of(*device)->health;
-    CHECK(refusal([&] { health.check(VK_ERROR_DEVICE_LOST, "vkQueueSubmit"); }).code ==
-          ErrorCode::device_lost);
+    VolkDeviceTable& vk = vulkan::context_of(*device)->vk;
+    const PFN_vkQueueSubmit submit = vk.vkQueueSubmit;
+    vk.vkQueueSubmit = [](VkQueue, std::uint32_t, const VkSubmitInfo*, VkFence) {
+        return VK_ERROR_DEVICE_LOST;
+    };
+    CHECK(
+        contains(refusal([&] { recording->replay(); }).text, "vkQueueSubmit returned VK_ERROR_DEVICE_LOST"));
+    vk.vkQueueSubmit = submit; // once is enough
     std::vector<std::function<void()>> acts = {
         [&] { recording->replay(); },
         [&] { recording->replay_timed(); },

@@ -68,15 +68,27 @@ const std::vector<Fault> kFaults = {
     {"method.substeps", [](S s) { s.method.substeps = 1001; }},
     {"method.iterations", [](S s) { s.method.iterations = 0; }},
     {"method.precision", [](S s) { s.method.precision = "half"; }},
-    {"bodies[0].grid.cells", [](S s) { s.bodies[0] = {}; s.bodies[0].shape.cells.x = 0; }},
-    {"bodies[0].grid.cells", [](S s) { s.bodies[0] = {}; s.bodies[0].shape.cells = {4294967295u, 4294967295u}; }},
+    {"bodies[0].grid.cells",
+     [](S s) {
+         s.bodies[0] = {};
+         s.bodies[0].shape.cells.x = 0;
+     }},
+    {"bodies[0].grid.cells",
+     [](S s) {
+         s.bodies[0] = {};
+         s.bodies[0].shape.cells = {4294967295u, 4294967295u};
+     }},
     {"bodies[0].grid.size", [](S s) { s.bodies[0].shape.size.y = 0; }},
     {"bodies[0].grid.size", [](S s) { s.bodies[0].shape.size.x = kNan; }},
     {"bodies[0].grid.diagonals", [](S s) { s.bodies[0].shape.diagonals = "both"; }},
     {"bodies[1].chain.links", [](S s) { s.bodies[1].shape.links = 4294967295u; }},
     {"bodies[1].chain.length", [](S s) { s.bodies[1].shape.length = 0; }},
     {"bodies[1].chain.width", [](S s) { s.bodies[1].shape.width = -1; }},
-    {"bodies[1].mesh", [](S s) { s.bodies[1] = {}; s.bodies[1].shape.kind = ShapeKind::mesh; }},
+    {"bodies[1].mesh",
+     [](S s) {
+         s.bodies[1] = {};
+         s.bodies[1].shape.kind = ShapeKind::mesh;
+     }},
     {"bodies[0].material.density", [](S s) { s.bodies[0].material.density = 0; }},
     {"bodies[0].material.density", [](S s) { s.bodies[0].material.density = kNan; }},
     {"bodies[0].material.stretch_stiffness", [](S s) { s.bodies[0].material.stretch_stiffness = -1; }},
@@ -86,7 +98,11 @@ const std::vector<Fault> kFaults = {
     {"bodies[0].material.thickness", [](S s) { s.bodies[0].material.thickness = -1e-9; }},
     {"bodies[0].transform.scale", [](S s) { s.bodies[0].transform.scale = 0; }},
     {"bodies[0].transform.translate", [](S s) { s.bodies[0].transform.translate.z = kNan; }},
-    {"bodies[0].transform.rotate.axis", [](S s) { s.bodies[0].transform.rotate_axis = {0, 0, 0}; s.bodies[0].transform.rotate_degrees = 1; }},
+    {"bodies[0].transform.rotate.axis",
+     [](S s) {
+         s.bodies[0].transform.rotate_axis = {0, 0, 0};
+         s.bodies[0].transform.rotate_degrees = 1;
+     }},
     {"bodies[0].transform.rotate.degrees", [](S s) { s.bodies[0].transform.rotate_degrees = kNan; }},
     {"bodies[0].velocity", [](S s) { s.bodies[0].velocity.x = kInf; }},
     {"bodies[0].pins[0]", [](S s) { s.bodies[0].pins[0].corners.clear(); }},
@@ -95,13 +111,32 @@ const std::vector<Fault> kFaults = {
     {"bodies[0].pins[0].edges[0]", [](S s) { s.bodies[0].pins[0].edges = {"up"}; }},
     {"bodies[1].pins[0].edges", [](S s) { s.bodies[1].pins[0].edges = {"top"}; }},
     {"bodies[1].pins[0].corners[0]", [](S s) { s.bodies[1].pins[0].corners = {"top_left"}; }},
-    {"bodies[0].pins[0].vertices[1]", [](S s) { s.bodies[0].pins[0].vertices = {8, 9}; }},
-    {"bodies[0].pins[0].box", [](S s) { s.bodies[0].pins[0].use_box = true; s.bodies[0].pins[0].box_min.x = 1; }},
-    {"bodies[0].pins[0].box.max", [](S s) { s.bodies[0].pins[0].use_box = true; s.bodies[0].pins[0].box_max.x = kNan; }},
+    {"bodies[0].pins[0].vertices[1]",
+     [](S s) {
+         s.bodies[0].pins[0].vertices = {8, 9};
+     }},
+    {"bodies[0].pins[0].box",
+     [](S s) {
+         s.bodies[0].pins[0].use_box = true;
+         s.bodies[0].pins[0].box_min.x = 1;
+     }},
+    {"bodies[0].pins[0].box.max",
+     [](S s) {
+         s.bodies[0].pins[0].use_box = true;
+         s.bodies[0].pins[0].box_max.x = kNan;
+     }},
     {"bodies[0].pins[0].motion[1].time", [](S s) { s.bodies[0].pins[0].motion[1].time = 0; }},
-    {"bodies[0].pins[0].motion[0].time", [](S s) { s.bodies[0].pins[0].motion[0].time = kNan; s.bodies[0].pins[0].motion.resize(1); }},
+    {"bodies[0].pins[0].motion[0].time",
+     [](S s) {
+         s.bodies[0].pins[0].motion[0].time = kNan;
+         s.bodies[0].pins[0].motion.resize(1);
+     }},
     {"bodies[0].pins[0].motion[1].translate", [](S s) { s.bodies[0].pins[0].motion[1].translate.y = kNan; }},
-    {"bodies[0].pins[0].motion[1].rotate.axis", [](S s) { s.bodies[0].pins[0].motion[1].rotate_axis = {}; s.bodies[0].pins[0].motion[1].rotate_degrees = 9; }},
+    {"bodies[0].pins[0].motion[1].rotate.axis",
+     [](S s) {
+         s.bodies[0].pins[0].motion[1].rotate_axis = {};
+         s.bodies[0].pins[0].motion[1].rotate_degrees = 9;
+     }},
     {"bodies[0].springs[0]", [](S s) { s.bodies[0].springs[0].b = 0; }},
     {"bodies[0].springs[0].b", [](S s) { s.bodies[0].springs[0].b = 9; }},
     {"bodies[0].springs[0].rest_length", [](S s) { s.bodies[0].springs[0].rest_length = kNan; }},
@@ -111,7 +146,10 @@ const std::vector<Fault> kFaults = {
     {"bodies[0].vertex_masses[3]", [](S s) { s.bodies[0].vertex_masses[3] = 0; }},
     {"bodies[0].start_positions", [](S s) { s.bodies[0].start_positions.pop_back(); }},
     {"bodies[0].start_positions[4]", [](S s) { s.bodies[0].start_positions[4].y = kNan; }},
-    {"colliders[0].plane.normal", [](S s) { s.colliders[0].normal = {0, 0, 0}; }},
+    {"colliders[0].plane.normal",
+     [](S s) {
+         s.colliders[0].normal = {0, 0, 0};
+     }},
     {"colliders[0].plane.point", [](S s) { s.colliders[0].point.x = kNan; }},
     {"colliders[1].sphere.radius", [](S s) { s.colliders[1].radius = 0; }},
     {"colliders[1].sphere.centre", [](S s) { s.colliders[1].point.x = kInf; }},
@@ -174,7 +212,8 @@ TEST_CASE("resolve throws the first issue with its code, and counts the others")
     scene.damping = -1;
     scene.method.substeps = 0;
     scene.timestep = 0;
-    CHECK_THROWS_WITH(resolve(scene), "timestep is 0 s; it must be greater than 0 s and at most 1 s (and 2 other errors)");
+    CHECK_THROWS_WITH(resolve(scene),
+                      "timestep is 0 s; it must be greater than 0 s and at most 1 s (and 2 other errors)");
 }
 
 TEST_CASE("an unknown method or word names the nearest known one")

@@ -2,11 +2,11 @@
 // Runs cases in a child process with limits, so that a crash, a hang or a huge allocation is a
 // failure with its seed, and the next seed goes on in a new child.
 
+#include <csignal>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
-#include <csignal>
 #include <unistd.h>
 
 #include <cstdint>
@@ -84,9 +84,11 @@ inline void limit(const Limits& limits)
 } // namespace detail
 
 /// `one_case` returns whether the input was accepted; whatever it throws is a failure.
-inline Outcome run(std::uint64_t seeds, const std::function<bool(std::uint64_t)>& one_case, const Limits& limits = {})
+inline Outcome run(std::uint64_t seeds, const std::function<bool(std::uint64_t)>& one_case,
+                   const Limits& limits = {})
 {
-    void* memory = mmap(nullptr, sizeof(detail::Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    void* memory =
+        mmap(nullptr, sizeof(detail::Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     auto& progress = *new (memory) detail::Progress{};
     Outcome outcome;
     std::uint64_t first = 0;

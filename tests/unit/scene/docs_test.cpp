@@ -69,10 +69,12 @@ TEST_CASE("the examples in docs/scene.md are scenes without a fault")
 {
     const std::string text = page(), fence = "```json\n";
     int examples = 0;
-    for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at + 1), ++examples)
+    for (std::size_t at = text.find(fence); at != std::string::npos;
+         at = text.find(fence, at + 1), ++examples)
     {
         const std::size_t begin = at + fence.size();
-        const Scene scene = parse_scene(text.substr(begin, text.find("```", begin) - begin), {}, "docs/scene.md");
+        const Scene scene =
+            parse_scene(text.substr(begin, text.find("```", begin) - begin), {}, "docs/scene.md");
         for (const SceneIssue& issue : check(scene))
             FAIL(issue.field << ' ' << issue.text);
     }

@@ -60,13 +60,15 @@ bool read_damaged(const seeds::Seed& file, std::uint64_t seed)
     try
     {
         const std::string text = seed == 0 ? file.text : mutate::damage(file.text, seed);
-        require_sound(scene_file::parse_mesh(text, "." + file.extension, "damaged", weld[seed % 3], findings), findings);
+        require_sound(scene_file::parse_mesh(text, "." + file.extension, "damaged", weld[seed % 3], findings),
+                      findings);
         return true;
     }
     catch (const Error& error)
     {
         require(error.code() == ErrorCode::bad_input, "another code than bad_input");
-        require(std::string(error.what()).starts_with("damaged: "), "the message does not start with the file");
+        require(std::string(error.what()).starts_with("damaged: "),
+                "the message does not start with the file");
         return false;
     }
 }
@@ -112,7 +114,8 @@ bool parse_damaged(const std::string& text, std::uint64_t seed)
         const Scene scene = parse_scene(seed == 0 ? text : mutate::damage(text, seed), "nowhere", "damaged");
         bool small = true; // a grid of millions is a fair wish, but not here
         for (const Body& body : scene.bodies)
-            small = small && double(body.shape.cells.x) * body.shape.cells.y < 1e4 && body.shape.links < 10000;
+            small =
+                small && double(body.shape.cells.x) * body.shape.cells.y < 1e4 && body.shape.links < 10000;
         if (check(scene).empty() && small)
             resolve(scene);
         return true;
@@ -130,7 +133,8 @@ TEST_CASE("no damaged mesh file crashes, hangs or fills the memory")
 {
     for (const seeds::Seed& file : seeds::meshes())
     {
-        const auto outcome = child::run(seed_count(4000), [&](std::uint64_t seed) { return read_damaged(file, seed); });
+        const auto outcome =
+            child::run(seed_count(4000), [&](std::uint64_t seed) { return read_damaged(file, seed); });
         INFO(file.extension << " from\n" << file.text.substr(0, 60));
         CHECK(outcome.failures == "");
         // Damage that is never refused, or always, would test nothing.
@@ -145,7 +149,8 @@ TEST_CASE("no damaged scene file crashes, hangs or fills the memory")
     REQUIRE(!drape.empty());
     for (const std::string& text : {std::string(kFullScene), drape})
     {
-        const auto outcome = child::run(seed_count(8000), [&](std::uint64_t seed) { return parse_damaged(text, seed); });
+        const auto outcome =
+            child::run(seed_count(8000), [&](std::uint64_t seed) { return parse_damaged(text, seed); });
         CHECK(outcome.failures == "");
         CHECK(outcome.accepted > 0);
         CHECK(outcome.refused > 0);
@@ -161,12 +166,20 @@ TEST_CASE("the fuzzer sees a crash, a hang, a broken promise and an absurd alloc
     });
     CHECK(crash.accepted == 2);
     CHECK(crash.failures.find("seed 1: ") == 0);
-    const auto hang = child::run(1, [](std::uint64_t) -> bool { volatile bool on = true; while (on) {} return on; }, {.cpu_seconds = 1});
+    const auto hang = child::run(1,
+                                 [](std::uint64_t) -> bool {
+                                     volatile bool on = true;
+                                     while (on)
+                                     {}
+                                     return on;
+                                 },
+                                 {.cpu_seconds = 1});
     CHECK(hang.failures.find("seed 0: signal") == 0);
     const auto promise = child::run(1, [](std::uint64_t) -> bool { throw std::logic_error("broken"); });
     CHECK(promise.failures == "seed 0: exit 1 broken\n");
 #if !defined(TAUT_TEST_ASAN)
-    const auto memory = child::run(1, [](std::uint64_t) -> bool { return !std::string(std::size_t(1) << 31, 'x').empty(); });
+    const auto memory =
+        child::run(1, [](std::uint64_t) -> bool { return !std::string(std::size_t(1) << 31, 'x').empty(); });
     CHECK(memory.failures.find("seed 0: exit 1") == 0);
 #endif
 }

@@ -18,7 +18,8 @@ using namespace taut;
 
 namespace {
 
-Mesh parse(const std::string& extension, const std::string& text, double weld = 0, MeshFindings* findings = nullptr)
+Mesh parse(const std::string& extension, const std::string& text, double weld = 0,
+           MeshFindings* findings = nullptr)
 {
     MeshFindings found;
     Mesh mesh = scene_file::parse_mesh(text, extension, "file" + extension, weld, found);
@@ -71,10 +72,12 @@ TEST_CASE("every format gives the same square")
 TEST_CASE("larger faces are fanned, negative indices count back, lines may be joined")
 {
     const Mesh obj = parse(".OBJ", seeds::meshes()[1].text);
-    CHECK(obj.triangles == std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}});
+    CHECK(obj.triangles ==
+          std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}});
     CHECK(parse(".off", "OFF 5 1 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n").triangles ==
           std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
-    CHECK(parse(".obj", "f 1 2 3\nv 0 0 0\r\nv 1 0 0\r\nv +1.5e-001 1e0 0\r\n").positions[2] == glm::dvec3(0.15, 1, 0));
+    CHECK(parse(".obj", "f 1 2 3\nv 0 0 0\r\nv 1 0 0\r\nv +1.5e-001 1e0 0\r\n").positions[2] ==
+          glm::dvec3(0.15, 1, 0));
 }
 
 TEST_CASE("coordinates keep double precision")
@@ -103,7 +106,9 @@ TEST_CASE("welding by distance agrees with comparing every pair")
 {
     std::vector<glm::dvec3> points;
     std::uint64_t state = 1;
-    const auto random = [&] { return double((state = state * 6364136223846793005ull + 1442695040888963407ull) >> 40) / (1 << 24); };
+    const auto random = [&] {
+        return double((state = state * 6364136223846793005ull + 1442695040888963407ull) >> 40) / (1 << 24);
+    };
     for (int i = 0; i < 1500; ++i)
         points.emplace_back(random() - 0.5, random() - 0.5, 0.2 * random());
     const double distance = 0.04;
@@ -125,7 +130,8 @@ TEST_CASE("triangles without area are dropped and numbered as in the file")
     MeshFindings findings;
     const Mesh mesh = parse(".obj",
                             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 9 9 9\n"
-                            "f 1 1 2\nf 1 2 3\nf 1 2 4\nf 3 2 2\n", 0, &findings);
+                            "f 1 1 2\nf 1 2 3\nf 1 2 4\nf 3 2 2\n",
+                            0, &findings);
     CHECK(mesh.triangles.size() == 1);
     CHECK(findings.degenerate_triangles == std::vector<std::uint32_t>{0, 2, 3});
     CHECK(findings.unused_vertices == 2); // the one of the flat triangle and the lonely one
@@ -137,7 +143,8 @@ TEST_CASE("degenerate or not does not depend on the unit of length")
     for (const double unit : {1e-25, 1.0, 1e25})
     {
         scene_file::RawMesh raw;
-        for (const glm::dvec3& p : {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1e-9, 0), glm::dvec3(2, 0, 0)})
+        for (const glm::dvec3& p :
+             {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1e-9, 0), glm::dvec3(2, 0, 0)})
             raw.positions.push_back(unit * p);
         raw.triangles = {{0, 1, 2}, {0, 1, 3}};
         MeshFindings findings;
@@ -156,11 +163,14 @@ TEST_CASE("edges of more than two triangles are named")
 
 TEST_CASE("a refused mesh file is told by name, place, what is there and what would be right")
 {
-    CHECK_THAT(refusal(".obj", "v 0 0 nan\n"), Contains("file.obj: line 1: z is \"nan\"; it must be a finite number"));
+    CHECK_THAT(refusal(".obj", "v 0 0 nan\n"),
+               Contains("file.obj: line 1: z is \"nan\"; it must be a finite number"));
     CHECK_THAT(refusal(".obj", "v 0 0\nv"), Contains("line 1: z is nothing"));
     CHECK_THAT(refusal(".obj", "v 0 0 1e999\n"), Contains("finite"));
-    CHECK_THAT(refusal(".obj", "v 0 0 1e31\nv 0 1 0\nv 1 0 0\nf 1 2 3"), Contains("vertex 0 is [0, 0, 1e+31]"));
-    CHECK_THAT(refusal(".obj", "v 0 0 0\nf 1 0 1\n"), Contains("line 2: a corner of a face is \"0\"; vertices are numbered from 1"));
+    CHECK_THAT(refusal(".obj", "v 0 0 1e31\nv 0 1 0\nv 1 0 0\nf 1 2 3"),
+               Contains("vertex 0 is [0, 0, 1e+31]"));
+    CHECK_THAT(refusal(".obj", "v 0 0 0\nf 1 0 1\n"),
+               Contains("line 2: a corner of a face is \"0\"; vertices are numbered from 1"));
     CHECK_THAT(refusal(".obj", "v 0 0 0\nf 1 -2 1\n"), Contains("\"-2\""));
     CHECK_THAT(refusal(".obj", "v 0 0 0\nf 1 2 1\n"), Contains("names vertex 2; the file has 1"));
     CHECK_THAT(refusal(".obj", "v 0 0 0\nf 1 1\n"), Contains("has 2 corners; it needs 3 or more"));
@@ -168,16 +178,20 @@ TEST_CASE("a refused mesh file is told by name, place, what is there and what wo
     CHECK_THAT(refusal(".off", "OOF\n3 1 0\n"), Contains("starts with \"OOF\"; an OFF file starts with OFF"));
     CHECK_THAT(refusal(".off", "OFF\n4000000000 1 0\n0 0 0\n"), Contains("is 4000000000; the"));
     CHECK_THAT(refusal(".off", "OFF\n1 -1 0\n0 0 0\n"), Contains("number of faces is -1"));
-    CHECK_THAT(refusal(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), Contains("line 6: a face names vertex 3; the file has 3"));
+    CHECK_THAT(refusal(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+               Contains("line 6: a face names vertex 3; the file has 3"));
     CHECK_THAT(refusal(".off", "OFF\n2 1 0\n0 0 0\n1 0 0 # 3 0 1 2\n"), Contains("ends after 0 of 1 faces"));
     CHECK_THAT(refusal(".off", "OFF BINARY\n"), Contains("convert"));
     CHECK_THAT(refusal(".ply", "ply\nformat ascii 2.0\nend_header"), Contains("no line \"end_header\""));
     CHECK_THAT(refusal(".ply", "ply\nelement vertex 1\nend_header\n"), Contains("lacks the line \"format\""));
-    CHECK_THAT(refusal(".ply", "ply\nformat ascii 1.0\nelement vertex 9999999999\nproperty float x\nend_header\n0"),
-               Contains("announces 9999999999 of \"vertex\""));
-    CHECK_THAT(refusal(".ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty half x\nend_header\n"), Contains("\"half\""));
+    CHECK_THAT(
+        refusal(".ply", "ply\nformat ascii 1.0\nelement vertex 9999999999\nproperty float x\nend_header\n0"),
+        Contains("announces 9999999999 of \"vertex\""));
+    CHECK_THAT(refusal(".ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty half x\nend_header\n"),
+               Contains("\"half\""));
     CHECK_THAT(refusal(".stl", "not stl"), Contains("it has 7 bytes"));
-    CHECK_THAT(refusal(".stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n"), Contains("line 4: a coordinate is \"zero\""));
+    CHECK_THAT(refusal(".stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n"),
+               Contains("line 4: a coordinate is \"zero\""));
     std::string huge = seeds::binary_stl();
     huge[83] = '\x40';
     CHECK_THAT(refusal(".stl", huge), Contains("announces 1073741826 triangles"));
@@ -218,12 +232,18 @@ struct Known
 
 // Counted by another program; see the README.md of the data. `vertices` before welding.
 constexpr Known kKnown[] = {
-    {"skirt_seamless_20k_cm.obj", 10598, 19999, 0, 1197}, {"skirt8K.obj", 8121, 15858, 0, 384},
-    {"dress_stage.obj", 15656, 29456, 0, 1828},           {"armadillo.off", 26002, 52000, 0, 0},
-    {"elephant-with-holes.off", 2798, 4463, 65, 1353},    {"elephant.off", 2775, 5558, 0, 0},
-    {"ChineseDragon-10kv.off", 10000, 19994, 0, 6},       {"mannequin-devil.off", 12977, 25888, 0, 64},
-    {"camel.off", 9770, 19536, 0, 0},                     {"bunny_10k.obj", 5002, 10000, 0, 0},
-    {"spot_low_resolution.obj", 829, 1654, 0, 0},         {"man.off", 17495, 34986, 0, 0},
+    {"skirt_seamless_20k_cm.obj", 10598, 19999, 0, 1197},
+    {"skirt8K.obj", 8121, 15858, 0, 384},
+    {"dress_stage.obj", 15656, 29456, 0, 1828},
+    {"armadillo.off", 26002, 52000, 0, 0},
+    {"elephant-with-holes.off", 2798, 4463, 65, 1353},
+    {"elephant.off", 2775, 5558, 0, 0},
+    {"ChineseDragon-10kv.off", 10000, 19994, 0, 6},
+    {"mannequin-devil.off", 12977, 25888, 0, 64},
+    {"camel.off", 9770, 19536, 0, 0},
+    {"bunny_10k.obj", 5002, 10000, 0, 0},
+    {"spot_low_resolution.obj", 829, 1654, 0, 0},
+    {"man.off", 17495, 34986, 0, 0},
 };
 
 } // namespace
@@ -268,8 +288,10 @@ TEST_CASE("an independent reader finds the same triangles in real OBJ files")
             for (unsigned f = 0; f < scene->mMeshes[m]->mNumFaces; ++f, ++t)
                 for (unsigned c = 0; c < 3; ++c)
                 {
-                    const aiVector3D p = scene->mMeshes[m]->mVertices[scene->mMeshes[m]->mFaces[f].mIndices[c]];
-                    const glm::dvec3 q = t < mesh.triangles.size() ? mesh.positions[mesh.triangles[t][c]] : glm::dvec3(1e9);
+                    const aiVector3D p =
+                        scene->mMeshes[m]->mVertices[scene->mMeshes[m]->mFaces[f].mIndices[c]];
+                    const glm::dvec3 q =
+                        t < mesh.triangles.size() ? mesh.positions[mesh.triangles[t][c]] : glm::dvec3(1e9);
                     different += glm::distance(q, glm::dvec3(p.x, p.y, p.z)) > 1e-6 * (1 + glm::length(q));
                 }
         CHECK(t == mesh.triangles.size());

@@ -24,13 +24,38 @@ struct Random
     std::size_t below(std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(next() % n); }
 };
 
-inline constexpr std::array<std::string_view, 28> kHostileTokens = {
-    "nan", "-nan", "inf", "-inf", "1e400", "-1e400", "1e-400", "0", "-1", "-2147483648", "2147483647",
-    "4294967295", "4294967296", "18446744073709551615", "99999999999999999999", "1000000", "268435456",
-    "", "/", "//", "1//", "1/2/3/4", "0x7fffffff", "1e38", "3.5", "#", "\\", "element"};
+inline constexpr std::array<std::string_view, 28> kHostileTokens = {"nan",
+                                                                    "-nan",
+                                                                    "inf",
+                                                                    "-inf",
+                                                                    "1e400",
+                                                                    "-1e400",
+                                                                    "1e-400",
+                                                                    "0",
+                                                                    "-1",
+                                                                    "-2147483648",
+                                                                    "2147483647",
+                                                                    "4294967295",
+                                                                    "4294967296",
+                                                                    "18446744073709551615",
+                                                                    "99999999999999999999",
+                                                                    "1000000",
+                                                                    "268435456",
+                                                                    "",
+                                                                    "/",
+                                                                    "//",
+                                                                    "1//",
+                                                                    "1/2/3/4",
+                                                                    "0x7fffffff",
+                                                                    "1e38",
+                                                                    "3.5",
+                                                                    "#",
+                                                                    "\\",
+                                                                    "element"};
 
 inline constexpr std::array<std::uint32_t, 10> kHostileWords = {
-    0u, 1u, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0x7fc00000u, 0x7f800000u, 0x00ffffffu, 0x10000000u, 0xff000000u};
+    0u,          1u,          0x7fffffffu, 0x80000000u, 0xffffffffu,
+    0x7fc00000u, 0x7f800000u, 0x00ffffffu, 0x10000000u, 0xff000000u};
 
 inline bool is_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 

@@ -181,15 +181,13 @@ TEST_CASE("a transform that leaves the range of numbers is refused")
     CHECK_THROWS_WITH(resolve(scene_of(body)), Contains("bodies[0].transform is [-5e+39"));
 }
 
-TEST_CASE("a scene without bodies resolves")
-{
-    CHECK(resolve(Scene{}).bodies.empty());
-}
+TEST_CASE("a scene without bodies resolves") { CHECK(resolve(Scene{}).bodies.empty()); }
 
 TEST_CASE("a mesh file is found beside the scene, checked and reported")
 {
     const Temporary folder;
-    folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 0 0 0\nf 1 2 3\nf 1 1 2\nf 5 3 2\nf 2 3 1\n");
+    folder.write("m.obj",
+                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 0 0 0\nf 1 2 3\nf 1 1 2\nf 5 3 2\nf 2 3 1\n");
     const std::string head = R"({"taut": 1, "bodies": [{"mesh": "m.obj")";
     std::vector<SceneIssue> warnings;
     const Scene scene = resolve(load_scene(folder.write("s.json", head + "}]}")), &warnings);
@@ -198,16 +196,19 @@ TEST_CASE("a mesh file is found beside the scene, checked and reported")
     REQUIRE(warnings.size() == 3);
     CHECK_THAT(warnings[0].text, Contains("1 triangles without area") && Contains("number 1 of the file"));
     CHECK_THAT(warnings[1].text, Contains("1 vertices of no triangle"));
-    CHECK_THAT(warnings[2].text, Contains("3 edges of more than two triangles") && Contains("joins vertices 0 and 1"));
+    CHECK_THAT(warnings[2].text,
+               Contains("3 edges of more than two triangles") && Contains("joins vertices 0 and 1"));
     // Indices can be checked only now.
-    CHECK_THROWS_WITH(resolve(load_scene(folder.write("s.json", head + R"(, "pins": [{"vertices": [3]}]}]})"))),
-                      Contains("bodies[0].pins[0].vertices[0] is 3; the body has 3 vertices"));
+    CHECK_THROWS_WITH(
+        resolve(load_scene(folder.write("s.json", head + R"(, "pins": [{"vertices": [3]}]}]})"))),
+        Contains("bodies[0].pins[0].vertices[0] is 3; the body has 3 vertices"));
 }
 
 TEST_CASE("a missing mesh file is an io error that names the resolved path")
 {
     const Temporary folder;
-    const Scene scene = load_scene(folder.write("s.json", R"({"taut": 1, "bodies": [{"mesh": "sub/none.ply"}]})"));
+    const Scene scene =
+        load_scene(folder.write("s.json", R"({"taut": 1, "bodies": [{"mesh": "sub/none.ply"}]})"));
     try
     {
         resolve(scene);
@@ -224,7 +225,8 @@ TEST_CASE("without keys, before the first and after the last the pose stands sti
 {
     const glm::dvec3 rest(1, 2, 3);
     CHECK(pose({}, 5, rest) == rest);
-    const std::vector<Keyframe> motion = {key(1, {1, 0, 0}, {0, 1, 0}, 0, {}), key(2, {3, 0, 0}, {0, 1, 0}, 0, {})};
+    const std::vector<Keyframe> motion = {key(1, {1, 0, 0}, {0, 1, 0}, 0, {}),
+                                          key(2, {3, 0, 0}, {0, 1, 0}, 0, {})};
     CHECK(pose(motion, -1, rest) == rest + glm::dvec3(1, 0, 0));
     CHECK(pose(motion, 1, rest) == rest + glm::dvec3(1, 0, 0));
     CHECK(pose(motion, 1.5, rest) == rest + glm::dvec3(2, 0, 0));
@@ -234,7 +236,8 @@ TEST_CASE("without keys, before the first and after the last the pose stands sti
 
 TEST_CASE("the angle is linear between keys, also over several turns")
 {
-    const std::vector<Keyframe> motion = {key(0, {}, {0, 0, 2}, 0, {1, 0, 0}), key(1, {}, {0, 0, 2}, 720, {1, 0, 0})};
+    const std::vector<Keyframe> motion = {key(0, {}, {0, 0, 2}, 0, {1, 0, 0}),
+                                          key(1, {}, {0, 0, 2}, 720, {1, 0, 0})};
     check_close(pose(motion, 0.125, {2, 0, 0}), {1, 1, 0});
     check_close(pose(motion, 0.25, {2, 0, 0}), {0, 0, 0});
     check_close(pose(motion, 0.75, {2, 0, 5}), {0, 0, 5});
@@ -245,7 +248,8 @@ TEST_CASE("a pose agrees with a quaternion of the mathematics library")
 {
     const glm::dvec3 axis(1, -2, 0.5), centre(0.3, 0.1, -4), rest(2, 7, 1), translate(5, 6, 7);
     const auto q = glm::angleAxis(glm::radians(77.0), glm::normalize(axis));
-    check_close(pose({key(0, translate, axis, 77, centre)}, 0, rest), q * (rest - centre) + centre + translate);
+    check_close(pose({key(0, translate, axis, 77, centre)}, 0, rest),
+                q * (rest - centre) + centre + translate);
 }
 
 TEST_CASE("a key without rotation takes the axis of its neighbour")

@@ -33,7 +33,10 @@ std::string refusal(const std::string& json)
 
 std::string refusal_of(const std::string& member) { return refusal("{\"taut\": 1, " + member + "}"); }
 
-std::string refusal_of_body(const std::string& members) { return refusal_of("\"bodies\": [{" + members + "}]"); }
+std::string refusal_of_body(const std::string& members)
+{
+    return refusal_of("\"bodies\": [{" + members + "}]");
+}
 
 } // namespace
 
@@ -57,7 +60,8 @@ TEST_CASE("a file that says nothing has the defaults of the types")
 
 TEST_CASE("every value of a scene file arrives in its place")
 {
-    const Scene scene = with(R"("name": "n", "timestep": 0.25, "duration": 2, "gravity": [1, 2, 3], "damping": 4,
+    const Scene scene =
+        with(R"("name": "n", "timestep": 0.25, "duration": 2, "gravity": [1, 2, 3], "damping": 4,
         "max_speed": 5, "depenetration_speed": 6, "external_forces": true,
         "method": {"type": "xpbd", "substeps": 7, "iterations": 8, "precision": "double"})");
     CHECK(scene.name == "n");
@@ -144,7 +148,8 @@ TEST_CASE("chains, mesh files and colliders arrive in their places")
 TEST_CASE("a wrong type is refused by file, field, what is there and what would be right")
 {
     CHECK(refusal_of("\"timestep\": \"fast\"") == "my.json: timestep is \"fast\"; it must be a number");
-    CHECK(refusal_of("\"gravity\": [0, 1]") == "my.json: gravity is a list of 2; it must be three numbers [x, y, z]");
+    CHECK(refusal_of("\"gravity\": [0, 1]") ==
+          "my.json: gravity is a list of 2; it must be three numbers [x, y, z]");
     CHECK(refusal_of("\"gravity\": [0, 1, null]") == "my.json: gravity[2] is null; it must be a number");
     CHECK(refusal_of("\"method\": {\"substeps\": 2.5}") ==
           "my.json: method.substeps is 2.5; it must be a whole number from 0 to 4294967295");
@@ -155,9 +160,12 @@ TEST_CASE("a wrong type is refused by file, field, what is there and what would 
     CHECK_THAT(refusal_of("\"bodies\": {}"), Contains("bodies is an object; it must be a list"));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"material\": {\"density\": []}"),
                Contains("bodies[0].material.density is a list of 0; it must be a number"));
-    CHECK_THAT(refusal_of_body("\"grid\": {}, \"material\": {\"stretch_stiffness\": \"stiff\"}"),
-               Contains("bodies[0].material.stretch_stiffness is \"stiff\"; it must be a number in N/m or \"rigid\""));
-    CHECK_THAT(refusal_of_body("\"grid\": {\"cells\": [1]}"), Contains("bodies[0].grid.cells is a list of 1; it must be two"));
+    CHECK_THAT(
+        refusal_of_body("\"grid\": {}, \"material\": {\"stretch_stiffness\": \"stiff\"}"),
+        Contains(
+            "bodies[0].material.stretch_stiffness is \"stiff\"; it must be a number in N/m or \"rigid\""));
+    CHECK_THAT(refusal_of_body("\"grid\": {\"cells\": [1]}"),
+               Contains("bodies[0].grid.cells is a list of 1; it must be two"));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"pins\": [{\"vertices\": [0, -1]}]"),
                Contains("bodies[0].pins[0].vertices[1] is -1"));
     CHECK_THAT(refusal("[]"), Contains("my.json: the scene is a list of 0; it must be an object"));
@@ -165,22 +173,31 @@ TEST_CASE("a wrong type is refused by file, field, what is there and what would 
 
 TEST_CASE("an unknown key is refused with the nearest known one")
 {
-    CHECK(refusal_of("\"timestpe\": 1") == "my.json: the scene has the unknown key \"timestpe\"; did you mean \"timestep\"?");
+    CHECK(refusal_of("\"timestpe\": 1") ==
+          "my.json: the scene has the unknown key \"timestpe\"; did you mean \"timestep\"?");
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"material\": {\"densty\": 1}"),
                Contains("bodies[0].material has the unknown key \"densty\"; did you mean \"density\"?"));
-    CHECK_THAT(refusal_of_body("\"grid\": {}, \"pins\": [{\"motion\": [{\"time\": 0, \"rotate\": {\"center\": [0,0,0]}}]}]"),
-               Contains("bodies[0].pins[0].motion[0].rotate has the unknown key \"center\"; did you mean \"centre\"?"));
+    CHECK_THAT(
+        refusal_of_body(
+            "\"grid\": {}, \"pins\": [{\"motion\": [{\"time\": 0, \"rotate\": {\"center\": [0,0,0]}}]}]"),
+        Contains(
+            "bodies[0].pins[0].motion[0].rotate has the unknown key \"center\"; did you mean \"centre\"?"));
     CHECK_THAT(refusal_of("\"qqqqqqqq\": 1"), Contains("it may have \"taut\", \"name\""));
 }
 
 TEST_CASE("a missing or doubled choice is refused")
 {
-    CHECK(refusal("{}") == "my.json: the scene lacks the key \"taut\"; write \"taut\": 1, the version of the format");
+    CHECK(refusal("{}") ==
+          "my.json: the scene lacks the key \"taut\"; write \"taut\": 1, the version of the format");
     CHECK(refusal("{\"taut\": 2}") == "my.json: taut is 2; this library reads version 1");
-    CHECK_THAT(refusal_of_body("\"name\": \"x\""), Contains("bodies[0] needs one of \"grid\", \"chain\" or \"mesh\""));
-    CHECK_THAT(refusal_of_body("\"grid\": {}, \"mesh\": \"a.obj\""), Contains("bodies[0] has both \"grid\" and \"mesh\""));
-    CHECK_THAT(refusal_of_body("\"grid\": {}, \"weld_distance\": 0"), Contains("weld_distance stands beside \"grid\""));
-    CHECK_THAT(refusal_of("\"colliders\": [{}]"), Contains("colliders[0] needs one of \"plane\" or \"sphere\""));
+    CHECK_THAT(refusal_of_body("\"name\": \"x\""),
+               Contains("bodies[0] needs one of \"grid\", \"chain\" or \"mesh\""));
+    CHECK_THAT(refusal_of_body("\"grid\": {}, \"mesh\": \"a.obj\""),
+               Contains("bodies[0] has both \"grid\" and \"mesh\""));
+    CHECK_THAT(refusal_of_body("\"grid\": {}, \"weld_distance\": 0"),
+               Contains("weld_distance stands beside \"grid\""));
+    CHECK_THAT(refusal_of("\"colliders\": [{}]"),
+               Contains("colliders[0] needs one of \"plane\" or \"sphere\""));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"springs\": [{\"a\": 0, \"b\": 1}]"),
                Contains("bodies[0].springs[0] lacks the key \"rest_length\""));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"pins\": [{\"box\": {\"min\": [0,0,0]}}]"),
@@ -189,7 +206,8 @@ TEST_CASE("a missing or doubled choice is refused")
 
 TEST_CASE("a key that stands twice in one object is refused, in two objects not")
 {
-    CHECK(refusal("{\"taut\": 1, \"taut\": 1}") == "my.json: the key \"taut\" stands twice in the scene; keep one of the two");
+    CHECK(refusal("{\"taut\": 1, \"taut\": 1}") ==
+          "my.json: the key \"taut\" stands twice in the scene; keep one of the two");
     CHECK_THAT(refusal_of("\"bodies\": [{\"grid\": {}}, {\"grid\": {\"size\": [1, 1], \"size\": [1, 1]}}]"),
                Contains("the key \"size\" stands twice in bodies[1].grid;"));
     CHECK(with("\"bodies\": [{\"grid\": {}}, {\"grid\": {}}]").bodies.size() == 2);
@@ -197,7 +215,8 @@ TEST_CASE("a key that stands twice in one object is refused, in two objects not"
 
 TEST_CASE("text that is not JSON is refused with line and column")
 {
-    CHECK_THAT(refusal("{\n  \"taut\": 1,\n  \"name\": oops\n}"), Contains("my.json: line 3, column 11 is not JSON"));
+    CHECK_THAT(refusal("{\n  \"taut\": 1,\n  \"name\": oops\n}"),
+               Contains("my.json: line 3, column 11 is not JSON"));
     CHECK_THAT(refusal("{\"taut\": 1"), Contains("line 1, column 11 is not JSON"));
     CHECK_THAT(refusal(""), Contains("line 1, column 1 is not JSON"));
     CHECK_THAT(refusal("{\"taut\": 1} x"), Contains("line 1, column 13"));

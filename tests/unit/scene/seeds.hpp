@@ -40,9 +40,10 @@ inline std::string binary_stl()
 
 inline std::string binary_ply(bool big_endian)
 {
-    std::string out = "ply\nformat binary_" + std::string(big_endian ? "big" : "little") +
-                      "_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                      "property uchar red\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    std::string out =
+        "ply\nformat binary_" + std::string(big_endian ? "big" : "little") +
+        "_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
     const auto put = [&](const void* value, std::size_t n) {
         std::string bytes(static_cast<const char*>(value), n);
         if (big_endian)
@@ -69,17 +70,21 @@ inline std::string binary_ply(bool big_endian)
 inline std::vector<Seed> meshes()
 {
     return {
-        {"obj", "# square\nmtllib a.mtl\no sheet\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1.0\nvt 0 0\nvt 1 0\nvt 1 1\n"
-                "vn 0 0 1\ng panel\nusemtl cotton\ns 1\nf 1/1/1 2/2/1 3/3/1\nf 1//1 3//1 4//1\n"},
-        {"obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf -6 -5 -4 -3\nf 2 5 6 \\\n 3\nl 1 2\np 1\n"},
+        {"obj",
+         "# square\nmtllib a.mtl\no sheet\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1.0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+         "vn 0 0 1\ng panel\nusemtl cotton\ns 1\nf 1/1/1 2/2/1 3/3/1\nf 1//1 3//1 4//1\n"},
+        {"obj",
+         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf -6 -5 -4 -3\nf 2 5 6 \\\n 3\nl 1 2\np 1\n"},
         {"off", "OFF\n# square\n4 2 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3 0.5 0.5 0.5\n"},
         {"off", "OFF 5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n4 0 1 2 3\n3 0 1 4\n"},
-        {"ply", "ply\nformat ascii 1.0\ncomment square\nelement vertex 4\nproperty float x\nproperty float y\n"
-                "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
-                "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"},
+        {"ply",
+         "ply\nformat ascii 1.0\ncomment square\nelement vertex 4\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"},
         {"ply", binary_ply(false)},
         {"ply", binary_ply(true)},
-        {"stl", "solid square\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 1 1 0\n"
+        {"stl", "solid square\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   "
+                "vertex 1 1 0\n"
                 "  endloop\n endfacet\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 1 0\n"
                 "   vertex 0 1 0\n  endloop\n endfacet\nendsolid square\n"},
         {"stl", binary_stl()},

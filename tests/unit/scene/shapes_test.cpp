@@ -48,7 +48,9 @@ TEST_CASE("the triangles of a grid cover it once and face +z")
         REQUIRE(mesh.triangles.size() == 40);
         CHECK(area(mesh) == Approx(2).epsilon(1e-14));
         for (const auto& t : mesh.triangles)
-            CHECK(glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]).z > 0);
+            CHECK(glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                             mesh.positions[t[2]] - mesh.positions[t[0]])
+                      .z > 0);
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed;
         for (const auto& t : mesh.triangles)
             for (std::size_t c = 0; c < 3; ++c)

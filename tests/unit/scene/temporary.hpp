@@ -10,7 +10,9 @@ struct Temporary
 {
     std::filesystem::path path;
 
-    Temporary() : path(std::filesystem::temp_directory_path() / ("taut-test-" + std::to_string(std::random_device{}())))
+    Temporary()
+        : path(std::filesystem::temp_directory_path() /
+               ("taut-test-" + std::to_string(std::random_device{}())))
     {
         std::filesystem::create_directories(path);
     }
