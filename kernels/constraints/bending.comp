@@ -17,7 +17,7 @@
 PARAMS
 {
     uint first;           // first constraint of the colour; in the tail variant the table's first range
-    uint count;           // constraints of the colour; unused in the tail variant
+    uint count;           // constraints of the colour; groups in the tail variant
     uint first_iteration; // 1: the multiplier starts at zero
     uint report;          // 1: count degenerate hinges
 };
@@ -104,7 +104,8 @@ void project(uint k)
 GROUP_KERNEL(64)
 {
     uint begin = table[first + 2u * group];
-    uint end = table[first + 2u * group + 1u];
+    // Folded dispatches may bring groups too many; they have no colours.
+    uint end = group < count ? table[first + 2u * group + 1u] : begin;
     for (uint colour = begin; colour < end; ++colour)
     {
         PHASE_BEGIN

@@ -19,6 +19,8 @@
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -142,14 +144,14 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
         const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped());
         if (run.grouped())
-            b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 0, first_iteration, report}, 1, size);
+            b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 1, first_iteration, report}, 1, size);
         else
             b.dispatch(set.kind, set.kind, alone, uses, Params{first, size, first_iteration, report}, size);
         range += run.grouped() ? 2 : 0;
     }
     if (set.small_bodies > 0)
         b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true),
-                   Params{set.small_range, 0, first_iteration, report}, set.small_bodies, set.small_constraints);
+                   Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies, set.small_constraints);
 }
 
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)

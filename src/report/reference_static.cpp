@@ -9,6 +9,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -65,7 +65,7 @@ public:
     {
         Recorder recorder(device_.shared_from_this());
         recorder.dispatch(kernels::distance::info("tail"), {constraint_, position_, delta_, step_, events_, table_},
-                          kernels::distance::Params{range, 0, 1, 0}, 1);
+                          kernels::distance::Params{range, 1, 1, 0}, 1);
         return best(*recorder.finish());
     }
 

@@ -1,0 +1,316 @@
+// The generated tables and the compiler that makes them.
+
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+#include "taut/runtime/base/registry.hpp"
+#include "taut/runtime/compiler/compiler.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+using namespace taut;
+
+namespace {
+
+constexpr std::uint32_t kOpCapability = 17, kCapabilityFloat64 = 10, kCapabilityInt64 = 11;
+
+/// Capabilities that a module asks for, by their number in the SPIR-V specification.
+std::set<std::uint32_t> capabilities(std::span<const std::uint32_t> spirv)
+{
+    std::set<std::uint32_t> found;
+    for (std::size_t i = 5; i < spirv.size() && (spirv[i] >> 16) != 0; i += spirv[i] >> 16)
+        if ((spirv[i] & 0xFFFFu) == kOpCapability)
+            found.insert(spirv[i + 1]);
+    return found;
+}
+
+std::set<std::string> kernel_stems()
+{
+    std::set<std::string> stems;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(TAUT_SOURCE_DIR "/kernels"))
+        if (entry.path().extension() == ".comp")
+            stems.insert(entry.path().stem().string());
+    return stems;
+}
+
+std::string text_of(const std::string& stem)
+{
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(TAUT_SOURCE_DIR "/kernels"))
+        if (entry.path().filename() == stem + ".comp")
+        {
+            std::ifstream file(entry.path());
+            return {std::istreambuf_iterator<char>(file), {}};
+        }
+    FAIL("there is no kernel " << stem);
+    return {};
+}
+
+std::shared_ptr<const CompiledKernel> compile(const std::string& text, Precision precision = Precision::float32)
+{
+    return compile_kernel({"sample", text, {}, kernel_variants("sample", text).front(), precision});
+}
+
+/// What compile_kernel says against a text.
+std::string refusal(const std::string& text)
+{
+    try
+    {
+        compile(text);
+    }
+    catch (const Error& error)
+    {
+        CHECK(error.code() == ErrorCode::kernel_compilation);
+        return error.what();
+    }
+    FAIL("it compiled");
+    return {};
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+    INFO(text);
+    return text.find(part) != std::string::npos;
+}
+
+const std::string kHead = "#include \"shared/portable.glsl\"\nPARAMS { uint count; };\n";
+
+} // namespace
+
+TEST_CASE("every kernel file is in the tables in both precisions with all of its variants")
+{
+    for (const std::string& stem : kernel_stems())
+        for (const KernelVariant& variant : kernel_variants(stem, text_of(stem)))
+            for (const Precision precision : {Precision::float32, Precision::float64})
+            {
+                CAPTURE(stem, variant.name, to_string(precision));
+                CHECK_NOTHROW(find_kernel(stem, variant.name, precision));
+            }
+    std::set<std::string> known;
+    for (const KernelInfo* kernel : all_kernels())
+        known.insert(std::string(kernel->name));
+    CHECK(known == kernel_stems());
+}
+
+TEST_CASE("every kernel keeps to the rules of a base kernel")
+{
+    for (const KernelInfo* kernel : all_kernels())
+    {
+        CAPTURE(kernel->name, kernel->variant, to_string(kernel->precision));
+        CHECK(kernel->bindings.size() <= 8);
+        for (std::size_t i = 0; i < kernel->bindings.size(); ++i)
+        {
+            CHECK(kernel->bindings[i].slot == i);
+            CHECK(kernel->bindings[i].stride > 0);
+            CHECK(kernel->bindings[i].stride % 4 == 0);
+        }
+        CHECK(kernel->param_bytes <= 64);
+        CHECK(kernel->param_bytes == 4 * kernel->params.size()); // 32-bit scalars, packed
+        CHECK(kernel->group_size == kGroupSize);
+        CHECK(kernel->shared_bytes <= 32 * 1024);
+        CHECK(kernel->native != nullptr);
+        CHECK_FALSE(kernel->spirv_vulkan.empty());
+        CHECK_FALSE(kernel->spirv_opengl.empty());
+        CHECK(kernel->glsl.starts_with("#version 450"));
+    }
+}
+
+TEST_CASE("no kernel asks for more than it may: 64-bit floats in double only, no other capability")
+{
+    constexpr std::uint32_t kShader = 1;
+    for (const KernelInfo* kernel : all_kernels())
+        for (const auto spirv : {kernel->spirv_vulkan, kernel->spirv_opengl})
+        {
+            CAPTURE(kernel->name, kernel->variant, to_string(kernel->precision));
+            std::set<std::uint32_t> allowed = {kShader};
+            if (kernel->precision == Precision::float64)
+                allowed.insert(kCapabilityFloat64);
+            CHECK(capabilities(spirv) == allowed);
+            CHECK(capabilities(spirv).count(kCapabilityInt64) == 0);
+        }
+}
+
+TEST_CASE("variants differ from the base kernel in their own bindings, and parameters are the same in all")
+{
+    for (const KernelInfo* kernel : all_kernels())
+    {
+        CAPTURE(kernel->name, kernel->variant);
+        const KernelInfo& base = find_kernel(kernel->name, "", kernel->precision);
+        REQUIRE(kernel->params.size() == base.params.size());
+        for (std::size_t i = 0; i < base.params.size(); ++i)
+            CHECK((kernel->params[i].name == base.params[i].name && kernel->params[i].offset == base.params[i].offset));
+        std::set<std::string_view> names;
+        for (const BindingInfo& binding : kernel->bindings)
+            names.insert(binding.name);
+        for (const BindingInfo& binding : base.bindings)
+            CHECK(names.count(binding.name) == 1);
+    }
+}
+
+TEST_CASE("flattened text has no include and no REAL left")
+{
+    for (const KernelInfo* kernel : all_kernels())
+    {
+        CAPTURE(kernel->name, kernel->variant, to_string(kernel->precision));
+        std::istringstream lines{std::string(kernel->glsl)};
+        for (std::string line; std::getline(lines, line);)
+        {
+            line = line.substr(0, line.find("//")); // comments may speak of them
+            CHECK(line.find("REAL(") == std::string::npos);
+            CHECK_FALSE(line.starts_with("#include"));
+        }
+    }
+}
+
+TEST_CASE("REAL becomes a literal with all its digits in the precision of the kernel")
+{
+    const std::string text = kHead + "WRITE(0, real, result);\nKERNEL(count) { result[i] = REAL(0.1) * REAL(1e-3); }\n";
+    CHECK(contains(std::string(compile(text)->info.glsl), "result[i] = (0.1f) * (1e-3f);"));
+    CHECK(contains(std::string(compile(text, Precision::float64)->info.glsl), "result[i] = (0.1lf) * (1e-3lf);"));
+}
+
+TEST_CASE("a variant line gives its macros to the variant and 0 to every other one")
+{
+    const auto variants = kernel_variants("sample", "//! variant fast FAST=1 WIDTH=4\n//! variant safe SAFE=1\n");
+    REQUIRE(variants.size() == 3);
+    const auto value = [](const KernelVariant& variant, const std::string& macro) {
+        for (const auto& [name, text] : variant.defines)
+            if (name == macro)
+                return text;
+        return std::string("none");
+    };
+    CHECK(variants[0].name == "");
+    CHECK(value(variants[0], "FAST") == "0");
+    CHECK(value(variants[0], "SAFE") == "0");
+    CHECK(variants[1].name == "fast");
+    CHECK(value(variants[1], "FAST") == "1");
+    CHECK(value(variants[1], "WIDTH") == "4");
+    CHECK(value(variants[1], "SAFE") == "0");
+    CHECK(variants[2].name == "safe");
+    CHECK(value(variants[2], "WIDTH") == "0");
+}
+
+TEST_CASE("a variant line without a value is refused with its text")
+{
+    try
+    {
+        kernel_variants("sample", "//! variant fast FAST\n");
+        FAIL("it was taken");
+    }
+    catch (const Error& error)
+    {
+        CHECK(error.code() == ErrorCode::kernel_compilation);
+        CHECK(contains(error.what(), "sample"));
+        CHECK(contains(error.what(), "variant fast FAST"));
+    }
+}
+
+TEST_CASE("a text that does not compile is refused with file and line")
+{
+    const std::string text = kHead + "WRITE(0, real, result);\nKERNEL(count)\n{\n    result[i] = no_such_name;\n}\n";
+    const std::string what = refusal(text);
+    CHECK(contains(what, "sample.comp:6"));
+    CHECK(contains(what, "no_such_name"));
+}
+
+TEST_CASE("a mistake in an include is reported at the include's own line")
+{
+    const auto folder = std::filesystem::temp_directory_path() / "taut_kernel_tables_test";
+    std::filesystem::create_directories(folder / "shared");
+    std::ofstream(folder / "shared" / "part.glsl") << "// a comment\n\nreal half_of(real x) { return x / two; }\n";
+    std::ofstream(folder / "shared" / "portable.glsl") << builtin_include("shared/portable.glsl");
+    const std::string text = "#include \"shared/portable.glsl\"\n#include \"shared/part.glsl\"\nPARAMS { uint count; };\n"
+                             "WRITE(0, real, result);\nKERNEL(count) { result[i] = half_of(real(1)); }\n";
+    std::string what;
+    try
+    {
+        compile_kernel({"sample", text, folder, {}, Precision::float32});
+    }
+    catch (const Error& error)
+    {
+        what = error.what();
+    }
+    std::filesystem::remove_all(folder);
+    CHECK(contains(what, "shared/part.glsl:3"));
+}
+
+TEST_CASE("an unknown include is refused by name and place")
+{
+    const std::string what = refusal("#include \"shared/portable.glsl\"\n#include \"shared/nowhere.glsl\"\n");
+    CHECK(contains(what, "shared/nowhere.glsl"));
+    CHECK(contains(what, "sample.comp:2"));
+}
+
+TEST_CASE("slots with a gap, too many buffers and vector parameters are refused by name")
+{
+    const std::string body = "KERNEL(count) { result[i] = first[i]; }\n";
+    const std::string gap = refusal(kHead + "READ(0, real, first);\nWRITE(2, real, result);\n" + body);
+    CHECK(contains(gap, "slot 1"));
+    CHECK(contains(gap, "sample"));
+
+    std::string many = kHead + "READ(0, real, first);\nWRITE(1, real, result);\n", sum = "KERNEL(count) { result[i] = first[i]";
+    for (int slot = 2; slot < 9; ++slot)
+    {
+        const std::string name = "more" + std::to_string(slot);
+        many += "READ(" + std::to_string(slot) + ", real, " + name + ");\n";
+        sum += " + " + name + "[i]";
+    }
+    const std::string nine = refusal(many + sum + "; }\n");
+    CHECK(contains(nine, "9"));
+    CHECK(contains(nine, "limit is 8"));
+
+    const std::string vector = refusal("#include \"shared/portable.glsl\"\nPARAMS { uint count; vec4 wind; };\n"
+                                       "READ(0, real, first);\nWRITE(1, real, result);\n"
+                                       "KERNEL(count) { result[i] = first[i] * wind.x; }\n");
+    CHECK(contains(vector, "wind"));
+    CHECK(contains(vector, "32-bit"));
+}
+
+TEST_CASE("a kernel compiled at run time has the tables of the same kernel compiled by the build")
+{
+    for (const KernelInfo* built : all_kernels())
+    {
+        CAPTURE(built->name, built->variant, to_string(built->precision));
+        const std::string text = text_of(std::string(built->name));
+        for (const KernelVariant& variant : kernel_variants(built->name, text))
+        {
+            if (variant.name != built->variant)
+                continue;
+            const auto now = compile_kernel({std::string(built->name), text, {}, variant, built->precision});
+            CHECK(now->info.glsl == built->glsl);
+            CHECK(std::equal(now->spirv_vulkan.begin(), now->spirv_vulkan.end(), built->spirv_vulkan.begin(),
+                             built->spirv_vulkan.end()));
+            CHECK(now->info.bindings.size() == built->bindings.size());
+            CHECK(now->info.param_bytes == built->param_bytes);
+            CHECK(now->info.group_kernel == built->group_kernel);
+        }
+    }
+}
+
+TEST_CASE("a kernel compiled at run time runs on every device that takes texts, and is refused on the others")
+{
+    const std::string text =
+        kHead + "READ(0, real, first);\nWRITE(1, real, result);\nKERNEL(count) { result[i] = first[i] * REAL(0.5); }\n";
+    const auto kernel = compile(text);
+    struct Params
+    {
+        std::uint32_t count;
+    };
+    for (const std::string& selector : test_devices())
+    {
+        CAPTURE(selector);
+        const auto device = test_device(selector);
+        const BufferPtr first = device->make_buffer(65 * 4, "first"), result = device->make_buffer(65 * 4, "result");
+        device->write<float>(first, std::vector<float>(65, 3));
+        Recorder recorder(device);
+        recorder.dispatch(kernel->info, {first, result}, Params{65}, 65);
+        if (selector.starts_with("cpu"))
+        {
+            CHECK_THROWS_AS(recorder.finish(), Error);
+            continue;
+        }
+        recorder.finish()->replay();
+        CHECK(device->read<float>(result, 65) == std::vector<float>(65, 1.5f));
+    }
+}

@@ -74,14 +74,29 @@ VkPhysicalDeviceProperties properties_here()
     return vulkan::context_of(*open_vulkan(0, {}))->physical.properties;
 }
 
-/// TAUT_KERNEL_DIR for the length of a test.
-class KernelDir
+/// An environment variable for the length of a test.
+class Variable
 {
 public:
-    explicit KernelDir(const fs::path& path) { setenv("TAUT_KERNEL_DIR", path.c_str(), 1); }
-    ~KernelDir() { unsetenv("TAUT_KERNEL_DIR"); }
-    KernelDir(const KernelDir&) = delete;
-    KernelDir& operator=(const KernelDir&) = delete;
+    Variable(const char* name, const std::string& value) : name_(name)
+    {
+        if (const char* old = std::getenv(name))
+            old_ = old;
+        setenv(name, value.c_str(), 1);
+    }
+    ~Variable() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+private:
+    const char* name_;
+    std::optional<std::string> old_;
+};
+
+class KernelDir : Variable
+{
+public:
+    explicit KernelDir(const fs::path& path) : Variable("TAUT_KERNEL_DIR", path.string()) {}
 };
 
 /// A folder as a person would have it: shared/ and one kernel.
@@ -239,6 +254,33 @@ TEST_CASE("TAUT_KERNEL_DIR must name a folder, with each kernel in it once")
     CHECK(refusal([] { kernel_override(affine()); }).code == ErrorCode::kernel_compilation);
     const KernelDir empty("");
     CHECK(kernel_override(affine()) == nullptr);
+}
+
+TEST_CASE("without a Vulkan driver the list is empty and opening says why")
+{
+    if (list_vulkan().empty())
+        return;
+    const Folder folder;
+    const std::string none = (folder.path / "no_driver.json").string();
+    const Variable old_name("VK_ICD_FILENAMES", none);
+    const Variable new_name("VK_DRIVER_FILES", none);
+    CHECK(list_vulkan().empty());
+    const Refusal refused = refusal([] { open_vulkan(0, {}); });
+    CHECK(refused.code == ErrorCode::no_device);
+    CHECK(contains(refused.text, "driver"));
+}
+
+TEST_CASE("validation without the layers is refused with the package that has them")
+{
+    if (list_vulkan().empty())
+        return;
+    const Folder folder;
+    const Variable path("VK_LAYER_PATH", folder.path.string());
+    OpenOptions options;
+    options.validation = true;
+    const Refusal refused = refusal([&] { open_vulkan(0, options); });
+    CHECK(refused.code == ErrorCode::unsupported);
+    CHECK(contains(refused.text, "vulkan-validationlayers"));
 }
 
 TEST_CASE("wrong use of Vulkan is counted, and its text kept")

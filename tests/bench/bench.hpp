@@ -1,0 +1,56 @@
+#pragma once
+// Measuring: rivals take turns, so that a disturbance hits all of them.
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// A row of the result table. `error` is what the time bought: a difference to the reference result.
+struct Row
+{
+    std::string what;
+    double milliseconds = 0; ///< median
+    double best = 0;
+    double error = 0;
+    double ratio = 0;     ///< to the row it is compared with
+    std::string against;
+    double target = 0;    ///< the ratio to reach; 0 = none
+};
+
+struct Rival
+{
+    std::string name;
+    std::function<void()> run;
+    std::vector<double> milliseconds = {};
+
+    double best() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
+    double median() const
+    {
+        std::vector<double> sorted = milliseconds;
+        std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
+        return sorted[sorted.size() / 2];
+    }
+};
+
+/// Three turns to warm up, then `turns` turns in which every rival runs once.
+inline void take_turns(std::vector<Rival>& rivals, int turns)
+{
+    for (int turn = -3; turn < turns; ++turn)
+        for (Rival& rival : rivals)
+        {
+            const auto from = std::chrono::steady_clock::now();
+            rival.run();
+            const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - from;
+            if (turn >= 0)
+                rival.milliseconds.push_back(took.count());
+        }
+}
+
+std::vector<Row> distance_rows();
+std::vector<Row> recording_rows();
+
+} // namespace bench

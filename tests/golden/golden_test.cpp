@@ -1,0 +1,190 @@
+// Hashes of all position bits after 60 steps. golden.csv holds those of cpu:serial.
+//
+// They change only when results are meant to change. Then run
+//   TAUT_UPDATE_GOLDEN=1 test_golden
+// which rewrites tests/golden/golden.csv, and say in the commit why.
+
+#include "golden/scenes.hpp"
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+#include "taut/report/report.hpp"
+#include "taut/world/world.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+using namespace taut;
+
+namespace {
+
+constexpr int kSteps = 60;
+const std::filesystem::path kFile = TAUT_SOURCE_DIR "/tests/golden/golden.csv";
+
+std::vector<std::string> names()
+{
+    std::vector<std::string> list;
+    for (const auto& [name, scene] : golden::scenes())
+        list.push_back(name);
+    return list;
+}
+
+/// Hash of the positions after kSteps, as 16 hexadecimal digits.
+std::string hash_on(const std::shared_ptr<Device>& device, const std::string& name, const WorldOptions& options = {})
+{
+    World world(golden::scenes().at(name), device, options);
+    for (int i = 0; i < kSteps; ++i)
+        world.step();
+    const StepReport report = measure(world);
+    REQUIRE(report.status == Status::completed);
+    CHECK(report.max_speed > 0.01); // a scene at rest would be no witness
+    std::ostringstream text;
+    text << std::hex;
+    text.width(16);
+    text.fill('0');
+    text << report.position_hash;
+    return text.str();
+}
+
+/// The hash of cpu:serial, computed once per scene.
+const std::string& serial_hash(const std::string& name)
+{
+    static std::map<std::string, std::string> known;
+    std::string& hash = known[name];
+    if (hash.empty())
+        hash = hash_on(test_device("cpu:serial"), name);
+    return hash;
+}
+
+std::map<std::string, std::string> committed()
+{
+    std::map<std::string, std::string> table;
+    std::ifstream file(kFile);
+    std::string line;
+    std::getline(file, line); // scene,steps,hash
+    while (std::getline(file, line))
+    {
+        const auto first = line.find(','), last = line.rfind(',');
+        table[line.substr(0, first)] = line.substr(last + 1);
+    }
+    return table;
+}
+
+void rewrite()
+{
+    const std::filesystem::path temporary = kFile.string() + ".new";
+    {
+        std::ofstream file(temporary);
+        file << "scene,steps,hash\n";
+        for (const std::string& name : names())
+            file << name << ',' << kSteps << ',' << serial_hash(name) << '\n';
+    }
+    std::filesystem::rename(temporary, kFile);
+}
+
+bool can_run(const Device& device, const std::string& name)
+{
+    return device.limits().float64 || golden::scenes().at(name).method.precision == "float";
+}
+
+} // namespace
+
+TEST_CASE("sixty steps on the serial processor end at the committed bits")
+{
+    if (const char* update = std::getenv("TAUT_UPDATE_GOLDEN"); update && std::string(update) == "1")
+    {
+        rewrite();
+        WARN("rewrote " << kFile);
+    }
+    const auto table = committed();
+    CHECK(table.size() == names().size());
+    for (const std::string& name : names())
+    {
+        CAPTURE(name);
+        REQUIRE(table.count(name) == 1);
+        CHECK(serial_hash(name) == table.at(name));
+    }
+}
+
+TEST_CASE("every scene of the golden table ends somewhere else")
+{
+    std::set<std::string> hashes;
+    for (const std::string& name : names())
+        hashes.insert(serial_hash(name));
+    CHECK(hashes.size() == names().size());
+}
+
+TEST_CASE("every executor that rounds as C++ does ends at the same bits, and every other one repeats itself")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    const auto device = test_device(selector);
+    for (const std::string& name : names())
+    {
+        if (!can_run(*device, name))
+            continue;
+        CAPTURE(selector, name);
+        const std::string hash = hash_on(device, name);
+        if (device->info().hardware_gpu)
+            CHECK(hash_on(device, name) == hash);
+        else
+            CHECK(hash == serial_hash(name));
+    }
+}
+
+TEST_CASE("the order of elements within a pass has no say, whatever the seed of the shuffle")
+{
+    for (const std::uint64_t seed : {2u, 3u, 77u})
+    {
+        OpenOptions options;
+        options.seed = seed;
+        const auto device = Device::open("cpu:shuffled", options);
+        for (const std::string name : {"busy", "chain", "drape_double"})
+        {
+            CAPTURE(seed, name);
+            CHECK(hash_on(device, name) == serial_hash(name));
+        }
+    }
+}
+
+TEST_CASE("the number of threads has no say")
+{
+    for (const unsigned threads : {1u, 2u, 5u})
+    {
+        OpenOptions options;
+        options.threads = threads;
+        const auto device = Device::open("cpu", options);
+        for (const std::string name : {"busy", "drape"})
+        {
+            CAPTURE(threads, name);
+            CHECK(hash_on(device, name) == serial_hash(name));
+        }
+    }
+}
+
+TEST_CASE("running small bodies in one group, or a dispatch a colour, is a choice of speed alone")
+{
+    const auto device = test_device("cpu:serial");
+    for (const std::string& name : names())
+        for (const auto choice : {PlanOptions::SmallBodies::always, PlanOptions::SmallBodies::never})
+        {
+            CAPTURE(name, choice == PlanOptions::SmallBodies::always);
+            WorldOptions options;
+            options.plan.small_bodies = choice;
+            CHECK(hash_on(device, name, options) == serial_hash(name));
+        }
+}
+
+TEST_CASE("keeping multipliers for the residuals does not change the motion")
+{
+    const auto device = test_device("cpu:serial");
+    for (const std::string& name : names())
+    {
+        CAPTURE(name);
+        WorldOptions options;
+        options.plan.residuals = true;
+        CHECK(hash_on(device, name, options) == serial_hash(name));
+    }
+}

@@ -1,0 +1,117 @@
+#pragma once
+// The scenes of the golden hashes: small, generated, and without host functions whose last bit depends on the
+// C library (no rotations; damping only in float), so that the hashes hold on other machines.
+
+#include "taut/scene/scene.hpp"
+
+#include <limits>
+#include <map>
+#include <string>
+
+namespace taut::golden {
+
+/// A square cloth of side 1 m with its rows along -y in the plane z = 0.
+inline Body cloth(const std::string& name, std::uint32_t cells)
+{
+    Body body;
+    body.name = name;
+    body.shape.cells = {cells, cells};
+    return body;
+}
+
+/// Two pinned corners and nothing else.
+inline Scene hanging()
+{
+    Scene scene;
+    Body body = cloth("cloth", 12);
+    Pin pin;
+    pin.corners = {"top_left", "top_right"};
+    body.pins = {pin};
+    scene.bodies = {body};
+    return scene;
+}
+
+/// Falls edge first on a ball that it bends around and rubs on.
+inline Scene drape()
+{
+    Scene scene;
+    Body body = cloth("cloth", 14);
+    body.material.bending_stiffness = 1e-4;
+    body.transform.translate = {0.125, 0.75, 0.0625};
+    body.velocity = {0, -1, 0.25};
+    scene.bodies = {body};
+    Collider ball;
+    ball.name = "ball";
+    ball.radius = 0.3;
+    ball.friction = 0.4;
+    scene.colliders = {ball};
+    scene.damping = 0.5;
+    return scene;
+}
+
+/// Rigid links, four iterations a substep.
+inline Scene chain()
+{
+    Scene scene;
+    Body body;
+    body.name = "chain";
+    body.shape.kind = ShapeKind::chain;
+    body.shape.links = 25;
+    body.material.stretch_stiffness = std::numeric_limits<double>::infinity();
+    body.velocity = {3, 0, 0};
+    Pin pin;
+    pin.corners = {"first"};
+    body.pins = {pin};
+    scene.bodies = {body};
+    scene.method.iterations = 4;
+    scene.method.substeps = 5;
+    return scene;
+}
+
+/// What the others leave out: two bodies, a moving pin, a moving ball, a plane with friction over several
+/// iterations, bending by multipliers.
+inline Scene busy()
+{
+    Scene scene = drape();
+    Body flag = cloth("flag", 6);
+    flag.transform.translate = {1.5, 1, 0};
+    flag.material.bending_stiffness = 1e-3;
+    Pin pin;
+    pin.edges = {"top"};
+    Keyframe from, to;
+    to.time = 0.5;
+    to.translate = {-0.5, 0.25, 0.5};
+    pin.motion = {from, to};
+    flag.pins = {pin};
+    scene.bodies.push_back(flag);
+    to.translate = {0.25, 0, 0};
+    scene.colliders[0].motion = {from, to};
+    Collider ground;
+    ground.name = "ground";
+    ground.kind = ColliderKind::plane;
+    ground.point = {0, -0.25, 0};
+    ground.friction = 0.3;
+    scene.colliders.push_back(ground);
+    scene.method.iterations = 3;
+    scene.method.substeps = 4;
+    return scene;
+}
+
+inline Scene in_double(Scene scene)
+{
+    scene.method.precision = "double";
+    scene.damping = 0;
+    return scene;
+}
+
+inline std::map<std::string, Scene> scenes()
+{
+    return {{"hanging", hanging()},
+            {"drape", drape()},
+            {"chain", chain()},
+            {"busy", busy()},
+            {"hanging_double", in_double(hanging())},
+            {"drape_double", in_double(drape())}};
+}
+
+} // namespace taut::golden
