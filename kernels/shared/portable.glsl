@@ -5,6 +5,8 @@
 //   READ(slot, T, name)                storage buffer, read only
 //   WRITE(slot, T, name)               storage buffer, every element it owns is written
 //   UPDATE(slot, T, name)              storage buffer, read and written
+//   GROUP_UPDATE(slot, T, name)        the same where invocations of one group hand it to each other
+//                                      across phases
 //   KERNEL(count) { ... i ... }        one invocation per element
 //   GROUP_KERNEL(size) { ... group ... PHASE_BEGIN ... lane ... PHASE_END ... }
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
