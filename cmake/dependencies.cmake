@@ -5,7 +5,9 @@ find_package(glm REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(nlohmann_json 3.2 REQUIRED)
 find_package(CLI11 REQUIRED)
-find_package(assimp REQUIRED)
+if(TAUT_BUILD_TESTS)
+    find_package(assimp REQUIRED) # the second opinion on mesh files; the library reads them itself
+endif()
 find_package(Vulkan REQUIRED)
 
 # Some distributions export glm without a namespace target.
@@ -61,4 +63,4 @@ endif()
 find_path(TAUT_STB_INCLUDE stb/stb_image_write.h REQUIRED)
 add_library(taut_deps_files INTERFACE)
 target_include_directories(taut_deps_files SYSTEM INTERFACE ${TAUT_STB_INCLUDE})
-target_link_libraries(taut_deps_files INTERFACE nlohmann_json::nlohmann_json assimp::assimp)
+target_link_libraries(taut_deps_files INTERFACE nlohmann_json::nlohmann_json)

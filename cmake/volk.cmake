@@ -11,3 +11,5 @@ foreach(line IN LISTS taut_volk_lines)
     string(APPEND taut_volk_names "#define ${name} taut_${name}\n")
 endforeach()
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/taut/volk_names.hpp CONTENT "${taut_volk_names}" @ONLY)
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
+             PROPERTY CMAKE_CONFIGURE_DEPENDS ${TAUT_VOLK_INCLUDE}/volk.h)

@@ -23,6 +23,7 @@ using Command = std::function<int()>;
 // Each adds one subcommand whose parsing sets `chosen`.
 void add_run(CLI::App& app, Command& chosen);
 void add_plan(CLI::App& app, Command& chosen);
+void add_cost(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);
 

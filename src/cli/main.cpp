@@ -38,6 +38,7 @@ cli::Command parse(int argc, char** argv, int& status)
     cli::Command chosen;
     cli::add_run(app, chosen);
     cli::add_plan(app, chosen);
+    cli::add_cost(app, chosen);
     cli::add_check(app, chosen);
     cli::add_devices(app, chosen);
     try

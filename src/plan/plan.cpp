@@ -5,19 +5,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace taut {
 namespace {
 
+/// The square of a substep's inverse must stay finite in single precision, also times a compliance.
+constexpr double kMinSubstep = 1e-15;
+
+std::string place(std::size_t body, std::string_view list, std::size_t index)
+{
+    return "bodies[" + std::to_string(body) + "]." + std::string(list) + "[" + std::to_string(index) + "] ";
+}
+
+void check_springs(const Body& body, std::size_t b)
+{
+    const std::size_t count = body.mesh.positions.size();
+    for (std::size_t k = 0; k < body.springs.size(); ++k)
+    {
+        const Body::Spring& s = body.springs[k];
+        if (s.a >= count || s.b >= count || s.a == s.b)
+            throw Error(ErrorCode::bad_input, place(b, "springs", k) + "joins vertices " + std::to_string(s.a) + " and " +
+                                                  std::to_string(s.b) + "; they must differ, and the body has " +
+                                                  std::to_string(count) + " vertices");
+        if (!(s.rest_length >= 0) || !(s.compliance >= 0) || !std::isfinite(s.rest_length) || !std::isfinite(s.compliance))
+            throw Error(ErrorCode::bad_input, place(b, "springs", k) + "has rest_length " + std::to_string(s.rest_length) +
+                                                  " m and compliance " + std::to_string(s.compliance) +
+                                                  " m/N; both must be finite, 0 or more");
+    }
+}
+
+/// What a plan indexes and divides by. Scenes with meshes filled by hand have not passed check().
+void check_body(const Body& body, std::size_t b)
+{
+    const std::size_t count = body.mesh.positions.size();
+    check_springs(body, b);
+    for (const Pin& pin : body.pins)
+        for (std::size_t k = 0; k < pin.vertices.size(); ++k)
+            if (pin.vertices[k] >= count)
+                throw Error(ErrorCode::bad_input, place(b, "pins.vertices", k) + "is " + std::to_string(pin.vertices[k]) +
+                                                      "; the body has " + std::to_string(count) + " vertices");
+    for (const std::size_t size : {body.vertex_masses.size(), body.start_positions.size()})
+        if (size != 0 && size != count)
+            throw Error(ErrorCode::bad_input, "bodies[" + std::to_string(b) + "] has " + std::to_string(size) +
+                                                  " vertex_masses or start_positions, but " + std::to_string(count) +
+                                                  " vertices");
+    for (std::size_t v = 0; v < body.vertex_masses.size(); ++v)
+        if (!(body.vertex_masses[v] > 0) || !std::isfinite(body.vertex_masses[v]))
+            throw Error(ErrorCode::bad_input, place(b, "vertex_masses", v) + "is " +
+                                                  std::to_string(body.vertex_masses[v]) + " kg; it must be above 0 and finite");
+    const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+    for (std::size_t v = 0; v < count; ++v)
+        if (!std::isfinite(start[v].x + start[v].y + start[v].z))
+            throw Error(ErrorCode::bad_input, place(b, "start_positions", v) + "is not finite");
+}
+
 void check_settings(const Scene& scene, const DeviceTraits& traits)
 {
-    if (!(scene.timestep > 0) || !std::isfinite(scene.timestep) || scene.timestep > 1)
-        throw Error(ErrorCode::bad_timestep,
-                    "timestep must lie in (0, 1] s, it is " + std::to_string(scene.timestep));
     if (scene.method.type != "xpbd")
         throw Error(ErrorCode::unsupported, "method.type \"" + scene.method.type + "\" is not there; there is \"xpbd\"");
     if (scene.method.substeps == 0 || scene.method.iterations == 0)
         throw Error(ErrorCode::bad_input, "method.substeps and method.iterations must be at least 1");
+    check_timestep(scene.timestep, scene.method.substeps);
     if (scene.method.precision == "double" && !traits.float64)
         throw Error(ErrorCode::unsupported,
                     "method.precision is \"double\", but the device has no 64-bit floats; use \"float\" or another device");
@@ -68,9 +117,19 @@ void record_step(PlanBuilder& builder, const std::vector<const Effect*>& rows)
 
 } // namespace
 
+void check_timestep(double timestep, std::uint32_t substeps)
+{
+    if (!(timestep > 0) || timestep > 1 || timestep / substeps < kMinSubstep)
+        throw Error(ErrorCode::bad_timestep, "timestep is " + std::to_string(timestep) + " s in " +
+                                                 std::to_string(substeps) +
+                                                 " substeps; it must lie in (0, 1] s, a substep at least 1e-15 s");
+}
+
 Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOptions& options)
 {
     check_settings(resolved, traits);
+    for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
+        check_body(resolved.bodies[b], b);
     PlanBuilder builder(resolved, traits, options);
     const std::vector<const Effect*> rows = wanted_effects(resolved, options);
     // The state comes first: other effects bind it.

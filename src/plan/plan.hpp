@@ -116,6 +116,9 @@ struct Plan
     std::map<std::string, std::uint64_t> colour_counts() const;
 };
 
+/// Throws Error{bad_timestep} unless the step lies in (0, 1] s and its substeps are at least 1e-15 s.
+void check_timestep(double timestep, std::uint32_t substeps);
+
 /// Compiles a resolved scene. Throws Error{bad_timestep, bad_input, degenerate_rest, limit, unsupported}.
 Plan make_plan(const Scene& resolved, const DeviceTraits& = {}, const PlanOptions& = {});
 

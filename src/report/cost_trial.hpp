@@ -1,0 +1,59 @@
+#pragma once
+// One setting on one device: its trajectory, its state at rest, its time.
+
+#include "taut/report/cost.hpp"
+#include "taut/report/errors.hpp"
+
+namespace taut::cost {
+
+struct Setting
+{
+    std::uint32_t substeps = 1, iterations = 1;
+    Precision precision = Precision::float32;
+};
+
+struct Motion
+{
+    Frames frames;        ///< the start and every sound frame; after settle(): the start and the last
+    Status status = Status::completed;
+    std::string reason;   ///< why it is not sound, or not at rest
+    std::size_t steps = 0;
+    bool rests = false;   ///< settle() only
+};
+
+struct Timing
+{
+    double median = 0, least = 0; ///< wall ms per simulated second
+    double cpu = 0;               ///< process ms per simulated second, median
+    std::size_t repetitions = 0;
+};
+
+/// When a scene counts as at rest: over the last simulated second every frame lay within
+/// max(1e-5 |x - x_0|, 0.1 |x - x*|) of the last, mass-weighted.
+struct RestRule
+{
+    ErrorWeights weights;
+    const std::vector<glm::dvec3>* reference = nullptr; ///< x*; null: only the first bound
+    double seconds = 30; ///< simulated, at most
+};
+
+class Trial
+{
+public:
+    Trial(const Scene& resolved, std::shared_ptr<Device> device, const Setting& setting);
+
+    Motion trajectory(std::size_t frames);
+    Motion settle(const RestRule& rule);
+    /// Runs `frames` from the start again and again: 3 short runs to warm up, then at least 5 repetitions
+    /// (fewer when `seconds` of wall time are over), more while they are short.
+    Timing time(std::size_t frames, double seconds);
+
+private:
+    bool advance(Motion& motion);
+
+    World world_;
+    WorldState start_;
+    std::vector<glm::dvec3> x_;
+};
+
+} // namespace taut::cost
