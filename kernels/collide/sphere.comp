@@ -23,7 +23,7 @@ PARAMS
 READ(0, rvec4, position);
 UPDATE(1, rvec4, delta); // m, w = gap kept from colliders
 READ(2, SphereCollider, sphere);
-READ(3, StepValues, step_values);
+READ_ONE(3, StepValues, step_values);
 COUNTERS(4, events);
 #if KEPT
 UPDATE(5, rvec4, contact); // per collider and vertex: friction taken so far, w = normal push so far, m

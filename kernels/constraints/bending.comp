@@ -24,7 +24,7 @@ PARAMS
 
 READ(0, BendingConstraint, constraint);
 READ(1, rvec4, position); // xyz m, w = inverse mass 1/kg
-READ(3, StepValues, step_values);
+READ_ONE(3, StepValues, step_values);
 COUNTERS(4, events);
 #if TAIL
 GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m

@@ -1,7 +1,7 @@
 // XPBD distance constraint, one invocation per constraint of one colour (no two share a vertex).
 //
 // Based on:
-//   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 18 at `dlambda`.
+//   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 18 at `scale`.
 //   Macklin et al. Small Steps in Physics Simulation. SCA 2019: one iteration per substep, where the
 //   multiplier starts at zero and needs no buffer (the variant without LAMBDA).
 // Departures: works on displacements of the substep (`delta`), not on positions, so that many
@@ -23,7 +23,7 @@ PARAMS
 
 READ(0, DistanceConstraint, constraint);
 READ(1, rvec4, position); // xyz m, w = inverse mass 1/kg
-READ(3, StepValues, step_values);
+READ_ONE(3, StepValues, step_values);
 COUNTERS(4, events);
 #if TAIL
 GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
@@ -40,6 +40,8 @@ UPDATE(5, real, multiplier);
 #endif
 #endif
 
+// Whole rvec4 operations, one division and a select instead of a branch keep the native form close to what
+// four lanes can do.
 void project(uint k)
 {
     DistanceConstraint c = constraint[k];
@@ -47,24 +49,29 @@ void project(uint k)
     rvec4 xb = position[c.b];
     rvec4 da = delta[c.a];
     rvec4 db = delta[c.b];
-    rvec3 d = rvec3(xa - xb) + rvec3(da - db);
-    real len = length(d);
-    real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
-    real weight = xa.w + xb.w;
-    bool usable = len > real(0) && weight > real(0);
-    real value = len - c.rest_length;
+    rvec4 d = (xa - xb) + (da - db);
+    real len = length(rvec3(d));
+    real scaled = c.compliance * (step_values[0].inverse_substep * step_values[0].inverse_substep);
+    real denominator = ((xa.w + xb.w) + scaled) * len;
+    bool usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
+    real value = c.rest_length - len;
 #if LAMBDA
     real before = first_iteration != 0u ? real(0) : multiplier[k];
-    real dlambda = usable ? -(value + scaled * before) / (weight + scaled) : real(0);
-    multiplier[k] = before + dlambda;
-#else
-    real dlambda = usable ? -value / (weight + scaled) : real(0);
+    value -= scaled * before;
 #endif
-    rvec3 push = usable ? d * (dlambda / len) : rvec3(real(0));
-    delta[c.a] = da + rvec4(xa.w * push, real(0));
-    delta[c.b] = db - rvec4(xb.w * push, real(0));
-    if (report != 0u && !usable && weight > real(0) && c.rest_length > real(0))
-        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    real scale = value / denominator; // dlambda / len
+    scale = usable ? scale : real(0);
+#if LAMBDA
+    multiplier[k] = before + scale * len;
+#endif
+    rvec4 push = d * rvec4(scale, scale, scale, real(0));
+    delta[c.a] = da + push * xa.w;
+    delta[c.b] = db - push * xb.w;
+    if (report != 0u)
+    {
+        if (!usable && xa.w + xb.w > real(0) && c.rest_length > real(0))
+            COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    }
 }
 
 #if TAIL

@@ -20,7 +20,7 @@ PARAMS
 READ(0, DistanceConstraint, constraint);
 READ(1, rvec4, position);
 UPDATE(2, rvec4, delta);
-READ(3, StepValues, step_values);
+READ_ONE(3, StepValues, step_values);
 COUNTERS(4, events);
 #if LAMBDA
 UPDATE(5, real, multiplier);

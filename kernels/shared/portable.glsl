@@ -3,6 +3,7 @@
 // A kernel includes this first and then uses:
 //   PARAMS { uint count; };            values fixed per dispatch; 32-bit scalars only
 //   READ(slot, T, name)                storage buffer, read only
+//   READ_ONE(slot, T, name)            the same for a buffer of one element, name[0]
 //   WRITE(slot, T, name)               storage buffer, every element it owns is written
 //   UPDATE(slot, T, name)              storage buffer, read and written
 //   GROUP_UPDATE(slot, T, name)        the same where invocations of one group hand it to each other
@@ -51,6 +52,7 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #endif
 
 #define READ(slot, T, name) layout(std430, binding = slot) readonly buffer name##_block { T name[]; }
+#define READ_ONE(slot, T, name) READ(slot, T, name)
 #define WRITE(slot, T, name) layout(std430, binding = slot) writeonly buffer name##_block { T name[]; }
 #define UPDATE(slot, T, name) layout(std430, binding = slot) buffer name##_block { T name[]; }
 #define GROUP_UPDATE(slot, T, name) layout(std430, binding = slot) coherent buffer name##_block { T name[]; }

@@ -12,7 +12,7 @@ PARAMS
 };
 
 UPDATE(0, rvec4, velocity); // m/s
-READ(1, StepValues, step_values);
+READ_ONE(1, StepValues, step_values);
 
 KERNEL(count)
 {

@@ -11,7 +11,7 @@ PARAMS
 READ(0, rvec4, position);   // w = inverse mass
 READ(1, rvec4, force);      // N
 UPDATE(2, rvec4, velocity); // m/s
-READ(3, StepValues, step_values);
+READ_ONE(3, StepValues, step_values);
 
 KERNEL(count)
 {

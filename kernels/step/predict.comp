@@ -17,7 +17,7 @@ READ(0, rvec4, position); // w = inverse mass; 0 holds the vertex
 READ(1, rvec4, low);      // w = gap kept from colliders, m; carried on in delta.w
 READ(2, rvec4, velocity); // m/s
 WRITE(3, rvec4, delta);   // m
-READ(4, StepValues, step_values);
+READ_ONE(4, StepValues, step_values);
 COUNTERS(5, events);
 #if KEPT
 WRITE(6, rvec4, predicted); // the guess itself, for the primal residual

@@ -181,7 +181,7 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     for (const auto& p : k.params)
         out << "        " << p.name << " = p." << p.name << ";\n";
     for (const auto& b : k.bindings)
-        out << "        " << b.name << " = static_cast<decltype(" << b.name << ")>(buffers[" << b.slot << "]);\n";
+        out << "        taut::native::attach(" << b.name << ", buffers[" << b.slot << "]);\n";
     out << "    }\n};\n} // namespace " << id << "\n#undef TAUT_REAL_DOUBLE\n";
     for (const auto& define : variant.defines)
         out << "#undef " << define.first << "\n";

@@ -23,6 +23,42 @@ namespace taut::native {
 using namespace glm;
 using uint = std::uint32_t;
 
+/// Points a buffer member at its memory. READ_ONE members are copies: a value that no store can change
+/// stays in registers through the loop.
+template <typename T>
+struct One
+{
+    T value;
+    const T& operator[](uint) const { return value; }
+};
+
+template <typename Member>
+void attach(Member& member, void* memory)
+{
+    if constexpr (requires { member.value; })
+        member.value = *static_cast<const decltype(member.value)*>(memory);
+    else
+        member = static_cast<Member>(memory);
+}
+
+/// Calls `run` with the kernel. A parameter called `report` asks for counting, which only one pass in many
+/// does: with it set to a constant 0 the compiler drops the counting from the other passes' loop (an atomic
+/// in it would cost a tenth of the time, because values could not be kept across it).
+template <typename Kernel, typename Run>
+void run_lean(Kernel& kernel, Run run)
+{
+    if constexpr (requires { kernel.report; })
+    {
+        if (kernel.report == 0)
+        {
+            kernel.report = 0;
+            run(kernel);
+            return;
+        }
+    }
+    run(kernel);
+}
+
 /// Runs the elements of a KERNEL. A local copy of the kernel lets the compiler keep buffer pointers
 /// and parameters in registers.
 template <typename Kernel>
@@ -33,8 +69,10 @@ void run_elements(const void* params, void* const* buffers, std::uint32_t begin,
     const std::uint32_t count = kernel.element_count();
     if (end > count)
         end = count;
-    for (std::uint32_t i = begin; i < end; ++i)
-        kernel.element(i);
+    run_lean(kernel, [begin, end](Kernel& k) {
+        for (std::uint32_t i = begin; i < end; ++i)
+            k.element(i);
+    });
 }
 
 template <typename Kernel>
@@ -42,8 +80,10 @@ void run_groups(const void* params, void* const* buffers, std::uint32_t begin, s
 {
     Kernel kernel;
     kernel.bind(params, buffers);
-    for (std::uint32_t group = begin; group < end; ++group)
-        kernel.body(group);
+    run_lean(kernel, [begin, end](Kernel& k) {
+        for (std::uint32_t group = begin; group < end; ++group)
+            k.body(group);
+    });
 }
 
 inline void count_event(std::uint32_t& counter)
@@ -60,6 +100,7 @@ inline void count_event(std::uint32_t& counter)
 
 #define PARAMS struct
 #define READ(slot, T, name) const T* __restrict name
+#define READ_ONE(slot, T, name) taut::native::One<T> name
 #define WRITE(slot, T, name) T* __restrict name
 #define UPDATE(slot, T, name) T* __restrict name
 #define GROUP_UPDATE(slot, T, name) T* __restrict name

@@ -42,7 +42,7 @@ DrawFrame frame_of(const Shot& shot)
     const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
     const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
     const glm::vec3 up = glm::normalize(camera.up);
-    const glm::vec3 to_light = glm::normalize(up - 0.6f * right - 0.35f * forward);
+    const glm::vec3 to_light = glm::normalize(up - 0.75f * right - 0.25f * forward);
     const float distance = glm::length(shot.focus - camera.eye);
     const float aspect = static_cast<float>(shot.width) / static_cast<float>(shot.height);
     const float r = shot.radius;

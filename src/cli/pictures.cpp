@@ -1,10 +1,13 @@
 #include "taut/cli/pictures.hpp"
 
+#include "taut/cli/output.hpp"
+#include "taut/report/picture.hpp"
+
 namespace taut::cli {
 
 std::vector<std::uint64_t> snapshot_frames(std::uint64_t frames)
 {
-    constexpr std::uint64_t kSnapshots = 12;
+    constexpr std::uint64_t kSnapshots = 8; // two rows of four
     std::vector<std::uint64_t> list;
     for (std::uint64_t k = 0; k < kSnapshots; ++k)
     {
@@ -15,10 +18,23 @@ std::vector<std::uint64_t> snapshot_frames(std::uint64_t frames)
     return list;
 }
 
-std::vector<std::string> draw_pictures(const Scene&, const std::vector<Snapshot>&,
-                                       const std::filesystem::path&)
+std::vector<std::string> draw_pictures(const Scene& resolved, const std::vector<Snapshot>& snapshots,
+                                       const std::filesystem::path& folder)
 {
-    return {};
+    try
+    {
+        Pictures pictures(resolved);
+        for (const Snapshot& snapshot : snapshots)
+            pictures.add({snapshot.time, snapshot.positions});
+        return pictures.write(folder);
+    }
+    catch (const Error& error)
+    {
+        if (error.code() == ErrorCode::io || error.code() == ErrorCode::bad_input)
+            throw;
+        warn(std::string("no picture was drawn: ") + error.what());
+        return {};
+    }
 }
 
 } // namespace taut::cli

@@ -20,7 +20,7 @@ struct Snapshot
 std::vector<std::uint64_t> snapshot_frames(std::uint64_t frames);
 
 /// Writes picture.png (the last snapshot) and contact_sheet.png (all of them) into the folder and
-/// returns their names. Throws Error{io}.
+/// returns their names. Without a device that draws: a warning that says why, and no names. Throws Error{io}.
 std::vector<std::string> draw_pictures(const Scene& resolved, const std::vector<Snapshot>& snapshots,
                                        const std::filesystem::path& folder);
 

@@ -20,7 +20,7 @@ void Progress::update(std::uint64_t done)
     const double spent = std::chrono::duration<double>(now - start_).count();
     const double left =
         done == 0 ? 0 : spent / static_cast<double>(done) * static_cast<double>(total_ - done);
-    std::fprintf(stderr, "\r[%s] %llu/%llu frames, %.0f s left \033[K", bar.c_str(),
+    std::fprintf(stderr, "\r[%s] %llu/%llu, %.0f s left \033[K", bar.c_str(),
                  static_cast<unsigned long long>(done), static_cast<unsigned long long>(total_), left);
     std::fflush(stderr);
     last_ = now;

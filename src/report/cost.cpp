@@ -8,6 +8,7 @@
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut {
 namespace {

@@ -41,7 +41,7 @@ TEST_CASE("wrong arguments end with status 2 and a sentence")
 TEST_CASE("a scene that cannot be read or makes no sense ends with status 2, in every command")
 {
     const Folder folder;
-    const std::string command = GENERATE("run", "plan");
+    const std::string command = GENERATE("run", "plan", "cost");
     const auto refused = [&](const std::string& text, const std::string& part) {
         const std::string scene = folder.file("bad.json", text);
         check_refused(folder.taut({command, scene, "--json"}), 2, part);

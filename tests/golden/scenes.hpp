@@ -19,11 +19,12 @@ inline Body cloth(const std::string& name, std::uint32_t cells)
     return body;
 }
 
-/// Two pinned corners and nothing else.
+/// Two pinned corners and nothing else; blown out of its plane.
 inline Scene hanging()
 {
     Scene scene;
     Body body = cloth("cloth", 12);
+    body.velocity = {0.5, 0, 2};
     Pin pin;
     pin.corners = {"top_left", "top_right"};
     body.pins = {pin};
@@ -46,6 +47,16 @@ inline Scene drape()
     ball.friction = 0.4;
     scene.colliders = {ball};
     scene.damping = 0.5;
+    return scene;
+}
+
+/// A cloth with one vertex tied to most others, more than a colouring takes: a hub.
+inline Scene star()
+{
+    Scene scene = hanging();
+    Body& body = scene.bodies[0];
+    for (std::uint32_t b = 20; b < 160; ++b)
+        body.springs.push_back({0, b, 0.75, 1e-4});
     return scene;
 }
 
@@ -110,6 +121,7 @@ inline std::map<std::string, Scene> scenes()
             {"drape", drape()},
             {"chain", chain()},
             {"busy", busy()},
+            {"star", star()},
             {"hanging_double", in_double(hanging())},
             {"drape_double", in_double(drape())}};
 }

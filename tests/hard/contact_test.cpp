@@ -27,6 +27,19 @@ Collider ball(const glm::dvec3& centre, double radius, double friction = 0)
 
 } // namespace
 
+namespace {
+
+/// Distance of the origin from the segment between two points, m.
+double distance_of_path(const glm::dvec3& from, const glm::dvec3& to)
+{
+    const glm::dvec3 d = to - from;
+    const double square = glm::dot(d, d);
+    const double t = square > 0 ? std::clamp(-glm::dot(from, d) / square, 0.0, 1.0) : 0.0;
+    return glm::length(from + t * d);
+}
+
+} // namespace
+
 TEST_CASE("E01: particles of 100 m/s do not pass a plane or a small ball [hard]")
 {
     on_every_device([](const auto& device) {
@@ -37,26 +50,30 @@ TEST_CASE("E01: particles of 100 m/s do not pass a plane or a small ball [hard]"
         scene.bodies[0].velocity = {0, -100, 0};
         scene.bodies[0].material.thickness = 0.001;
         scene.method.substeps = 1;
-        const auto lowest = [&](const Collider& collider) {
+        // The nearest that any path between two steps comes to the surface, m.
+        const auto nearest = [&](const Collider& collider) {
             scene.colliders = {collider};
             World world(scene, device);
             double least = 1e9;
+            auto from = world.positions();
             for (int i = 0; i < 10; ++i)
             {
                 world.step();
-                for (const glm::dvec3& x : world.positions())
-                    least = std::min(least, x.y);
-                CHECK(measure(world).penetration < 1e-6);
+                const auto to = world.positions();
+                for (std::size_t v = 0; v < to.size(); ++v)
+                    least = std::min(least, collider.kind == ColliderKind::plane ? to[v].y
+                                                                                 : distance_of_path(from[v], to[v]) - collider.radius);
+                from = to;
             }
             check_sound(world);
             return least;
         };
-        const double floor = lowest(plane({0, 1, 0}));
-        const double pearl = lowest(ball({0, 0, 0}, 0.004));
-        note("E01", *device, "lowest point over the plane, m", floor);
-        note("E01", *device, "lowest point over a ball of 4 mm, m", pearl);
+        const double floor = nearest(plane({0, 1, 0}));
+        const double pearl = nearest(ball({0, 0, 0}, 0.004));
+        note("E01", *device, "nearest to the plane, m", floor);
+        note("E01", *device, "nearest to a ball of 4 mm, m", pearl);
         CHECK(floor >= 0.001 - 1e-6);
-        CHECK(pearl > 0);
+        CHECK(pearl >= 0.001 - 1e-6);
     });
 }
 

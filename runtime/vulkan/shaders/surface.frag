@@ -8,16 +8,17 @@ layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 colour;
 
-const vec3 kKey = vec3(0.80, 0.76, 0.70);
-const vec3 kSky = vec3(0.36, 0.39, 0.44);
-const vec3 kBounce = vec3(0.20, 0.185, 0.17);
+const vec3 kKey = vec3(0.86, 0.82, 0.75);
+const vec3 kSky = vec3(0.30, 0.33, 0.38);
+const vec3 kBounce = vec3(0.14, 0.13, 0.12);
 const int kTaps = 3;         // 7 x 7 samples
 const float kSpread = 2.0;   // texels between them
 
 /// Share of the key light that arrives, 0..1.
 float visible(vec3 point)
 {
-    const vec3 at = (frame.view[1] * vec4(point, 1.0)).xyz;
+    vec3 at = (frame.view[1] * vec4(point, 1.0)).xyz;
+    at.z = min(at.z, 1.0); // beyond the map nothing is in the way
     const vec2 centre = at.xy * 0.5 + 0.5;
     const vec2 texel = kSpread / vec2(textureSize(shadow_map, 0));
     float sum = 0.0;

@@ -1,0 +1,332 @@
+#include "taut/report/picture.hpp"
+
+#include "taut/report/image.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace taut {
+namespace {
+
+struct Colours
+{
+    glm::vec3 front, back; ///< sRGB
+};
+
+/// One pair a body, in turn.
+constexpr Colours kBodies[] = {
+    {{0.20f, 0.44f, 0.64f}, {0.95f, 0.73f, 0.45f}}, // sea, sand
+    {{0.76f, 0.29f, 0.25f}, {0.93f, 0.80f, 0.66f}}, // brick, cream
+    {{0.30f, 0.52f, 0.34f}, {0.82f, 0.84f, 0.55f}}, // moss, straw
+    {{0.46f, 0.33f, 0.58f}, {0.88f, 0.74f, 0.86f}}, // plum, mallow
+    {{0.86f, 0.56f, 0.16f}, {0.44f, 0.40f, 0.38f}}, // amber, slate
+};
+constexpr glm::vec3 kSphere{0.80f, 0.79f, 0.77f};
+constexpr glm::vec3 kLightCell{0.885f, 0.885f, 0.88f}, kDarkCell{0.815f, 0.82f, 0.83f};
+
+bool finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+glm::dvec3 up_of(const Scene& scene)
+{
+    return glm::length(scene.gravity) > 0 ? -glm::normalize(scene.gravity) : glm::dvec3(0, 1, 0);
+}
+
+/// A unit vector across `axis`: world z for an upright y.
+glm::dvec3 across(const glm::dvec3& axis)
+{
+    const glm::dvec3 other = std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    return glm::normalize(other - glm::dot(other, axis) * axis);
+}
+
+void add_ball(std::vector<glm::dvec3>& points, const glm::dvec3& centre, double radius)
+{
+    constexpr int kSteps = 4;
+    for (int x = -kSteps; x <= kSteps; ++x)
+        for (int y = -kSteps; y <= kSteps; ++y)
+            for (int z = -kSteps; z <= kSteps; ++z)
+                if (std::max({std::abs(x), std::abs(y), std::abs(z)}) == kSteps)
+                    points.push_back(centre + radius * glm::normalize(glm::dvec3(x, y, z)));
+}
+
+/// Everything that a picture should hold.
+std::vector<glm::dvec3> points_of(const Scene& scene, std::span<const Moment> moments)
+{
+    std::vector<glm::dvec3> points;
+    for (const Moment& moment : moments)
+    {
+        std::copy_if(moment.positions.begin(), moment.positions.end(), std::back_inserter(points), finite);
+        for (const Collider& collider : scene.colliders)
+            if (collider.kind == ColliderKind::sphere)
+                add_ball(points, pose(collider.motion, moment.time, collider.point), collider.radius);
+    }
+    if (points.empty())
+        add_ball(points, glm::dvec3(0), 1);
+    return points;
+}
+
+/// Camera position along one axis of the picture: where the extreme points touch both borders. `slope`:
+/// half the opening; points given as (along the axis, towards the camera).
+struct Fit
+{
+    double low = -std::numeric_limits<double>::infinity(), high = low;
+
+    void hold(double along, double towards, double slope)
+    {
+        low = std::max(low, slope * towards - along);
+        high = std::max(high, slope * towards + along);
+    }
+    double centre() const { return (high - low) / 2; }
+    double distance(double slope) const { return (high + low) / (2 * slope); }
+};
+
+Camera frame_camera(const Scene& scene, const std::vector<glm::dvec3>& points, double aspect)
+{
+    constexpr double kTurn = 0.55, kRise = 0.40; // radians: to the right, upwards
+    constexpr double kMargin = 1.15;
+    Camera camera;
+    const glm::dvec3 upright = up_of(scene);
+    const glm::dvec3 front = across(upright);
+    const glm::dvec3 side = glm::cross(upright, front);
+    const glm::dvec3 back = std::cos(kRise) * (std::cos(kTurn) * front + std::sin(kTurn) * side) +
+                            std::sin(kRise) * upright; // from the scene to the camera
+    const glm::dvec3 right = glm::normalize(glm::cross(upright, back));
+    const glm::dvec3 up = glm::cross(back, right);
+    const double slope_y = std::tan(camera.fov / 2) / kMargin;
+    const double slope_x = slope_y * aspect;
+    Fit x, y;
+    for (const glm::dvec3& p : points)
+    {
+        x.hold(glm::dot(p, right), glm::dot(p, back), slope_x);
+        y.hold(glm::dot(p, up), glm::dot(p, back), slope_y);
+    }
+    const double distance = std::max(x.distance(slope_x), y.distance(slope_y));
+    const glm::dvec3 eye = x.centre() * right + y.centre() * up + distance * back;
+    camera.eye = eye;
+    camera.target = eye - back;
+    camera.up = upright;
+    return camera;
+}
+
+/// A round number near `value`: 1, 2 or 5 times a power of ten.
+double round_number(double value)
+{
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    const double lead = value / power;
+    return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+}
+
+Surface sphere_surface(const glm::dvec3& centre, double radius)
+{
+    constexpr std::uint32_t kRings = 48, kSegments = 96;
+    Surface out;
+    out.finish = Finish::solid;
+    out.front = out.back = kSphere;
+    for (std::uint32_t i = 0; i <= kRings; ++i)
+        for (std::uint32_t k = 0; k < kSegments; ++k)
+        {
+            const double polar = glm::radians(180.0) * i / kRings;
+            const double turn = glm::radians(360.0) * k / kSegments;
+            const glm::dvec3 n{std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)};
+            out.positions.emplace_back(glm::vec3(centre + radius * n), 1.0f);
+        }
+    for (std::uint32_t i = 0; i < kRings; ++i)
+        for (std::uint32_t k = 0; k < kSegments; ++k)
+        {
+            const std::uint32_t a = i * kSegments + k, b = i * kSegments + (k + 1) % kSegments;
+            for (const std::uint32_t v : {a, b, a + kSegments, b, b + kSegments, a + kSegments})
+                out.triangles.push_back(v);
+        }
+    return out;
+}
+
+Surface plane_surface(const glm::dvec3& point, const glm::dvec3& normal, const Shot& shot)
+{
+    Surface out;
+    out.finish = Finish::ground;
+    out.front = kLightCell;
+    out.back = kDarkCell;
+    out.cell = static_cast<float>(round_number(shot.radius / 4));
+    const glm::dvec3 focus = shot.focus;
+    const glm::dvec3 centre = focus - glm::dot(focus - point, normal) * normal;
+    const glm::dvec3 s = 6.0 * shot.radius * across(normal);
+    const glm::dvec3 t = glm::cross(normal, s);
+    for (const glm::dvec3& p : {centre - s - t, centre + s - t, centre + s + t, centre - s + t})
+        out.positions.emplace_back(glm::vec3(p), 1.0f);
+    out.triangles = {0, 1, 2, 0, 2, 3};
+    return out;
+}
+
+/// Triangles and links of a body, its vertices renamed by `rename`.
+template <typename Rename>
+Surface body_surface(const Body& body, std::size_t number, const Rename& rename)
+{
+    const Mesh& mesh = body.mesh;
+    Surface out;
+    const Colours& colours = kBodies[number % std::size(kBodies)];
+    out.front = colours.front;
+    out.back = colours.back;
+    out.line_radius = static_cast<float>(mesh.link_width / 2);
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t v : triangle)
+            out.triangles.push_back(rename(v));
+    for (const auto& link : mesh.links)
+        for (const std::uint32_t v : link)
+            out.lines.push_back(rename(v));
+    if (mesh.triangles.empty() && mesh.links.empty()) // free particles: a dot each
+        for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+            out.lines.insert(out.lines.end(), {rename(v), rename(v)});
+    return out;
+}
+
+std::shared_ptr<Device> drawing(std::shared_ptr<Device> device)
+{
+    return device && can_draw(*device) ? device : open_drawing_device();
+}
+
+} // namespace
+
+Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width, std::uint32_t height)
+{
+    const std::vector<glm::dvec3> points = points_of(resolved, moments);
+    glm::dvec3 low = points.front(), high = low;
+    for (const glm::dvec3& p : points)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const glm::dvec3 focus = (low + high) / 2.0;
+    double radius = 1e-6;
+    for (const glm::dvec3& p : points)
+        radius = std::max(radius, glm::length(p - focus));
+    Shot shot;
+    shot.width = width;
+    shot.height = height;
+    shot.camera = frame_camera(resolved, points, double(width) / height);
+    shot.focus = focus;
+    shot.radius = static_cast<float>(1.02 * radius);
+    return shot;
+}
+
+Pictures::Pictures(Scene resolved, std::shared_ptr<Device> device, const PictureOptions& options)
+    : scene_(std::move(resolved)),
+      options_(options),
+      renderer_(drawing(std::move(device)))
+{
+    for (const Body& body : scene_.bodies)
+        if (body.mesh.positions.empty())
+            throw Error(ErrorCode::bad_input,
+                        "body \"" + body.name + "\" has no mesh to draw; give the scene that resolve() returns");
+}
+
+void Pictures::add(Moment moment) { moments_.push_back(std::move(moment)); }
+
+std::vector<Surface> Pictures::cloth(const Moment& moment) const
+{
+    std::vector<Surface> out;
+    auto next = moment.positions.begin();
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+    {
+        const auto count = static_cast<std::ptrdiff_t>(scene_.bodies[b].mesh.positions.size());
+        if (moment.positions.end() - next < count)
+            throw Error(ErrorCode::bad_input, "the moment at " + std::to_string(moment.time) + " s has " +
+                                                  std::to_string(moment.positions.size()) +
+                                                  " positions, fewer than the scene has vertices");
+        out.push_back(body_surface(scene_.bodies[b], b, [](std::uint32_t v) { return v; }));
+        for (const auto end = next + count; next != end; ++next)
+            out.back().positions.emplace_back(glm::vec3(*next), 1.0f);
+    }
+    return out;
+}
+
+std::vector<Surface> Pictures::cloth_in_place(const World& world) const
+{
+    const Plan& plan = world.plan();
+    std::vector<std::uint32_t> place_of(plan.original.size()); // of a scene-wide vertex, in the plan
+    for (std::uint32_t i = 0; i < plan.original.size(); ++i)
+        place_of[plan.original[i]] = i;
+    std::vector<Surface> out;
+    for (std::size_t b = 0; b < world.scene().bodies.size(); ++b)
+    {
+        const std::uint32_t first = plan.body_start[b];
+        out.push_back(body_surface(world.scene().bodies[b], b, [&](std::uint32_t v) { return place_of[first + v]; }));
+        out.back().buffer = world.position_buffer();
+    }
+    return out;
+}
+
+void Pictures::add_colliders(std::vector<Surface>& surfaces, double time, const Shot& shot) const
+{
+    for (const Collider& collider : scene_.colliders)
+    {
+        const glm::dvec3 point = pose(collider.motion, time, collider.point);
+        const glm::dvec3 ahead = pose(collider.motion, time, collider.point + glm::normalize(collider.normal));
+        surfaces.push_back(collider.kind == ColliderKind::sphere
+                               ? sphere_surface(point, collider.radius)
+                               : plane_surface(point, glm::normalize(ahead - point), shot));
+    }
+}
+
+void Pictures::finish_strands(std::vector<Surface>& surfaces, const Shot& shot) const
+{
+    for (Surface& surface : surfaces) // a strand thinner than this is hard to see
+        surface.line_radius = std::max(surface.line_radius, 0.004f * shot.radius);
+}
+
+Image Pictures::draw(const Moment& moment, const Shot& shot)
+{
+    std::vector<Surface> surfaces = cloth(moment);
+    add_colliders(surfaces, moment.time, shot);
+    finish_strands(surfaces, shot);
+    return renderer_.draw(shot, surfaces);
+}
+
+Image Pictures::draw(const World& world, const Shot& shot)
+{
+    const bool in_place = &world.device() == renderer_.device().get() && world.position_buffer() &&
+                          world.plan().precision == Precision::float32;
+    if (!in_place)
+        return draw(Moment{world.time(), world.positions()}, shot);
+    std::vector<Surface> surfaces = cloth_in_place(world);
+    add_colliders(surfaces, world.time(), shot);
+    finish_strands(surfaces, shot);
+    return renderer_.draw(shot, surfaces);
+}
+
+Image Pictures::contact_sheet()
+{
+    if (moments_.empty())
+        throw Error(ErrorCode::bad_input, "a contact sheet needs at least one moment; add or capture one");
+    constexpr std::uint32_t kGap = 4;
+    const auto count = static_cast<std::uint32_t>(moments_.size());
+    const std::uint32_t columns = std::clamp(options_.columns, 1u, count);
+    const std::uint32_t rows = (count + columns - 1) / columns;
+    const std::uint32_t width = options_.cell_width, height = options_.cell_height;
+    const Shot shot = frame_shot(scene_, moments_, width, height);
+    Image sheet = make_image(columns * (width + kGap) - kGap, rows * (height + kGap) - kGap, glm::u8vec3(255));
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        Image cell = draw(moments_[i], shot);
+        char text[40];
+        std::snprintf(text, sizeof text, "t = %.2f s", moments_[i].time);
+        label(cell, text, 14, 14, 2, {70, 76, 84});
+        place(sheet, cell, i % columns * (width + kGap), i / columns * (height + kGap));
+    }
+    return sheet;
+}
+
+std::vector<std::string> Pictures::write(const std::filesystem::path& folder)
+{
+    const Image sheet = contact_sheet(); // first: it refuses when there is nothing to draw
+    const std::span<const Moment> last(&moments_.back(), 1);
+    const Shot shot = frame_shot(scene_, last, options_.width, options_.height);
+    write_png(folder / "picture.png", draw(moments_.back(), shot));
+    write_png(folder / "contact_sheet.png", sheet);
+    return {"picture.png", "contact_sheet.png"};
+}
+
+} // namespace taut

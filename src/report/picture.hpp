@@ -1,0 +1,73 @@
+#pragma once
+// Pictures of a run: the last moment, large, and a contact sheet of all moments under one camera.
+
+#include "taut/runtime/vulkan/draw.hpp"
+#include "taut/world/world.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+/// Where every vertex was at one time.
+struct Moment
+{
+    double time = 0;                   ///< s
+    std::vector<glm::dvec3> positions; ///< m, bodies one after another, as World::positions() gives them
+};
+
+struct PictureOptions
+{
+    std::uint32_t width = 1280, height = 960;          ///< pixels, of the picture
+    std::uint32_t cell_width = 480, cell_height = 360; ///< pixels, of one moment on the contact sheet
+    std::uint32_t columns = 4;
+};
+
+/// A three-quarter view from above (against gravity) that holds every vertex of every moment and every
+/// sphere. Positions that are not finite are left out.
+Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width,
+                std::uint32_t height);
+
+/// Draws scenes. Not thread-safe.
+class Pictures
+{
+public:
+    /// Draws on `device`, or on the best Vulkan device that draws if it is null or cannot. Throws
+    /// Error{no_device} with the reason when there is none, Error{bad_input} for a scene without meshes.
+    explicit Pictures(Scene resolved, std::shared_ptr<Device> device = nullptr, const PictureOptions& = {});
+
+    /// For the contact sheet; the last one added is the picture.
+    void add(Moment moment);
+    void capture(const World& world) { add({world.time(), world.positions()}); }
+
+    Image draw(const Moment& moment, const Shot& shot);
+
+    /// A world in single precision on the device that draws is drawn from its own position buffer, without
+    /// a copy; any other from World::positions(). Bitwise the same image either way.
+    Image draw(const World& world, const Shot& shot);
+
+    /// All moments in rows, each with its time. Throws Error{bad_input} when there are none.
+    Image contact_sheet();
+
+    /// Writes picture.png and contact_sheet.png and returns their names. Throws Error{io}, and
+    /// Error{bad_input} when there are no moments.
+    std::vector<std::string> write(const std::filesystem::path& folder);
+
+    const Device& device() const { return *renderer_.device(); }
+
+private:
+    std::vector<Surface> cloth(const Moment& moment) const;
+    std::vector<Surface> cloth_in_place(const World& world) const;
+    void add_colliders(std::vector<Surface>& surfaces, double time, const Shot& shot) const;
+    void finish_strands(std::vector<Surface>& surfaces, const Shot& shot) const;
+
+    Scene scene_;
+    PictureOptions options_;
+    Renderer renderer_;
+    std::vector<Moment> moments_;
+};
+
+} // namespace taut
