@@ -16,7 +16,8 @@ install(FILES src/taut/taut.hpp ${PROJECT_BINARY_DIR}/generated/taut/version.hpp
 install(FILES runtime/device.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime)
 # cpu/portable.hpp is what a kernel's native form includes. Of the graphics rooms only what an engine
 # needs to bring its own device; everything else there is private.
-foreach(header compiler/compiler.hpp cpu/portable.hpp vulkan/vulkan_device.hpp vulkan/interop.hpp)
+foreach(header compiler/compiler.hpp cpu/portable.hpp vulkan/vulkan_device.hpp vulkan/interop.hpp
+               vulkan/draw.hpp)
     if(EXISTS ${PROJECT_SOURCE_DIR}/runtime/${header})
         cmake_path(GET header PARENT_PATH room)
         install(FILES runtime/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime/${room})

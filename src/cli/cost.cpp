@@ -23,7 +23,7 @@ struct CostCommand
     std::vector<std::uint32_t> substeps, iterations;
     std::vector<std::string> precisions;
     std::optional<std::uint32_t> frames;
-    std::optional<double> rest_seconds, timing_seconds;
+    std::optional<double> rest_seconds, timing_seconds, reference_steps;
     bool at_rest = false, moving = false, json = false;
 };
 
@@ -41,6 +41,7 @@ CostOptions study_options(const CostCommand& command)
     options.frames = command.frames.value_or(0);
     options.rest_seconds = command.rest_seconds.value_or(options.rest_seconds);
     options.timing_seconds = command.timing_seconds.value_or(options.timing_seconds);
+    options.reference_steps = command.reference_steps.value_or(options.reference_steps);
     if (command.at_rest)
         options.kind = CostKind::at_rest;
     if (command.moving)
@@ -148,6 +149,8 @@ void add_cost(CLI::App& app, Command& chosen)
                         "Static: simulated seconds at most until rest (default: 30)");
     command->add_option("--timing-seconds", options->timing_seconds,
                         "Wall seconds after which a setting is not repeated (default: 2)");
+    command->add_option("--reference-steps", options->reference_steps,
+                        "Moving: steps times elements that the reference R3 may take (default: 1.5e9)");
     command->add_option("--out", options->folder, "Folder for cost.csv, cost.json, cost.svg and cost_work.svg");
     command->add_flag("--json", options->json, "Print the study as one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return cost(*options); }; });

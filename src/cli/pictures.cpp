@@ -1,38 +1,39 @@
 #include "taut/cli/pictures.hpp"
 
-#include "taut/cli/output.hpp"
-#include "taut/report/picture.hpp"
+#include "taut/runtime/base/error.hpp"
 
 namespace taut::cli {
 
-std::vector<std::uint64_t> snapshot_frames(std::uint64_t frames)
+std::vector<std::uint64_t> moment_frames(std::uint64_t frames)
 {
-    constexpr std::uint64_t kSnapshots = 8; // two rows of four
+    constexpr std::uint64_t kMoments = 12;
     std::vector<std::uint64_t> list;
-    for (std::uint64_t k = 0; k < kSnapshots; ++k)
+    for (std::uint64_t k = 0; k < kMoments; ++k)
     {
-        const std::uint64_t frame = (k * frames + (kSnapshots - 1) / 2) / (kSnapshots - 1);
+        const std::uint64_t frame = (k * frames + (kMoments - 1) / 2) / (kMoments - 1);
         if (list.empty() || list.back() != frame)
             list.push_back(frame);
     }
     return list;
 }
 
-std::vector<std::string> draw_pictures(const Scene& resolved, const std::vector<Snapshot>& snapshots,
-                                       const std::filesystem::path& folder)
+std::vector<std::string> draw_pictures(const Scene& resolved, std::shared_ptr<Device> device,
+                                       const std::vector<Moment>& moments,
+                                       const std::filesystem::path& folder, std::string& why_not)
 {
     try
     {
-        Pictures pictures(resolved);
-        for (const Snapshot& snapshot : snapshots)
-            pictures.add({snapshot.time, snapshot.positions});
+        Pictures pictures(resolved, std::move(device));
+        for (const Moment& moment : moments)
+            pictures.add(moment);
         return pictures.write(folder);
     }
     catch (const Error& error)
     {
-        if (error.code() == ErrorCode::io || error.code() == ErrorCode::bad_input)
+        // What was simulated is sound without a picture of it; a disk that is full is another matter.
+        if (error.code() == ErrorCode::io)
             throw;
-        warn(std::string("no picture was drawn: ") + error.what());
+        why_not = std::string("no pictures: ") + error.what();
         return {};
     }
 }

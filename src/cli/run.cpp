@@ -72,7 +72,7 @@ public:
           world_(world),
           frames_(frames),
           every_(mesh_interval(options, world.scene())),
-          snapshot_frames_(options.no_picture ? std::vector<std::uint64_t>{} : snapshot_frames(frames)),
+          moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
           meshes_(world.scene(), options.folder)
     {}
 
@@ -96,7 +96,7 @@ public:
     std::uint64_t done() const { return done_; }
     std::size_t mesh_count() const { return meshes_.count(); }
     const std::vector<double>& step_ms() const { return step_ms_; }
-    const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+    const std::vector<Moment>& moments() const { return moments_; }
 
 private:
     void step()
@@ -110,35 +110,35 @@ private:
         finite_ = world_.events().non_finite == 0;
     }
 
-    /// The mesh and the snapshot of a frame, where they are due.
+    /// The mesh and the moment of a frame, where they are due.
     void keep()
     {
         const bool mesh = every_ != 0 && done_ % every_ == 0;
-        const bool snapshot = std::binary_search(snapshot_frames_.begin(), snapshot_frames_.end(), done_);
-        write(mesh, snapshot);
+        const bool moment = std::binary_search(moment_frames_.begin(), moment_frames_.end(), done_);
+        write(mesh, moment);
     }
 
     /// The frame at which it ended, due or not.
     void keep_last() { write(every_ != 0, !options_.no_picture); }
 
-    void write(bool mesh, bool snapshot)
+    void write(bool mesh, bool moment)
     {
-        if (!mesh && !snapshot)
+        if (!mesh && !moment)
             return;
         std::vector<glm::dvec3> positions = world_.positions();
         if (mesh)
             meshes_.write(positions, done_, world_.time());
-        if (snapshot)
-            snapshots_.push_back({world_.time(), std::move(positions)});
+        if (moment)
+            moments_.push_back({world_.time(), std::move(positions)});
     }
 
     const RunCommand& options_;
     World& world_;
     std::uint64_t frames_, every_, done_ = 0;
     bool finite_ = true;
-    std::vector<std::uint64_t> snapshot_frames_;
+    std::vector<std::uint64_t> moment_frames_;
     std::vector<double> step_ms_;
-    std::vector<Snapshot> snapshots_;
+    std::vector<Moment> moments_;
     MeshSequence meshes_;
 };
 
@@ -192,6 +192,15 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     return result;
 }
 
+void draw(const RunCommand& options, const World& world, const std::shared_ptr<Device>& device,
+          const Runner& runner, RunResult& result)
+{
+    std::string why_not;
+    result.pictures = draw_pictures(world.scene(), device, runner.moments(), options.folder, why_not);
+    if (!why_not.empty())
+        result.messages.push_back(why_not);
+}
+
 RunResult simulate(const RunCommand& options, const Scene& scene, const std::shared_ptr<Device>& device,
                    const InterruptGuard& guard)
 {
@@ -207,7 +216,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const std::sha
     if (runner.done() < frames && sound(result.report.status))
         result.report.status = Status::interrupted;
     if (!options.no_picture && sound(result.report.status))
-        result.pictures = draw_pictures(world.scene(), runner.snapshots(), options.folder);
+        draw(options, world, device, runner, result);
     if (result.report.status == Status::completed && !guard.interrupted())
     {
         measure_residuals(world, device, result.report);

@@ -158,23 +158,54 @@ DynamicReference small_steps(const Question& q, std::size_t frames, std::string&
     }
 }
 
+/// Three runs side by side, longer and longer while they agree on every frame.
+class SelfConvergence
+{
+public:
+    explicit SelfConvergence(const Question& q) : q_(q)
+    {
+        for (const std::uint32_t substeps : kFine)
+            trials_.emplace_back(q.scene, double_device(q), Setting{substeps, 1, Precision::float64});
+    }
+
+    Refinement run(std::size_t frames)
+    {
+        for (std::size_t window = std::min(frames, kFirstWindow);; window = std::min(frames, 2 * window))
+        {
+            std::size_t least = window;
+            for (std::size_t l = 0; l < 3; ++l)
+            {
+                trials_[l].extend(motion_[l], window);
+                least = std::min(least, motion_[l].frames.size() - 1);
+            }
+            const auto level = [&](std::size_t l)
+            { return Frames(motion_[l].frames.begin(), motion_[l].frames.begin() + std::ptrdiff_t(least) + 1); };
+            const Refinement found = refine(q_.weights, level(0), level(1), level(2));
+            if (found.frames < window || window == frames)
+                return found;
+        }
+    }
+
+    Frames& finest() { return motion_[2].frames; }
+
+private:
+    const Question& q_;
+    std::vector<Trial> trials_;
+    std::array<Motion, 3> motion_;
+};
+
 CostReference self_motion(const Question& q, std::size_t frames, std::vector<std::string> passed)
 {
-    std::array<Frames, 3> level;
-    for (std::size_t l = 0; l < 3; ++l)
-        level[l] = Trial(q.scene, double_device(q), {kFine[l], 1, Precision::float64}).trajectory(frames).frames;
-    const std::size_t count = std::min({level[0].size(), level[1].size(), level[2].size()});
-    for (Frames& f : level)
-        f.resize(count);
-    const Refinement found = refine(q.weights, level[0], level[1], level[2]);
-    if (found.frames < std::min(frames, kFewest))
+    SelfConvergence runs(q);
+    const Refinement found = runs.run(frames);
+    if (found.frames == 0 || found.frames < std::min(frames, kFewest))
     {
         passed.push_back("R4: halving the substep converges for " + std::to_string(found.frames) +
                          " frames only");
         return none(std::move(passed));
     }
-    level[2].resize(found.frames + 1);
-    CostReference out{kSelf, "", std::move(passed), true, found.error, found.error_l, std::move(level[2])};
+    runs.finest().resize(found.frames + 1);
+    CostReference out{kSelf, "", std::move(passed), true, found.error, found.error_l, std::move(runs.finest())};
     out.text = "XPBD itself in double with 400 substeps x 1 iteration, halved twice, observed order " +
                number(found.order) + ", over " + frames_text(found.frames, q.model.timestep) +
                "; blind to errors that all its runs share.";

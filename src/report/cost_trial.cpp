@@ -72,12 +72,18 @@ bool Trial::advance(Motion& motion)
     return motion.reason.empty();
 }
 
+void Trial::extend(Motion& motion, std::size_t frames)
+{
+    if (motion.frames.empty())
+        motion.frames.push_back(x_);
+    while (motion.steps < frames && motion.reason.empty() && advance(motion))
+        motion.frames.push_back(x_);
+}
+
 Motion Trial::trajectory(std::size_t frames)
 {
     Motion out;
-    out.frames.push_back(x_);
-    while (out.steps < frames && advance(out))
-        out.frames.push_back(x_);
+    extend(out, frames);
     return out;
 }
 

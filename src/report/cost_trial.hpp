@@ -43,6 +43,8 @@ public:
     Trial(const Scene& resolved, std::shared_ptr<Device> device, const Setting& setting);
 
     Motion trajectory(std::size_t frames);
+    /// Goes on from where the motion of this trial stands until it has that many frames after the start.
+    void extend(Motion& motion, std::size_t frames);
     Motion settle(const RestRule& rule);
     /// Runs `frames` from the start again and again: 3 short runs to warm up, then at least 5 repetitions
     /// (fewer when `seconds` of wall time are over), more while they are short.

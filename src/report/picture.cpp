@@ -20,7 +20,7 @@ struct Colours
 
 /// One pair a body, in turn.
 constexpr Colours kBodies[] = {
-    {{0.20f, 0.44f, 0.64f}, {0.95f, 0.73f, 0.45f}}, // sea, sand
+    {{0.23f, 0.47f, 0.67f}, {0.95f, 0.75f, 0.48f}}, // sea, sand
     {{0.76f, 0.29f, 0.25f}, {0.93f, 0.80f, 0.66f}}, // brick, cream
     {{0.30f, 0.52f, 0.34f}, {0.82f, 0.84f, 0.55f}}, // moss, straw
     {{0.46f, 0.33f, 0.58f}, {0.88f, 0.74f, 0.86f}}, // plum, mallow
@@ -84,10 +84,9 @@ struct Fit
     double distance(double slope) const { return (high + low) / (2 * slope); }
 };
 
-Camera frame_camera(const Scene& scene, const std::vector<glm::dvec3>& points, double aspect)
+Camera frame_camera(const Scene& scene, const std::vector<glm::dvec3>& points, double aspect, double margin)
 {
     constexpr double kTurn = 0.55, kRise = 0.40; // radians: to the right, upwards
-    constexpr double kMargin = 1.15;
     Camera camera;
     const glm::dvec3 upright = up_of(scene);
     const glm::dvec3 front = across(upright);
@@ -96,7 +95,7 @@ Camera frame_camera(const Scene& scene, const std::vector<glm::dvec3>& points, d
                             std::sin(kRise) * upright; // from the scene to the camera
     const glm::dvec3 right = glm::normalize(glm::cross(upright, back));
     const glm::dvec3 up = glm::cross(back, right);
-    const double slope_y = std::tan(camera.fov / 2) / kMargin;
+    const double slope_y = std::tan(camera.fov / 2) / margin;
     const double slope_x = slope_y * aspect;
     Fit x, y;
     for (const glm::dvec3& p : points)
@@ -190,7 +189,8 @@ std::shared_ptr<Device> drawing(std::shared_ptr<Device> device)
 
 } // namespace
 
-Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width, std::uint32_t height)
+Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width, std::uint32_t height,
+                double margin)
 {
     const std::vector<glm::dvec3> points = points_of(resolved, moments);
     glm::dvec3 low = points.front(), high = low;
@@ -206,7 +206,7 @@ Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uin
     Shot shot;
     shot.width = width;
     shot.height = height;
-    shot.camera = frame_camera(resolved, points, double(width) / height);
+    shot.camera = frame_camera(resolved, points, double(width) / height, margin);
     shot.focus = focus;
     shot.radius = static_cast<float>(1.02 * radius);
     return shot;
@@ -323,7 +323,7 @@ std::vector<std::string> Pictures::write(const std::filesystem::path& folder)
 {
     const Image sheet = contact_sheet(); // first: it refuses when there is nothing to draw
     const std::span<const Moment> last(&moments_.back(), 1);
-    const Shot shot = frame_shot(scene_, last, options_.width, options_.height);
+    const Shot shot = frame_shot(scene_, last, options_.width, options_.height, 1.35);
     write_png(folder / "picture.png", draw(moments_.back(), shot));
     write_png(folder / "contact_sheet.png", sheet);
     return {"picture.png", "contact_sheet.png"};

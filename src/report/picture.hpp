@@ -27,9 +27,9 @@ struct PictureOptions
 };
 
 /// A three-quarter view from above (against gravity) that holds every vertex of every moment and every
-/// sphere. Positions that are not finite are left out.
+/// sphere; `margin` is the room around them, 1 = none. Positions that are not finite are left out.
 Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width,
-                std::uint32_t height);
+                std::uint32_t height, double margin = 1.15);
 
 /// Draws scenes. Not thread-safe.
 class Pictures

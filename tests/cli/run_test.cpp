@@ -185,6 +185,27 @@ TEST_CASE("a run whose result is not sound ends with status 1 and reports all th
     CHECK(report == program::parse(program::read(folder / "out/lost/report.json")));
 }
 
+TEST_CASE("pictures are PNG files, or a message says why there are none")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const Result result = folder.taut(
+        {"run", scene, "--device", "cpu:serial", "--frames", "3", "--out", folder / "o", "--json"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    const auto report = program::parse(result.out);
+    if (report["pictures"].empty())
+    {
+        const auto messages = report["messages"].get<std::vector<std::string>>();
+        CHECK(std::any_of(messages.begin(), messages.end(),
+                          [](const std::string& m) { return m.rfind("no pictures: ", 0) == 0; }));
+        return;
+    }
+    CHECK(report["pictures"] == nlohmann::json({"picture.png", "contact_sheet.png"}));
+    for (const char* name : {"o/picture.png", "o/contact_sheet.png"})
+        CHECK(program::read(folder / name).rfind("\x89PNG", 0) == 0);
+}
+
 TEST_CASE("an interrupted run ends with what is done: a whole report that says so")
 {
     const int signal = GENERATE(SIGINT, SIGTERM);

@@ -27,7 +27,7 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
     const double before = s.first_iteration ? 0 : s.multiplier[k];
     if (s.lambda)
         s.multiplier[k] = before;
-    if (length == 0 || wa + wb == 0)
+    if (length == 0 || wa + wb + soft == 0)
     {
         s.events[TAUT_EVENT_DEGENERATE] += s.report && wa + wb > 0 && rest > 0 ? 1 : 0;
         return;
@@ -100,17 +100,19 @@ void plant(Input<Real>& in)
     make_coincident(in, first[1].a, first[1].b); // already as its rest length wants: not counted
     masses(1, Real(1), Real(2));
     first[1].rest_length = 0;
-    masses(2, Real(0), Real(0)); // nothing can move: not counted
+    masses(2, Real(0), Real(0)); // nothing can move, only the multiplier: not counted
+    first[2].compliance = Real(1e-6);
+    masses(6, Real(0), Real(0)); // rigid between held ends: no multiplier either, not counted
+    first[6].compliance = 0;
     make_coincident(in, first[3].a, first[3].b); // neither
     masses(3, Real(0), Real(0));
     first[4].rest_length = 0; // pulls together
     masses(4, Real(1), Real(2));
     make_coincident(in, first[5].a, first[5].b); // one end free: counted
     masses(5, Real(0), Real(2));
-    masses(6, Real(0), Real(3)); // one end held
     first[7].compliance = Real(1e12); // as good as absent
     masses(7, Real(1e-6), Real(1)); // mass ratio of a million
-    masses(8, Real(1), Real(1e-6));
+    masses(8, Real(0), Real(3)); // one end held
     first[8].compliance = 0;
 }
 

