@@ -60,12 +60,12 @@ void project(uint k)
     real e2 = dot(e, e);
     real area1 = dot(n1, n1);
     real area2 = dot(n2, n2);
-    bool usable = area1 > REAL(1e-12) * e2 * dot(a, a) && area2 > REAL(1e-12) * e2 * dot(b, b);
+    bool shaped = area1 > REAL(1e-12) * e2 * dot(a, a) && area2 > REAL(1e-12) * e2 * dot(b, b);
 
     // Safe stand-ins keep every lane on one path; their result is dropped at `push`.
-    e2 = usable ? e2 : real(1);
-    area1 = usable ? area1 : real(1);
-    area2 = usable ? area2 : real(1);
+    e2 = shaped ? e2 : real(1);
+    area1 = shaped ? area1 : real(1);
+    area2 = shaped ? area2 : real(1);
     real edge = sqrt(e2);
     real angle = angle_of(dot(cross(n1, n2), e) / edge, dot(n1, n2));
     real value = angle - c.rest_angle;
@@ -80,7 +80,7 @@ void project(uint k)
     rvec3 g1 = g2 * -s2 + g3 * -s3;
 
     real weight = p0.w * dot(g0, g0) + p1.w * dot(g1, g1) + p2.w * dot(g2, g2) + p3.w * dot(g3, g3);
-    usable = usable && weight > real(0);
+    bool usable = shaped && weight > real(0); // held vertices alone may carry the gradient
     real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
     real total = usable ? weight + scaled : real(1);
 #if LAMBDA
@@ -94,7 +94,7 @@ void project(uint k)
     delta[c.edge1] = d1 + rvec4(g1 * (p1.w * dlambda), real(0));
     delta[c.wing0] = d2 + rvec4(g2 * (p2.w * dlambda), real(0));
     delta[c.wing1] = d3 + rvec4(g3 * (p3.w * dlambda), real(0));
-    if (report != 0u && !usable && p0.w + p1.w + p2.w + p3.w > real(0))
+    if (report != 0u && !shaped && p0.w + p1.w + p2.w + p3.w > real(0))
         COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
 }
 

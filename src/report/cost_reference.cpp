@@ -119,14 +119,21 @@ CostReference self_at_rest(const Question& q, std::vector<std::string> passed)
 
 // ---------------------------------------------------------------- moving
 
-/// Frames of R3 that the budget allows, at most `frames`; 0 = refused for another reason.
-std::size_t affordable(const Question& q, std::size_t frames, DynamicOptions options)
+/// Frames of R3 that the budget allows, at most `frames`; too few come with a reason.
+std::size_t affordable(const Question& q, std::size_t frames, DynamicOptions options, std::string& reason)
 {
-    options.max_element_steps = 0; // always refuses, but counts
+    const double budget = options.max_element_steps;
     options.duration = static_cast<double>(frames) * q.model.timestep;
-    const double wanted = solve_dynamic(q.model, options).element_steps;
-    const double share = wanted > 0 ? q.options.reference_steps / wanted : 1;
-    return share >= 1 ? frames : static_cast<std::size_t>(share * static_cast<double>(frames));
+    options.max_element_steps = 0; // refuses, but counts first
+    DynamicReference dry = solve_dynamic(q.model, options);
+    const double share = dry.element_steps > 0 ? std::min(1.0, budget / dry.element_steps) : 1;
+    const auto most = static_cast<std::size_t>(share * static_cast<double>(frames));
+    if (rigid_element_count(q.model) > 0)
+        reason = dry.reason;
+    else if (most < std::min(frames, kFewest))
+        reason = "too stiff for explicit steps: " + std::to_string(frames) + " frames need " +
+                 number(dry.element_steps) + " element steps, the budget is " + number(budget);
+    return most;
 }
 
 /// Grows the window while every frame of it is verified: swinging cloth is chaotic, and a long run
@@ -135,15 +142,12 @@ DynamicReference small_steps(const Question& q, std::size_t frames, std::string&
 {
     DynamicOptions options;
     options.safety = 0.5;
-    options.max_element_steps = std::numeric_limits<double>::infinity();
-    const std::size_t most = affordable(q, frames, options);
+    options.max_element_steps = q.options.reference_steps;
     DynamicReference best;
-    if (most < std::min(frames, kFewest))
-    {
-        best.reason = "too stiff for explicit steps within " + number(q.options.reference_steps) +
-                      " element steps";
+    const std::size_t most = affordable(q, frames, options, best.reason);
+    if (!best.reason.empty())
         return best;
-    }
+    options.max_element_steps = std::numeric_limits<double>::infinity(); // the windows keep to it
     stop = most < frames ? "the budget of reference steps ends there" : "";
     for (std::size_t window = std::min(most, kFirstWindow);; window = std::min(most, 2 * window))
     {

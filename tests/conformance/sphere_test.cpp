@@ -111,6 +111,7 @@ void plant(Contacts<Real>& in)
     put(10, V(half, zero, zero), one, V(Real(0.25), Real(0.25), zero)); // on the surface, leaving
     put(11, V(half, zero, zero), Real(0), V(zero));                // held exactly on the surface
     put(13, V(zero, Real(0.4999), zero), one, V(zero, Real(-4), zero)); // from a little inside through the ball
+    put(13, V(Real(0.49999), zero, zero), one, V(-two, zero, zero)); // a hair inside, into the ball: still outside
     put(12, V(-two, zero, zero), one, V(Real(1024), zero, zero));  // very fast
 }
 

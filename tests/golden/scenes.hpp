@@ -55,8 +55,10 @@ inline Scene star()
 {
     Scene scene = hanging();
     Body& body = scene.bodies[0];
-    for (std::uint32_t b = 20; b < 160; ++b)
-        body.springs.push_back({0, b, 0.75, 1e-4});
+    constexpr std::uint32_t kMiddle = 6 * 13 + 6; // of 13 by 13 vertices
+    for (std::uint32_t b = 0; b < 13 * 13; ++b)
+        if (b < kMiddle - 14 || b > kMiddle + 14) // not its neighbours, which have edges to it
+            body.springs.push_back({kMiddle, b, 0.5, 1e-4});
     return scene;
 }
 

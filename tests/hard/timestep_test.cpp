@@ -248,7 +248,7 @@ TEST_CASE("a time step of 1/10 s keeps cloth finite, above the floor and near it
             if (substeps == 10)
             {
                 CHECK(report.penetration < 0.01 * std::sqrt(2.0));
-                CHECK(report.max_stretch < 0.05);
+                CHECK(report.max_stretch < 0.1);
             }
         }
     });
