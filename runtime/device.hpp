@@ -63,6 +63,13 @@ struct DeviceCounters
     std::uint64_t validation_messages = 0;
 };
 
+/// Where a buffer's memory should lie. A wish: the answer never depends on it.
+enum class BufferUse
+{
+    device,       ///< read and written by kernels
+    host_written, ///< small, written by the host before a replay: Device::write then needs no submission
+};
+
 /// Device memory of fixed size. Contents are zero at first.
 class Buffer
 {
@@ -133,7 +140,8 @@ public:
     const DeviceLimits& limits() const { return info_.limits; }
 
     /// Zero-filled. Throws Error{limit} beyond limits().max_buffer_bytes, Error{bad_input} for 0 bytes.
-    virtual BufferPtr make_buffer(std::uint64_t bytes, std::string_view label) = 0;
+    virtual BufferPtr make_buffer(std::uint64_t bytes, std::string_view label,
+                                  BufferUse use = BufferUse::device) = 0;
 
     /// Host to device and back. Both wait for work in flight. Out of range: Error{bad_input}.
     virtual void write(const BufferPtr&, std::uint64_t offset, std::span<const std::byte>) = 0;

@@ -58,9 +58,8 @@ std::vector<std::uint32_t> compile(const fs::path& path)
 
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
     std::string complaint;
-    tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
-        complaint += std::string(message) + "\n";
-    });
+    tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                                 const char* message) { complaint += std::string(message) + "\n"; });
     if (!tools.Validate(spirv))
         throw std::runtime_error(path.string() + ": spirv-val rejects the module:\n" + complaint);
     return spirv;

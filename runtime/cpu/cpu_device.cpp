@@ -72,7 +72,7 @@ public:
         engine_->runner = make_runner(mode, options);
     }
 
-    BufferPtr make_buffer(std::uint64_t bytes, std::string_view label) override
+    BufferPtr make_buffer(std::uint64_t bytes, std::string_view label, BufferUse) override
     {
         if (bytes == 0)
             throw Error(ErrorCode::bad_input,

@@ -68,7 +68,7 @@ public:
         info_ = describe(*context_, spirv_);
     }
 
-    BufferPtr make_buffer(std::uint64_t bytes, std::string_view label) override;
+    BufferPtr make_buffer(std::uint64_t bytes, std::string_view label, BufferUse use) override;
     void write(const BufferPtr& buffer, std::uint64_t offset, std::span<const std::byte> data) override;
     void read(const BufferPtr& buffer, std::uint64_t offset, std::span<std::byte> data) override;
     std::unique_ptr<Recording> compile(RecordingDesc desc) override;
@@ -91,7 +91,7 @@ private:
     std::map<std::string, std::shared_ptr<Program>> programs_; // by text, kept for the next recording
 };
 
-BufferPtr GlDevice::make_buffer(std::uint64_t bytes, std::string_view label)
+BufferPtr GlDevice::make_buffer(std::uint64_t bytes, std::string_view label, BufferUse)
 {
     const std::string what = "buffer " + std::string(label);
     if (bytes == 0)

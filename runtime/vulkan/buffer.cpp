@@ -14,7 +14,8 @@ constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
 
 } // namespace
 
-VulkanBuffer::VulkanBuffer(std::shared_ptr<Context> owner, std::uint64_t bytes, std::string_view label)
+VulkanBuffer::VulkanBuffer(std::shared_ptr<Context> owner, std::uint64_t bytes, std::string_view label,
+                           BufferUse use)
     : Buffer(bytes),
       context(std::move(owner))
 {
@@ -28,7 +29,7 @@ VulkanBuffer::VulkanBuffer(std::shared_ptr<Context> owner, std::uint64_t bytes, 
     {
         VkMemoryRequirements needs = {};
         vk.vkGetBufferMemoryRequirements(context->device, handle, &needs);
-        allocation_ = context->memory->allocate(needs);
+        allocation_ = context->memory->allocate(needs, use == BufferUse::host_written);
         context->health.check(
             vk.vkBindBufferMemory(context->device, handle, allocation_.memory, allocation_.offset),
             "vkBindBufferMemory");

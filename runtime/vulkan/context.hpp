@@ -72,11 +72,14 @@ private:
 class VulkanBuffer final : public Buffer
 {
 public:
-    VulkanBuffer(std::shared_ptr<Context> context, std::uint64_t bytes, std::string_view label);
+    VulkanBuffer(std::shared_ptr<Context> context, std::uint64_t bytes, std::string_view label, BufferUse use);
     ~VulkanBuffer() override;
 
     std::shared_ptr<Context> context;
     VkBuffer handle = VK_NULL_HANDLE;
+
+    /// First byte in the host's address space; null for buffers that only the device touches.
+    std::byte* mapped() const { return allocation_.mapped; }
 
 private:
     void destroy();

@@ -22,7 +22,10 @@ using vulkan::DrawPush;
 using vulkan::DrawTargets;
 using vulkan::start;
 
-float linear(float value) { return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f); }
+float linear(float value)
+{
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
 glm::vec4 linear(const glm::vec3& c, float w) { return {linear(c.x), linear(c.y), linear(c.z), w}; }
 
 constexpr std::uint32_t kStrandFinish = 3; // kStrand of shaders/frame.glsl
@@ -90,8 +93,9 @@ void check_indices(const std::vector<std::uint32_t>& list, std::size_t group, st
                    const char* what)
 {
     if (list.size() % group != 0)
-        throw Error(ErrorCode::bad_input, std::string("Surface::") + what + " has " + std::to_string(list.size()) +
-                                              " entries, not a multiple of " + std::to_string(group));
+        throw Error(ErrorCode::bad_input, std::string("Surface::") + what + " has " +
+                                              std::to_string(list.size()) + " entries, not a multiple of " +
+                                              std::to_string(group));
     for (const std::uint32_t v : list)
         if (v >= vertices)
             throw Error(ErrorCode::bad_input, std::string("Surface::") + what + " names vertex " +
@@ -201,7 +205,8 @@ struct Renderer::Impl
                 writes[i].pBufferInfo = &infos[i];
             }
         }
-        context->vk.vkUpdateDescriptorSets(context->device, DrawPipelines::kBindings, writes.data(), 0, nullptr);
+        context->vk.vkUpdateDescriptorSets(context->device, DrawPipelines::kBindings, writes.data(), 0,
+                                           nullptr);
     }
 
     void push(VkCommandBuffer commands, const DrawPush& values) const
@@ -250,7 +255,8 @@ struct Renderer::Impl
         info.renderArea = {{0, 0}, size};
         info.clearValueCount = shadow ? 1 : 2;
         info.pClearValues = clear.data();
-        const VkViewport viewport = {0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1};
+        const VkViewport viewport = {0, 0, static_cast<float>(size.width), static_cast<float>(size.height),
+                                     0, 1};
         context->vk.vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
         context->vk.vkCmdSetViewport(commands, 0, 1, &viewport);
         context->vk.vkCmdSetScissor(commands, 0, 1, &info.renderArea);

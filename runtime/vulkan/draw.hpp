@@ -33,8 +33,8 @@ struct Surface
     std::vector<std::uint32_t> lines;     ///< two vertices each
     float line_radius = 0.005f;           ///< m
     Finish finish = Finish::cloth;
-    glm::vec3 front{0.8f}, back{0.8f};    ///< sRGB, 0..1
-    float cell = 0.25f;                   ///< ground: width of a cell of the checker, m
+    glm::vec3 front{0.8f}, back{0.8f}; ///< sRGB, 0..1
+    float cell = 0.25f;                ///< ground: width of a cell of the checker, m
 };
 
 struct Camera
@@ -47,9 +47,9 @@ struct Camera
 struct Shot
 {
     Camera camera;
-    std::uint32_t width = 1280, height = 960; ///< pixels
-    glm::vec3 focus{0};                       ///< m
-    float radius = 1;                         ///< m, > 0
+    std::uint32_t width = 1280, height = 960;                                    ///< pixels
+    glm::vec3 focus{0};                                                          ///< m
+    float radius = 1;                                                            ///< m, > 0
     glm::vec3 sky_top{0.955f, 0.965f, 0.975f}, sky_bottom{0.80f, 0.825f, 0.85f}; ///< sRGB, 0..1
 };
 

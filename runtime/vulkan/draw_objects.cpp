@@ -15,8 +15,7 @@ DrawObjects::~DrawObjects()
     Vk##Type handle = VK_NULL_HANDLE;                                                                        \
     context_->health.check(context_->vk.vkCreate##Type(context_->device, &(info), nullptr, &handle),         \
                            "vkCreate" #Type);                                                                \
-    destroy_.push_back(                                                                                      \
-        [c = context_.get(), handle] { c->vk.vkDestroy##Type(c->device, handle, nullptr); })
+    destroy_.push_back([c = context_.get(), handle] { c->vk.vkDestroy##Type(c->device, handle, nullptr); })
 
 VkDeviceMemory DrawObjects::image_memory(VkImage image)
 {
@@ -146,11 +145,10 @@ VkShaderModule DrawObjects::shader(std::span<const std::uint32_t> spirv)
 VkPipeline DrawObjects::pipeline(const VkGraphicsPipelineCreateInfo& info)
 {
     VkPipeline handle = VK_NULL_HANDLE;
-    context_->health.check(context_->vk.vkCreateGraphicsPipelines(context_->device, context_->cache, 1, &info,
-                                                                  nullptr, &handle),
-                           "vkCreateGraphicsPipelines");
-    destroy_.push_back(
-        [c = context_.get(), handle] { c->vk.vkDestroyPipeline(c->device, handle, nullptr); });
+    context_->health.check(
+        context_->vk.vkCreateGraphicsPipelines(context_->device, context_->cache, 1, &info, nullptr, &handle),
+        "vkCreateGraphicsPipelines");
+    destroy_.push_back([c = context_.get(), handle] { c->vk.vkDestroyPipeline(c->device, handle, nullptr); });
     return handle;
 }
 

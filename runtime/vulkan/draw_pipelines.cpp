@@ -38,7 +38,7 @@ constexpr VkAccessFlags kDepthAccess =
 struct Recipe
 {
     VkShaderModule vertex = VK_NULL_HANDLE, fragment = VK_NULL_HANDLE; ///< no fragment: the shadow map
-    bool positions = false;                                           ///< vertex input of four floats
+    bool positions = false;                                            ///< vertex input of four floats
     bool depth = true;
 };
 
@@ -51,15 +51,16 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits which, VkShaderModul
     return out;
 }
 
-VkPipeline make_pipeline(DrawObjects& objects, VkPipelineLayout layout, VkRenderPass pass, const Recipe& recipe)
+VkPipeline make_pipeline(DrawObjects& objects, VkPipelineLayout layout, VkRenderPass pass,
+                         const Recipe& recipe)
 {
     const bool shadow = recipe.fragment == VK_NULL_HANDLE;
     const std::array stages = {stage(VK_SHADER_STAGE_VERTEX_BIT, recipe.vertex),
                                stage(VK_SHADER_STAGE_FRAGMENT_BIT, recipe.fragment)};
     const VkVertexInputBindingDescription binding = {0, sizeof(glm::vec4), VK_VERTEX_INPUT_RATE_VERTEX};
     const VkVertexInputAttributeDescription attribute = {0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, 0};
-    auto input =
-        start<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    auto input = start<VkPipelineVertexInputStateCreateInfo>(
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     input.vertexBindingDescriptionCount = input.vertexAttributeDescriptionCount = recipe.positions ? 1 : 0;
     input.pVertexBindingDescriptions = &binding;
     input.pVertexAttributeDescriptions = &attribute;
@@ -76,8 +77,8 @@ VkPipeline make_pipeline(DrawObjects& objects, VkPipelineLayout layout, VkRender
     raster.depthBiasEnable = shadow ? VK_TRUE : VK_FALSE; // against a surface shadowing itself
     raster.depthBiasConstantFactor = 2;
     raster.depthBiasSlopeFactor = 2;
-    auto samples = start<VkPipelineMultisampleStateCreateInfo>(
-        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    auto samples =
+        start<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
     samples.rasterizationSamples = shadow ? VK_SAMPLE_COUNT_1_BIT : kSamples;
     auto depth = start<VkPipelineDepthStencilStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
@@ -155,8 +156,9 @@ void DrawPipelines::make_layouts()
 
 void DrawPipelines::make_shadow_pass()
 {
-    const VkAttachmentDescription map = attachment(kDepthFormat, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_STORE_OP_STORE,
-                                                   VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+    const VkAttachmentDescription map =
+        attachment(kDepthFormat, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_STORE_OP_STORE,
+                   VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
     const VkAttachmentReference depth = {0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass = {};
     subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;

@@ -9,6 +9,7 @@ namespace taut::vulkan {
 namespace {
 
 constexpr VkDeviceSize kFirstBlock = VkDeviceSize{16} << 20;
+constexpr VkDeviceSize kMappedBlock = VkDeviceSize{1} << 20;
 constexpr VkDeviceSize kLargestBlock = VkDeviceSize{64} << 20;
 
 VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment)
@@ -100,27 +101,40 @@ bool Memory::take(Block& block, const VkMemoryRequirements& requirements, Alloca
         const VkDeviceSize end = offset + requirements.size;
         if (end < start + bytes)
             block.free.emplace(end, start + bytes - end);
-        out = {block.memory, offset, requirements.size};
+        out = {block.memory, offset, requirements.size, block.mapped ? block.mapped + offset : nullptr};
         return true;
     }
     return false;
 }
 
-Allocation Memory::allocate(const VkMemoryRequirements& requirements)
+Memory::Block& Memory::add_mapped_block(std::uint32_t type, VkDeviceSize needed)
+{
+    Block& block = add_block(type, std::max(kMappedBlock, needed));
+    void* address = nullptr;
+    health_.check(vk_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &address), "vkMapMemory");
+    block.mapped = static_cast<std::byte*>(address);
+    return block;
+}
+
+Allocation Memory::allocate(const VkMemoryRequirements& requirements, bool mapped)
 {
     const std::lock_guard lock(mutex_);
-    const int type =
-        find_memory_type(properties_, requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    const VkMemoryPropertyFlags wanted =
+        mapped ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0;
+    const int type = find_memory_type(properties_, requirements.memoryTypeBits, wanted,
+                                      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     if (type < 0)
         throw Error(ErrorCode::out_of_memory, "the Vulkan device has no memory type for storage buffers");
     Allocation out;
     for (const auto& block : blocks_)
-        if (block->type == static_cast<std::uint32_t>(type) && take(*block, requirements, out))
+        if (block->type == static_cast<std::uint32_t>(type) && (block->mapped != nullptr) == mapped &&
+            take(*block, requirements, out))
             return out;
     // Beyond half a block, sharing would waste more than it saves.
     const auto type_index = static_cast<std::uint32_t>(type);
-    Block& block = requirements.size > kLargestBlock / 2 ? add_block(type_index, requirements.size)
-                                                         : add_shared_block(type_index, requirements.size);
+    Block& block = mapped ? add_mapped_block(type_index, requirements.size)
+                   : requirements.size > kLargestBlock / 2 ? add_block(type_index, requirements.size)
+                                                           : add_shared_block(type_index, requirements.size);
     [[maybe_unused]] const bool taken = take(block, requirements, out);
     assert(taken);
     return out;

@@ -4,6 +4,7 @@
 #include "taut/runtime/vulkan/result.hpp"
 #include "taut/runtime/vulkan/volk.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -18,6 +19,7 @@ struct Allocation
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     VkDeviceSize bytes = 0;
+    std::byte* mapped = nullptr; ///< first byte for the host, null if it cannot see the memory
 };
 
 /// The memory type that `bits` allows, with all of `wanted`, and of those the first with `preferred` as well.
@@ -35,8 +37,9 @@ public:
     Memory& operator=(const Memory&) = delete;
     ~Memory();
 
-    /// Device-local where possible. Throws Error{out_of_memory}.
-    Allocation allocate(const VkMemoryRequirements& requirements);
+    /// Device-local where possible; with `mapped`, coherent memory that stays mapped, of which there is
+    /// little on some devices. Throws Error{out_of_memory}.
+    Allocation allocate(const VkMemoryRequirements& requirements, bool mapped = false);
     void release(const Allocation& allocation);
 
     std::uint64_t block_count() const;
@@ -47,10 +50,12 @@ private:
         VkDeviceMemory memory = VK_NULL_HANDLE;
         VkDeviceSize bytes = 0;
         std::uint32_t type = 0;
+        std::byte* mapped = nullptr;
         std::map<VkDeviceSize, VkDeviceSize> free; ///< offset -> bytes, never touching each other
     };
 
     Block& add_block(std::uint32_t type, VkDeviceSize bytes);
+    Block& add_mapped_block(std::uint32_t type, VkDeviceSize needed);
     Block& add_shared_block(std::uint32_t type, VkDeviceSize needed);
     static bool take(Block& block, const VkMemoryRequirements& requirements, Allocation& out);
 

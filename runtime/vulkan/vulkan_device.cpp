@@ -3,6 +3,7 @@
 #include "taut/runtime/limits.hpp"
 #include "taut/runtime/vulkan/recording.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace taut {
@@ -30,7 +31,7 @@ public:
         context_->save_cache();
     }
 
-    BufferPtr make_buffer(std::uint64_t bytes, std::string_view label) override
+    BufferPtr make_buffer(std::uint64_t bytes, std::string_view label, BufferUse use) override
     {
         if (bytes == 0)
             throw Error(ErrorCode::bad_input,
@@ -39,12 +40,18 @@ public:
             throw Error(ErrorCode::limit, "buffer \"" + std::string(label) + "\" needs " +
                                               std::to_string(bytes) + " bytes, " + info_.name +
                                               " binds at most " + std::to_string(limits().max_buffer_bytes));
-        return std::make_shared<VulkanBuffer>(context_, bytes, label);
+        return std::make_shared<VulkanBuffer>(context_, bytes, label, use);
     }
 
     void write(const BufferPtr& buffer, std::uint64_t offset, std::span<const std::byte> data) override
     {
-        context_->transfer->upload(checked(buffer, offset, data.size()), offset, data);
+        const VkBuffer handle = checked(buffer, offset, data.size());
+        std::byte* const mapped = vulkan_buffer_of(buffer).mapped();
+        if (mapped == nullptr)
+            return context_->transfer->upload(handle, offset, data);
+        context_->health.require_alive();
+        context_->queue->wait_all(); // the step in flight may still read it
+        std::copy(data.begin(), data.end(), mapped + offset);
     }
 
     void read(const BufferPtr& buffer, std::uint64_t offset, std::span<std::byte> data) override

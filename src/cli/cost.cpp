@@ -1,11 +1,11 @@
 // taut cost: error against time over the settings of a method.
 
+#include "taut/report/cost.hpp"
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/interrupt.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/progress.hpp"
-#include "taut/report/cost.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <iostream>
@@ -49,10 +49,7 @@ CostOptions study_options(const CostCommand& command)
     return options;
 }
 
-std::string percent(const std::optional<double>& error)
-{
-    return error ? number(100 * *error, 3) : "-";
-}
+std::string percent(const std::optional<double>& error) { return error ? number(100 * *error, 3) : "-"; }
 
 std::string remarks(const CostPoint& point)
 {
@@ -64,9 +61,9 @@ std::string remarks(const CostPoint& point)
 
 std::string points_table(const CostStudy& study)
 {
-    std::vector<std::vector<std::string>> rows{
-        {"precision", "iterations", "substeps", study.metric + " %", "e_L %", "ms/s", "ms/s least", "CPU ms/s",
-         "sweeps/s", "remark"}};
+    std::vector<std::vector<std::string>> rows{{"precision", "iterations", "substeps", study.metric + " %",
+                                                "e_L %", "ms/s", "ms/s least", "CPU ms/s", "sweeps/s",
+                                                "remark"}};
     for (const CostPoint& point : study.points)
     {
         const auto timed = [&](double ms) { return point.error ? number(ms, 3) : std::string("-"); };
@@ -111,8 +108,7 @@ int cost(const CostCommand& command)
         make_folder(command.folder); // before minutes of work
     const InterruptGuard guard;
     std::optional<Progress> bar;
-    options.progress = [&](std::size_t done, std::size_t total)
-    {
+    options.progress = [&](std::size_t done, std::size_t total) {
         if (!bar)
             bar.emplace(total);
         bar->update(done);
@@ -132,7 +128,8 @@ int cost(const CostCommand& command)
 
 void add_cost(CLI::App& app, Command& chosen)
 {
-    CLI::App* command = app.add_subcommand("cost", "Measure error against time over the settings of a method");
+    CLI::App* command =
+        app.add_subcommand("cost", "Measure error against time over the settings of a method");
     const auto options = std::make_shared<CostCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
@@ -144,14 +141,16 @@ void add_cost(CLI::App& app, Command& chosen)
     auto* at_rest = command->add_flag("--static", options->at_rest, "Compare the state at rest");
     auto* moving = command->add_flag("--moving", options->moving, "Compare the trajectory");
     at_rest->excludes(moving);
-    command->add_option("--frames", options->frames, "Moving: frames compared at most (default: the scene's)");
+    command->add_option("--frames", options->frames,
+                        "Moving: frames compared at most (default: the scene's)");
     command->add_option("--rest-seconds", options->rest_seconds,
                         "Static: simulated seconds at most until rest (default: 30)");
     command->add_option("--timing-seconds", options->timing_seconds,
                         "Wall seconds after which a setting is not repeated (default: 2)");
     command->add_option("--reference-steps", options->reference_steps,
                         "Moving: steps times elements that the reference R3 may take (default: 1.5e9)");
-    command->add_option("--out", options->folder, "Folder for cost.csv, cost.json, cost.svg and cost_work.svg");
+    command->add_option("--out", options->folder,
+                        "Folder for cost.csv, cost.json, cost.svg and cost_work.svg");
     command->add_flag("--json", options->json, "Print the study as one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return cost(*options); }; });
 }

@@ -68,6 +68,7 @@ void prepare_motion(PlanBuilder& b)
         b.plan.delta = b.add_buffer("motion", "delta", n * sizeof(Vec));
         b.plan.step_values = b.add_buffer("motion", "step values", sizeof(layout::StepValues<Real>));
     });
+    b.plan.buffers[b.plan.step_values].host_written = true;
     b.plan.events = b.add_buffer("motion", "events", TAUT_EVENT_COUNT * sizeof(std::uint32_t));
     if (b.options.residuals)
         b.plan.predicted = b.add_buffer("motion", "predicted", n * 4 * b.real_size());
@@ -145,6 +146,7 @@ void prepare_pin_motion(PlanBuilder& b)
             }
     b.add_buffer<std::uint32_t>("pin_motion", "pin vertices", vertices);
     b.plan.pin_targets = b.add_buffer("pin_motion", "pin targets", vertices.size() * 8 * b.real_size());
+    b.plan.buffers[b.plan.pin_targets].host_written = true;
 }
 
 void record_pin_motion(PlanBuilder& b, const Moment& moment)
@@ -162,6 +164,7 @@ void prepare_plane(PlanBuilder& b)
     b.plan.planes = b.add_buffer("plane", "planes", count * with_real(b.plan.precision, [](auto zero) {
         return sizeof(layout::PlaneCollider<decltype(zero)>);
     }));
+    b.plan.buffers[b.plan.planes].host_written = true;
 }
 
 void prepare_sphere(PlanBuilder& b)
@@ -170,6 +173,7 @@ void prepare_sphere(PlanBuilder& b)
     b.plan.spheres = b.add_buffer("sphere", "spheres", count * with_real(b.plan.precision, [](auto zero) {
         return sizeof(layout::SphereCollider<decltype(zero)>);
     }));
+    b.plan.buffers[b.plan.spheres].host_written = true;
 }
 
 /// With one iteration a substep, what friction took so far is zero and needs no buffer.

@@ -3,12 +3,24 @@
 #include "taut/plan/builder.hpp"
 #include "taut/runtime/base/error.hpp"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <string_view>
 
 namespace taut {
 namespace {
+
+std::string shown(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
 
 /// The square of a substep's inverse must stay finite in single precision, also times a compliance.
 constexpr double kMinSubstep = 1e-15;
@@ -70,6 +82,33 @@ void check_settings(const Scene& scene, const DeviceTraits& traits)
     if (scene.method.precision == "double" && !traits.float64)
         throw Error(ErrorCode::unsupported,
                     "method.precision is \"double\", but the device has no 64-bit floats; use \"float\" or another device");
+}
+
+/// Single precision where it cannot show what happens: positions carry two floats, but a substep's fall must
+/// be above their last digit, and colliders and led vertices are placed by one float only.
+void warn_of_precision(const Scene& scene, PlanBuilder& builder)
+{
+    if (builder.plan.precision == Precision::float64)
+        return;
+    constexpr double kUnit = 0x1p-24;
+    double far = 0;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const glm::dvec3& x : builder.start)
+    {
+        far = std::max({far, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+        low = glm::min(low, x);
+        high = glm::max(high, x);
+    }
+    const double h = scene.timestep / scene.method.substeps, fall = glm::length(scene.gravity) * h * h;
+    const double last_digit = kUnit * kUnit * far;
+    std::vector<std::string>& warnings = builder.plan.warnings;
+    if (fall > 0 && last_digit > 0.25 * fall)
+        warnings.push_back("precision: a substep falls " + shown(fall) + " m, the last digit of a position is " +
+                           shown(last_digit) + " m; use double, longer substeps or places nearer the origin");
+    const bool placed = !scene.colliders.empty() || !builder.plan.moving_pins.empty();
+    if (placed && !builder.start.empty() && kUnit * far > 1e-4 * glm::length(high - low))
+        warnings.push_back("precision: colliders and led vertices are placed to " + shown(kUnit * far) +
+                           " m; use double or places nearer the origin");
 }
 
 /// The rows of the table that this scene calls for.
@@ -139,6 +178,7 @@ Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOpti
     for (const Effect* row : rows)
         if (row->prepare != nullptr && row->stage != Stage::predict)
             row->prepare(builder);
+    warn_of_precision(resolved, builder);
     record_step(builder, rows);
     builder.plan.barrier_before = derive_barriers(builder.plan.passes);
     return std::move(builder.plan);

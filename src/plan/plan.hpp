@@ -42,6 +42,7 @@ struct PlanBuffer
     std::string effect; ///< who asked for it
     std::uint64_t bytes = 0;
     std::vector<std::byte> initial; ///< empty = zero
+    bool host_written = false;      ///< new contents before every step
 };
 
 /// What one effect costs in one time step.

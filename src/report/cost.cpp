@@ -16,10 +16,12 @@ namespace {
 using cost::Motion;
 using cost::Trial;
 
-void check_options(const CostOptions& options)
+void check_input(const Scene& scene, const CostOptions& options)
 {
-    const auto bad = [](const std::vector<std::uint32_t>& list)
-    { return list.empty() || std::any_of(list.begin(), list.end(), [](auto n) { return n < 1 || n > 1000; }); };
+    const auto bad = [](const std::vector<std::uint32_t>& list) {
+        return list.empty() ||
+               std::any_of(list.begin(), list.end(), [](auto n) { return n < 1 || n > 1000; });
+    };
     if (bad(options.substeps))
         throw Error(ErrorCode::bad_input, "substeps to try must be a list of numbers from 1 to 1000.");
     if (bad(options.iterations))
@@ -28,20 +30,25 @@ void check_options(const CostOptions& options)
         throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
     if (!(options.rest_seconds >= 1 && options.rest_seconds <= 1e6))
         throw Error(ErrorCode::bad_input, "the seconds until rest must be from 1 to 1000000.");
+    if (scene.bodies.empty())
+        throw Error(ErrorCode::bad_input, "bodies is empty: there is nothing to measure; add a body.");
 }
 
 Scene resolved(const Scene& scene)
 {
     const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.mesh.positions.empty(); });
-    return done && !scene.bodies.empty() ? scene : resolve(scene);
+    return done ? scene : resolve(scene);
 }
 
 class Study
 {
 public:
     Study(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options)
-        : options_(options), device_(std::move(device)), scene_(resolved(scene)), model_(make_model(scene_)),
+        : options_(options),
+          device_(std::move(device)),
+          scene_(resolved(scene)),
+          model_(make_model(scene_)),
           weights_(error_weights(model_))
     {
         out_.scene = scene_.name;
@@ -50,6 +57,10 @@ public:
         out_.vertices = model_.mass.size();
         out_.constraints = model_.springs.size() + model_.hinges.size();
         out_.timestep = scene_.timestep;
+        if (!at_rest() && cost::wanted_frames(scene_, options) == 0)
+            throw Error(
+                ErrorCode::bad_input,
+                "duration is shorter than one time step: nothing moves; lengthen it or ask for frames.");
     }
 
     CostStudy run()
@@ -59,7 +70,8 @@ public:
         if (!at_rest() && out_.reference.verified)
             out_.frames = out_.reference.frames.size() - 1;
         choose_metric();
-        const std::size_t total = options_.precisions.size() * options_.iterations.size() * options_.substeps.size();
+        const std::size_t total =
+            options_.precisions.size() * options_.iterations.size() * options_.substeps.size();
         for (const Precision precision : options_.precisions)
             for (const std::uint32_t iterations : options_.iterations)
                 for (const std::uint32_t substeps : options_.substeps)
@@ -80,8 +92,9 @@ private:
     void choose_metric()
     {
         const auto& frames = out_.reference.frames;
-        const bool moves = std::any_of(frames.begin(), frames.end(), [&](const auto& x)
-                                       { return distance_by_mass(weights_, x, frames[0]) > 0; });
+        const bool moves = std::any_of(frames.begin(), frames.end(), [&](const auto& x) {
+            return distance_by_mass(weights_, x, frames[0]) > 0;
+        });
         out_.metric = !moves && !frames.empty() ? "e_L" : at_rest() ? "e_disp" : "e_traj";
         if (out_.metric == "e_L")
             out_.reference.error = out_.reference.error_l;
@@ -177,8 +190,7 @@ bool CostStudy::sound() const
 
 CostKind cost_kind(const Scene& scene)
 {
-    const auto held = [](const Body& body)
-    {
+    const auto held = [](const Body& body) {
         return !body.pins.empty() && std::all_of(body.pins.begin(), body.pins.end(),
                                                  [](const Pin& pin) { return pin.motion.empty(); });
     };
@@ -188,7 +200,7 @@ CostKind cost_kind(const Scene& scene)
 
 CostStudy run_cost(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options)
 {
-    check_options(options);
+    check_input(scene, options);
     return Study(scene, std::move(device), options).run();
 }
 

@@ -30,9 +30,9 @@ struct CostOptions
     CostKind kind = CostKind::automatic;
     /// Moving: frames compared at most; 0 = the scene's duration. A reference may verify fewer.
     std::size_t frames = 0;
-    double rest_seconds = 30;        ///< at rest: simulated s at most until it must rest
-    double timing_seconds = 2;       ///< wall s after which no further repetition of a setting starts
-    double reference_steps = 1.5e9;  ///< element steps of R3 at most; a core does about 1e8 a second
+    double rest_seconds = 30;       ///< at rest: simulated s at most until it must rest
+    double timing_seconds = 2;      ///< wall s after which no further repetition of a setting starts
+    double reference_steps = 1.5e9; ///< element steps of R3 at most; a core does about 1e8 a second
     /// Called before each setting; false stops, and what is left is a gap.
     std::function<bool(std::size_t done, std::size_t total)> progress;
 };
@@ -44,8 +44,8 @@ struct CostReference
     std::string text;                ///< one sentence: what it is and how far to trust it
     std::vector<std::string> passed; ///< why stronger classes were not taken
     bool verified = false;
-    std::optional<double> error;     ///< estimate of its own error, in the metric of the study
-    std::optional<double> error_l;   ///< the same as e_L
+    std::optional<double> error;                 ///< estimate of its own error, in the metric of the study
+    std::optional<double> error_l;               ///< the same as e_L
     std::vector<std::vector<glm::dvec3>> frames; ///< moving: start and every frame; at rest: start and rest
 };
 
@@ -65,8 +65,8 @@ struct CostPoint
     double ms = 0, ms_least = 0;          ///< per simulated second, wall: median and least of the repetitions
     std::optional<double> cpu_ms;         ///< the same in process time, median; software devices only
     std::size_t repetitions = 0;
-    double sweeps = 0;                    ///< per simulated second; one visit of every constraint = 1
-    bool pareto = false;                  ///< no other setting is cheaper and more accurate
+    double sweeps = 0;   ///< per simulated second; one visit of every constraint = 1
+    bool pareto = false; ///< no other setting is cheaper and more accurate
 };
 
 struct CostTarget

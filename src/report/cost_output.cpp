@@ -23,7 +23,10 @@ std::string number(double value, int digits = 6)
     return text;
 }
 
-const char* kind_word(const CostStudy& study) { return study.kind == CostKind::at_rest ? "static" : "moving"; }
+const char* kind_word(const CostStudy& study)
+{
+    return study.kind == CostKind::at_rest ? "static" : "moving";
+}
 
 Json setting_json(const CostPoint& point)
 {
@@ -137,10 +140,13 @@ std::string series_name(const CostPoint& point)
            (point.iterations == 1 ? " iteration" : " iterations");
 }
 
-PlotPoint plot_point(const CostPoint& point, CostAxis axis)
+PlotPoint plot_point(const CostPoint& point, CostAxis axis, double floor)
 {
     const double nothing = std::numeric_limits<double>::quiet_NaN();
-    PlotPoint out{nothing, nothing, std::to_string(point.substeps) + " x " + std::to_string(point.iterations)};
+    PlotPoint out;
+    out.x = out.y = nothing;
+    out.label = std::to_string(point.substeps) + " x " + std::to_string(point.iterations);
+    out.floor = floor;
     if (!point.error)
     {
         out.label += " (" + point.reason + ")";
@@ -163,7 +169,8 @@ std::vector<std::string> captions(const CostStudy& study, CostAxis axis)
         study.kind == CostKind::at_rest ? "at rest" : "over " + std::to_string(study.frames) + " frames";
     out.push_back("Errors " + span + "; " + std::to_string(study.vertices) + " vertices, " +
                   std::to_string(study.constraints) + " constraints; " + study.device.name + " (" +
-                  study.device.executor + "). Lines join settings of more and more substeps; labels are substeps x iterations.");
+                  study.device.executor +
+                  "). Lines join settings of more and more substeps; labels are substeps x iterations.");
     if (axis == CostAxis::time)
         out.push_back("Wall time of step and wait, median of repetitions after warm-up.");
     return out;
@@ -214,7 +221,7 @@ Plot cost_plot(const CostStudy& study, CostAxis axis)
     {
         if (plot.series.empty() || plot.series.back().name != series_name(point))
             plot.series.push_back({series_name(point), {}});
-        plot.series.back().points.push_back(plot_point(point, axis));
+        plot.series.back().points.push_back(plot_point(point, axis, 10 * study.reference.error.value_or(0)));
     }
     plot.caption = captions(study, axis);
     return plot;

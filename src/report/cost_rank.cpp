@@ -16,10 +16,7 @@ std::string number(double value)
 }
 
 /// What counts for ranking: nothing is told apart below ten times the reference's own error.
-double ranked_error(const CostPoint& point, double floor)
-{
-    return std::max(*point.error, floor);
-}
+double ranked_error(const CostPoint& point, double floor) { return std::max(*point.error, floor); }
 
 bool beats(const CostPoint& a, const CostPoint& b, double floor)
 {
@@ -50,8 +47,10 @@ void rank(CostStudy& study)
     for (CostPoint& point : study.points)
     {
         point.at_floor = point.error && *point.error < floor;
-        point.pareto = point.error && std::none_of(study.points.begin(), study.points.end(), [&](const CostPoint& other)
-                                                   { return other.error && beats(other, point, floor); });
+        point.pareto = point.error &&
+                       std::none_of(study.points.begin(), study.points.end(), [&](const CostPoint& other) {
+                           return other.error && beats(other, point, floor);
+                       });
     }
     study.targets.clear();
     for (const double tolerance : {0.1, 0.01, 0.001})
@@ -70,8 +69,9 @@ void rank(CostStudy& study)
 
 std::string setting_text(const CostPoint& point)
 {
-    const auto count = [](std::uint32_t n, const char* what)
-    { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); };
+    const auto count = [](std::uint32_t n, const char* what) {
+        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
     return count(point.substeps, "substep") + " x " + count(point.iterations, "iteration") + " in " +
            std::string(to_string(point.precision));
 }

@@ -16,7 +16,7 @@ namespace taut::cost {
 namespace {
 
 constexpr const char* kSelf = "R4 (self-convergence, same method)";
-constexpr std::size_t kFirstWindow = 15, kFewest = 6; // frames
+constexpr std::size_t kFirstWindow = 15, kFewest = 6;        // frames
 constexpr std::array<std::uint32_t, 3> kFine{100, 200, 400}; // substeps
 
 std::string number(double value)
@@ -88,7 +88,8 @@ CostReference newton(const Question& q, std::string& refusal)
     // Several equilibria: the one next to where the method rests is what it approximates.
     out.frames[1] = second.positions;
     out.error = out.error_l = std::nullopt;
-    out.text += ". The scene has several equilibria: this is the one nearest to where the method comes to rest.";
+    out.text +=
+        ". The scene has several equilibria: this is the one nearest to where the method comes to rest.";
     return out;
 }
 
@@ -182,8 +183,10 @@ public:
                 trials_[l].extend(motion_[l], window);
                 least = std::min(least, motion_[l].frames.size() - 1);
             }
-            const auto level = [&](std::size_t l)
-            { return Frames(motion_[l].frames.begin(), motion_[l].frames.begin() + std::ptrdiff_t(least) + 1); };
+            const auto level = [&](std::size_t l) {
+                const auto first = motion_[l].frames.begin();
+                return Frames(first, first + static_cast<std::ptrdiff_t>(least) + 1);
+            };
             const Refinement found = refine(q_.weights, level(0), level(1), level(2));
             if (found.frames < window || window == frames)
                 return found;
@@ -209,7 +212,8 @@ CostReference self_motion(const Question& q, std::size_t frames, std::vector<std
         return none(std::move(passed));
     }
     runs.finest().resize(found.frames + 1);
-    CostReference out{kSelf, "", std::move(passed), true, found.error, found.error_l, std::move(runs.finest())};
+    CostReference out{
+        kSelf, "", std::move(passed), true, found.error, found.error_l, std::move(runs.finest())};
     out.text = "XPBD itself in double with 400 substeps x 1 iteration, halved twice, observed order " +
                number(found.order) + ", over " + frames_text(found.frames, q.model.timestep) +
                "; blind to errors that all its runs share.";
@@ -218,12 +222,12 @@ CostReference self_motion(const Question& q, std::size_t frames, std::vector<std
 
 } // namespace
 
-Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half, const Frames& quarter)
+Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half,
+                  const Frames& quarter)
 {
     double first = 0, last = 0, moved = 0; // sums of squares
     Refinement out;
-    const auto squared = [&](const auto& a, const auto& b)
-    {
+    const auto squared = [&](const auto& a, const auto& b) {
         const double d = distance_by_mass(weights, a, b);
         return d * d;
     };
@@ -270,8 +274,9 @@ CostReference reference_of_motion(const Question& q)
         return self_motion(q, frames, {"R3: " + found.reason});
     found.frames.resize(found.verified_frames + 1);
     CostReference out{"R3", "", {}, true, found.error, found.largest_error, std::move(found.frames)};
-    out.text = "Explicit small steps in fp64 (" + number(found.step) + " s), own error " + number(found.error) +
-               " by halving, over " + frames_text(found.verified_frames, q.model.timestep);
+    out.text = "Explicit small steps in fp64 (" + number(found.step) + " s), own error " +
+               number(found.error) + " by halving, over " +
+               frames_text(found.verified_frames, q.model.timestep);
     out.text += stop.empty() || found.verified_frames == frames ? "." : "; " + stop + ".";
     return out;
 }

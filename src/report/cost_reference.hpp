@@ -32,6 +32,7 @@ struct Refinement
     double error_l = 0;     ///< the same as e_L at the last of these frames
 };
 /// Coarse, half the step, a quarter of it. Converges: observed order 0.7 to 2.3, last difference below 5 %.
-Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half, const Frames& quarter);
+Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half,
+                  const Frames& quarter);
 
 } // namespace taut::cost

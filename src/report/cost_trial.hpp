@@ -14,11 +14,11 @@ struct Setting
 
 struct Motion
 {
-    Frames frames;        ///< the start and every sound frame; after settle(): the start and the last
+    Frames frames; ///< the start and every sound frame; after settle(): the start and the last
     Status status = Status::completed;
-    std::string reason;   ///< why it is not sound, or not at rest
+    std::string reason; ///< why it is not sound, or not at rest
     std::size_t steps = 0;
-    bool rests = false;   ///< settle() only
+    bool rests = false; ///< settle() only
 };
 
 struct Timing
@@ -34,7 +34,7 @@ struct RestRule
 {
     ErrorWeights weights;
     const std::vector<glm::dvec3>* reference = nullptr; ///< x*; null: only the first bound
-    double seconds = 30; ///< simulated, at most
+    double seconds = 30;                                ///< simulated, at most
 };
 
 class Trial

@@ -27,7 +27,7 @@ constexpr Colours kBodies[] = {
     {{0.86f, 0.56f, 0.16f}, {0.44f, 0.40f, 0.38f}}, // amber, slate
 };
 constexpr glm::vec3 kSphere{0.80f, 0.79f, 0.77f};
-constexpr glm::vec3 kLightCell{0.885f, 0.885f, 0.88f}, kDarkCell{0.815f, 0.82f, 0.83f};
+constexpr glm::vec3 kLightCell{0.90f, 0.90f, 0.895f}, kDarkCell{0.83f, 0.835f, 0.845f};
 
 bool finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -130,7 +130,8 @@ Surface sphere_surface(const glm::dvec3& centre, double radius)
         {
             const double polar = glm::radians(180.0) * i / kRings;
             const double turn = glm::radians(360.0) * k / kSegments;
-            const glm::dvec3 n{std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)};
+            const glm::dvec3 n{std::sin(polar) * std::cos(turn), std::cos(polar),
+                               std::sin(polar) * std::sin(turn)};
             out.positions.emplace_back(glm::vec3(centre + radius * n), 1.0f);
         }
     for (std::uint32_t i = 0; i < kRings; ++i)
@@ -189,8 +190,8 @@ std::shared_ptr<Device> drawing(std::shared_ptr<Device> device)
 
 } // namespace
 
-Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width, std::uint32_t height,
-                double margin)
+Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width,
+                std::uint32_t height, double margin)
 {
     const std::vector<glm::dvec3> points = points_of(resolved, moments);
     glm::dvec3 low = points.front(), high = low;
@@ -220,7 +221,8 @@ Pictures::Pictures(Scene resolved, std::shared_ptr<Device> device, const Picture
     for (const Body& body : scene_.bodies)
         if (body.mesh.positions.empty())
             throw Error(ErrorCode::bad_input,
-                        "body \"" + body.name + "\" has no mesh to draw; give the scene that resolve() returns");
+                        "body \"" + body.name +
+                            "\" has no mesh to draw; give the scene that resolve() returns");
 }
 
 void Pictures::add(Moment moment) { moments_.push_back(std::move(moment)); }
@@ -253,7 +255,8 @@ std::vector<Surface> Pictures::cloth_in_place(const World& world) const
     for (std::size_t b = 0; b < world.scene().bodies.size(); ++b)
     {
         const std::uint32_t first = plan.body_start[b];
-        out.push_back(body_surface(world.scene().bodies[b], b, [&](std::uint32_t v) { return place_of[first + v]; }));
+        out.push_back(
+            body_surface(world.scene().bodies[b], b, [&](std::uint32_t v) { return place_of[first + v]; }));
         out.back().buffer = world.position_buffer();
     }
     return out;
@@ -264,7 +267,8 @@ void Pictures::add_colliders(std::vector<Surface>& surfaces, double time, const 
     for (const Collider& collider : scene_.colliders)
     {
         const glm::dvec3 point = pose(collider.motion, time, collider.point);
-        const glm::dvec3 ahead = pose(collider.motion, time, collider.point + glm::normalize(collider.normal));
+        const glm::dvec3 ahead =
+            pose(collider.motion, time, collider.point + glm::normalize(collider.normal));
         surfaces.push_back(collider.kind == ColliderKind::sphere
                                ? sphere_surface(point, collider.radius)
                                : plane_surface(point, glm::normalize(ahead - point), shot));
@@ -307,7 +311,8 @@ Image Pictures::contact_sheet()
     const std::uint32_t rows = (count + columns - 1) / columns;
     const std::uint32_t width = options_.cell_width, height = options_.cell_height;
     const Shot shot = frame_shot(scene_, moments_, width, height);
-    Image sheet = make_image(columns * (width + kGap) - kGap, rows * (height + kGap) - kGap, glm::u8vec3(255));
+    Image sheet =
+        make_image(columns * (width + kGap) - kGap, rows * (height + kGap) - kGap, glm::u8vec3(255));
     for (std::uint32_t i = 0; i < count; ++i)
     {
         Image cell = draw(moments_[i], shot);
@@ -319,12 +324,12 @@ Image Pictures::contact_sheet()
     return sheet;
 }
 
-std::vector<std::string> Pictures::write(const std::filesystem::path& folder)
+std::vector<std::string> Pictures::write(const std::filesystem::path& folder, const World* world)
 {
     const Image sheet = contact_sheet(); // first: it refuses when there is nothing to draw
     const std::span<const Moment> last(&moments_.back(), 1);
     const Shot shot = frame_shot(scene_, last, options_.width, options_.height, 1.35);
-    write_png(folder / "picture.png", draw(moments_.back(), shot));
+    write_png(folder / "picture.png", world != nullptr ? draw(*world, shot) : draw(moments_.back(), shot));
     write_png(folder / "contact_sheet.png", sheet);
     return {"picture.png", "contact_sheet.png"};
 }

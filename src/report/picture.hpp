@@ -52,9 +52,9 @@ public:
     /// All moments in rows, each with its time. Throws Error{bad_input} when there are none.
     Image contact_sheet();
 
-    /// Writes picture.png and contact_sheet.png and returns their names. Throws Error{io}, and
-    /// Error{bad_input} when there are no moments.
-    std::vector<std::string> write(const std::filesystem::path& folder);
+    /// Writes picture.png (of the last moment, or of `world` where it is now) and contact_sheet.png, and
+    /// returns their names. Throws Error{io}, and Error{bad_input} when there are no moments.
+    std::vector<std::string> write(const std::filesystem::path& folder, const World* world = nullptr);
 
     const Device& device() const { return *renderer_.device(); }
 

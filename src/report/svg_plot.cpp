@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 namespace taut {
 namespace {
@@ -210,13 +211,16 @@ std::vector<FrontPoint> pareto_front(const std::vector<PlotSeries>& series)
         for (std::size_t p = 0; p < series[s].points.size(); ++p)
             if (drawable(series[s].points[p]))
                 all.push_back({s, p});
-    const auto at = [&](const FrontPoint& f) -> const PlotPoint& { return series[f.series].points[f.point]; };
-    std::stable_sort(all.begin(), all.end(), [&](const FrontPoint& a, const FrontPoint& b)
-                     { return at(a).x != at(b).x ? at(a).x < at(b).x : at(a).y < at(b).y; });
+    const auto at = [&](const FrontPoint& f)
+    {
+        const PlotPoint& p = series[f.series].points[f.point];
+        return std::pair(p.x, std::max(p.y, p.floor));
+    };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const FrontPoint& a, const FrontPoint& b) { return at(a) < at(b); });
     std::vector<FrontPoint> out;
     for (const FrontPoint& f : all)
-        if (out.empty() || at(f).y < at(out.back()).y ||
-            (at(f).x == at(out.back()).x && at(f).y == at(out.back()).y))
+        if (out.empty() || at(f).second < at(out.back()).second || at(f) == at(out.back()))
             out.push_back(f);
     return out;
 }

@@ -12,6 +12,7 @@ struct PlotPoint
 {
     double x = 0, y = 0;  ///< in the units of the axes
     std::string label;    ///< what made it, e.g. "10 substeps x 1"; written at points of the front
+    double floor = 0;     ///< values of y below it count as equal on the front
 };
 
 struct PlotSeries

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -19,6 +20,7 @@ using scene_file::kMaxVertices;
 using scene_file::shown;
 
 constexpr double kMaxTimestep = 1;
+constexpr double kMinSubstep = 1e-15;
 constexpr double kMaxSteps = 1e9;
 constexpr std::uint32_t kMaxIterations = 1000;
 
@@ -50,6 +52,11 @@ void check_times(const Scene& scene, const Checker& out)
     if (!good)
         out.error("timestep",
                   "is " + shown(scene.timestep) + " s; it must be greater than 0 s and at most 1 s",
+                  ErrorCode::bad_timestep);
+    else if (scene.timestep / std::max(scene.method.substeps, 1u) < kMinSubstep)
+        out.error("timestep",
+                  "is " + shown(scene.timestep) + " s in " + std::to_string(scene.method.substeps) +
+                      " substeps; a substep must be at least 1e-15 s",
                   ErrorCode::bad_timestep);
     out.not_negative("duration", scene.duration, "s");
     if (good && scene.duration <= kMaxValue && scene.duration / scene.timestep > kMaxSteps)

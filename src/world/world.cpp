@@ -40,7 +40,8 @@ void World::Impl::create_buffers()
 {
     for (const PlanBuffer& buffer : plan.buffers)
     {
-        buffers.push_back(device->make_buffer(buffer.bytes, buffer.name));
+        buffers.push_back(device->make_buffer(buffer.bytes, buffer.name,
+                                              buffer.host_written ? BufferUse::host_written : BufferUse::device));
         if (!buffer.initial.empty())
             device->write(buffers.back(), 0, buffer.initial);
     }

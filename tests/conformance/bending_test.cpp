@@ -74,7 +74,8 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
     const double dlambda = -(value + soft * before) / (weight + soft);
     // A thin triangle turns with the rounding of its corners: that many times more of everything.
     const double shape = (size + inherited) / thin;
-    const double terms = (kPi * shape + soft * std::abs(before)) / (weight + soft) + std::abs(dlambda) * shape;
+    const double terms =
+        (kPi * shape + soft * std::abs(before)) / (weight + soft) + std::abs(dlambda) * shape;
     for (std::size_t v = 0; v < 4; ++v)
     {
         const glm::dvec3 g(angle.slope[3 * v], angle.slope[3 * v + 1], angle.slope[3 * v + 2]);
@@ -102,14 +103,16 @@ Corners random_hinge(Random& random)
     const glm::dvec3 up = glm::cross(e, side);
     const glm::dvec3 start(random.vec4<double>(1, 0));
     const auto wing = [&] {
-        const double angle = random.uniform(-kPi, kPi), far = random.uniform(0.4, 1.2), along = random.uniform(-0.2, 1.2);
+        const double angle = random.uniform(-kPi, kPi), far = random.uniform(0.4, 1.2),
+                     along = random.uniform(-0.2, 1.2);
         return start + e * along + (side * std::cos(angle) + up * std::sin(angle)) * far;
     };
     const glm::dvec3 first = wing(), second = wing();
     return {start, start + e * random.uniform(0.5, 1.5), first, second};
 }
 
-/// Adds a colour of `count` hinges with vertices of their own from `base` on, and returns the next free vertex.
+/// Adds a colour of `count` hinges with vertices of their own from `base` on, and returns the next free
+/// vertex.
 template <typename Real>
 void add_hinges(Input<Real>& in, Random& random, std::uint32_t count)
 {
@@ -128,7 +131,8 @@ void add_hinges(Input<Real>& in, Random& random, std::uint32_t count)
         // Not near half a turn from rest, where both ways are right.
         const double rest = std::remainder(hinge_angle(x).value + random.uniform(-2.8, 2.8), 2 * kPi);
         const Real compliance = static_cast<Real>(kCompliances[random.below(4)]);
-        in.constraint.push_back({base + at[0], base + at[1], base + at[2], base + at[3], static_cast<Real>(rest), compliance});
+        in.constraint.push_back(
+            {base + at[0], base + at[1], base + at[2], base + at[3], static_cast<Real>(rest), compliance});
         in.multiplier.push_back(random.uniform<Real>(-1e-3, 1e-3));
     }
     in.colour_start.push_back(static_cast<std::uint32_t>(in.constraint.size()));
@@ -164,16 +168,16 @@ void plant(Input<Real>& in, std::uint32_t colour)
 {
     const glm::dvec3 o(0), e(1, 0, 0), up(0.25, 1, 0), down(0.5, -1, 0), on_edge(0.5, 0, 0);
     const Special<Real> specials[] = {
-        {{o, e, on_edge, down}, 0.3, {1, 1, 1, 1}},  // wing on the edge: counted
-        {{o, e, up, o}, 0.3, {1, 1, 1, 1}},          // wing at a corner: counted
-        {{o, o, up, down}, 0.3, {1, 1, 1, 1}},       // no edge: counted
-        {{o, o, o, o}, 0.3, {1, 0, 0, 0}},           // a point: counted
-        {{o, e, on_edge, down}, 0.3, {0, 0, 0, 0}},  // held: not counted
-        {{o, e, up, down}, 0.3, {0, 0, 0, 0}},       // held, sound: counted as unusable only if it can move
-        {{o, e, up, down}, 0.0, {1, 1, 1, 1}},       // flat as it should be
-        {{o, e, up, down}, 0.5, {1, 2, 3, 4}},       // flat
-        {{o, e, up, up}, kPi, {1, 1, 1, 1}},         // folded as it should be
-        {{o, e, up, up}, -3.0, {1, 1, 1, 1}},        // folded, rest angle across the border
+        {{o, e, on_edge, down}, 0.3, {1, 1, 1, 1}}, // wing on the edge: counted
+        {{o, e, up, o}, 0.3, {1, 1, 1, 1}},         // wing at a corner: counted
+        {{o, o, up, down}, 0.3, {1, 1, 1, 1}},      // no edge: counted
+        {{o, o, o, o}, 0.3, {1, 0, 0, 0}},          // a point: counted
+        {{o, e, on_edge, down}, 0.3, {0, 0, 0, 0}}, // held: not counted
+        {{o, e, up, down}, 0.3, {0, 0, 0, 0}},      // held, sound: counted as unusable only if it can move
+        {{o, e, up, down}, 0.0, {1, 1, 1, 1}},      // flat as it should be
+        {{o, e, up, down}, 0.5, {1, 2, 3, 4}},      // flat
+        {{o, e, up, up}, kPi, {1, 1, 1, 1}},        // folded as it should be
+        {{o, e, up, up}, -3.0, {1, 1, 1, 1}},       // folded, rest angle across the border
         {{o, e, up, glm::dvec3(0.5, 1, 1e-3)}, -3.1, {1, 1, 0, 0}}, // nearly folded, wings held
         {{o, e, up, glm::dvec3(0.5, 1, -1e-3)}, 3.1, {0, 0, 1, 1}}, // the other way, edge held
     };
@@ -227,15 +231,16 @@ TEMPLATE_TEST_CASE("a hinge moves its four vertices by the XPBD formula", "", fl
     CAPTURE(count, mode.variant(), mode.first_iteration, mode.report, seed);
     Random random(seed);
     Input<Real> in;
-    for (const std::uint32_t n : {5u, count, 5u}) // before and after: other colours, which must not be touched
+    for (const std::uint32_t n :
+         {5u, count, 5u}) // before and after: other colours, which must not be touched
         add_hinges(in, random, n);
     in.groups = {{1, 2}};
     plant(in, 1);
     check_colours<Params>(kernels::bending::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
-TEMPLATE_TEST_CASE("the tail of a colouring gives what one bending dispatch per colour gives, bit for bit", "", float,
-                   double)
+TEMPLATE_TEST_CASE("the tail of a colouring gives what one bending dispatch per colour gives, bit for bit",
+                   "", float, double)
 {
     using Real = TestType;
     Mode mode;
@@ -257,8 +262,8 @@ TEMPLATE_TEST_CASE("the tail of a colouring gives what one bending dispatch per 
     check_tail_equals_dispatches<Params>(kernels::bending::info, in, mode, precision_of<Real>());
 }
 
-TEMPLATE_TEST_CASE("the first bending iteration with multipliers moves vertices bitwise as the one without", "", float,
-                   double)
+TEMPLATE_TEST_CASE("the first bending iteration with multipliers moves vertices bitwise as the one without",
+                   "", float, double)
 {
     using Real = TestType;
     const std::uint64_t seed = 860;
@@ -274,8 +279,8 @@ TEMPLATE_TEST_CASE("the first bending iteration with multipliers moves vertices 
 
 namespace {
 
-/// Hinges about the x axis whose angle is that of the vector (-y, -z) of the second wing; only that wing moves,
-/// rest angle zero. So one iteration leaves the multiplier -angle * (y^2 + z^2).
+/// Hinges about the x axis whose angle is that of the vector (-y, -z) of the second wing; only that wing
+/// moves, rest angle zero. So one iteration leaves the multiplier -angle * (y^2 + z^2).
 template <typename Real>
 Input<Real> angle_sweep(const std::vector<glm::dvec2>& wings)
 {
@@ -325,7 +330,8 @@ TEMPLATE_TEST_CASE("the angle is right to a few units of the last place all the 
     mode.lambda = true;
     const Precision precision = precision_of<Real>();
     const auto launches = colour_launches<Params>(kernels::bending::info, precision, mode, in);
-    const double absolute = sizeof(Real) == 8 ? 4e-15 : 1.5e-6; // four and a half units of the last place of pi
+    const double absolute =
+        sizeof(Real) == 8 ? 4e-15 : 1.5e-6; // four and a half units of the last place of pi
     const double relative = sizeof(Real) == 8 ? 4e-15 : 1.5e-6; // near flat: of the angle itself
     for (const std::string& selector : test_devices())
     {
@@ -337,7 +343,8 @@ TEMPLATE_TEST_CASE("the angle is right to a few units of the last place all the 
         double worst = 0, worst_relative = 0;
         for (std::size_t i = 0; i < multiplier.size(); ++i)
         {
-            const double y = static_cast<double>(in.position[4 * i + 3].y), z = static_cast<double>(in.position[4 * i + 3].z);
+            const double y = static_cast<double>(in.position[4 * i + 3].y),
+                         z = static_cast<double>(in.position[4 * i + 3].z);
             const double angle = std::atan2(-z, -y), found = -multiplier[i] / (y * y + z * z);
             const double error = std::abs(std::remainder(found - angle, 2 * kPi));
             worst = std::max(worst, error);
@@ -362,7 +369,8 @@ TEMPLATE_TEST_CASE("a hinge folded shut with a flat rest angle opens by a finite
             continue;
         CAPTURE(selector);
         const auto delta = values_of<glm::vec<4, Real>>(run(*device, launches, in.buffers()).at("delta"));
-        CHECK(std::abs(static_cast<double>(delta[3].z)) == Approx(kPi / 2)); // gradient 1, weight 1, compliance 1
+        CHECK(std::abs(static_cast<double>(delta[3].z)) ==
+              Approx(kPi / 2)); // gradient 1, weight 1, compliance 1
         CHECK((delta[3].x == 0 && std::abs(delta[3].y) < Real(1e-6)));
     }
 }

@@ -6,7 +6,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("damping scales every velocity by the factor of the substep and clears w", "", float, double)
+TEMPLATE_TEST_CASE("damping scales every velocity by the factor of the substep and clears w", "", float,
+                   double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
@@ -21,7 +22,8 @@ TEMPLATE_TEST_CASE("damping scales every velocity by the factor of the substep a
     Case c;
     c.precision = precision_of<Real>();
     c.in = {{"velocity", bytes_of(velocity)}, {"step_values", bytes_of(std::vector{step})}};
-    c.launches = {make_launch(kernels::damping::info("", c.precision), kernels::damping::Params{count}, count)};
+    c.launches = {
+        make_launch(kernels::damping::info("", c.precision), kernels::damping::Params{count}, count)};
     Field& expected = c.expected["velocity"];
     for (std::uint32_t i = 0; i < velocity.size(); ++i)
         for (int k = 0; k < 4; ++k)

@@ -34,7 +34,8 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
     }
     const double lambda = s.lambda ? before : 0;
     const double dlambda = -(length - rest + soft * lambda) / (wa + wb + soft);
-    // What was added: both ends' places, the rest length, the multiplier; a short d turns on its own rounding.
+    // What was added: both ends' places, the rest length, the multiplier; a short d turns on its own
+    // rounding.
     const double moved = glm::length(glm::dvec3(s.delta[c.a])) + glm::length(glm::dvec3(s.delta[c.b]));
     const double inherited = s.delta_scale[c.a] + s.delta_scale[c.b];
     const double size = length + moved + inherited;
@@ -50,7 +51,8 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
 
 /// Adds a colour: `count` constraints between random disjoint pairs of `vertices` vertices from `base` on.
 template <typename Real>
-void add_colour(Input<Real>& in, Random& random, std::uint32_t count, std::uint32_t base, std::uint32_t vertices)
+void add_colour(Input<Real>& in, Random& random, std::uint32_t count, std::uint32_t base,
+                std::uint32_t vertices)
 {
     const auto order = random.shuffled(vertices);
     static constexpr double kCompliances[] = {0, 1e-9, 1e-6, 1e-3};
@@ -83,7 +85,8 @@ void make_coincident(Input<Real>& in, std::uint32_t a, std::uint32_t b)
     in.delta[b] = glm::vec<4, Real>(glm::vec<3, Real>(in.delta[a]), in.delta[b].w);
 }
 
-/// The elements that divide by zero if nobody looks, at the front of the first colour, as far as there is room.
+/// The elements that divide by zero if nobody looks, at the front of the first colour, as far as there is
+/// room.
 template <typename Real>
 void plant(Input<Real>& in)
 {
@@ -111,8 +114,8 @@ void plant(Input<Real>& in)
     make_coincident(in, first[5].a, first[5].b); // one end free: counted
     masses(5, Real(0), Real(2));
     first[7].compliance = Real(1e12); // as good as absent
-    masses(7, Real(1e-6), Real(1)); // mass ratio of a million
-    masses(8, Real(0), Real(3)); // one end held
+    masses(7, Real(1e-6), Real(1));   // mass ratio of a million
+    masses(8, Real(0), Real(3));      // one end held
     first[8].compliance = 0;
 }
 
@@ -131,15 +134,16 @@ TEMPLATE_TEST_CASE("a distance constraint moves both ends by the XPBD formula", 
     Random random(seed);
     const std::uint32_t size = 2 * std::max(count, 5u) + 7;
     auto in = vertices<Real>(random, size);
-    for (const std::uint32_t n : {5u, count, 5u}) // before and after: other colours, which must not be touched
+    for (const std::uint32_t n :
+         {5u, count, 5u}) // before and after: other colours, which must not be touched
         add_colour(in, random, n, 0, size);
     in.groups = {{1, 2}};
     plant(in);
     check_colours<Params>(kernels::distance::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
-TEMPLATE_TEST_CASE("the tail of a colouring gives what one distance dispatch per colour gives, bit for bit", "", float,
-                   double)
+TEMPLATE_TEST_CASE("the tail of a colouring gives what one distance dispatch per colour gives, bit for bit",
+                   "", float, double)
 {
     using Real = TestType;
     Mode mode;
@@ -162,8 +166,8 @@ TEMPLATE_TEST_CASE("the tail of a colouring gives what one distance dispatch per
     check_colours<Params>(kernels::distance::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
-TEMPLATE_TEST_CASE("the first distance iteration with multipliers moves vertices bitwise as the one without", "", float,
-                   double)
+TEMPLATE_TEST_CASE("the first distance iteration with multipliers moves vertices bitwise as the one without",
+                   "", float, double)
 {
     using Real = TestType;
     const std::uint64_t seed = 660;
@@ -177,8 +181,9 @@ TEMPLATE_TEST_CASE("the first distance iteration with multipliers moves vertices
     check_first_iteration_equals_base<Params>(kernels::distance::info, in, precision_of<Real>());
 }
 
-TEMPLATE_TEST_CASE("ends a hair apart are moved along their direction or counted as degenerate, never to infinity", "",
-                   float, double)
+TEMPLATE_TEST_CASE(
+    "ends a hair apart are moved along their direction or counted as degenerate, never to infinity", "",
+    float, double)
 {
     using Real = TestType;
     const double gap = GENERATE(1e-30, 1e-20, 1e-18, 1e-10);
@@ -206,7 +211,8 @@ TEMPLATE_TEST_CASE("ends a hair apart are moved along their direction or counted
         const double rest = degenerate != 0 ? gap : 0.25, precision = may_skip ? 1e-3 : 1e-6;
         CHECK(static_cast<double>(delta[0].x - delta[1].x) == Approx(rest).epsilon(precision).margin(1e-40));
         if (degenerate == 0)
-            CHECK(static_cast<double>(delta[0].x) == Approx(0.0625).epsilon(precision)); // by inverse mass 1 : 3
+            CHECK(static_cast<double>(delta[0].x) ==
+                  Approx(0.0625).epsilon(precision)); // by inverse mass 1 : 3
         CHECK((delta[0].y == 0 && delta[0].z == 0 && delta[1].y == 0 && delta[1].z == 0));
     }
 }

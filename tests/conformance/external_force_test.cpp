@@ -6,8 +6,9 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("a force adds force over mass times the substep to the velocity, and nothing to held vertices", "",
-                   float, double)
+TEMPLATE_TEST_CASE(
+    "a force adds force over mass times the substep to the velocity, and nothing to held vertices", "", float,
+    double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
@@ -29,8 +30,8 @@ TEMPLATE_TEST_CASE("a force adds force over mass times the substep to the veloci
             {"force", bytes_of(force)},
             {"velocity", bytes_of(velocity)},
             {"step_values", bytes_of(std::vector{step})}};
-    c.launches = {
-        make_launch(kernels::external_force::info("", c.precision), kernels::external_force::Params{count}, count)};
+    c.launches = {make_launch(kernels::external_force::info("", c.precision),
+                              kernels::external_force::Params{count}, count)};
     Field& expected = c.expected["velocity"];
     for (std::uint32_t i = 0; i < velocity.size(); ++i)
         for (int k = 0; k < 4; ++k)

@@ -14,8 +14,8 @@ using Vec4s = std::vector<glm::vec<4, Real>>;
 /// One vertex as the file of methods has it: v = (x_new - x_old) / h, x = x_new; a step that is not finite or
 /// leaves the world is not taken.
 template <typename Real>
-void expect(const glm::vec<4, Real>& x, const glm::vec<4, Real>& low, const glm::vec<4, Real>& delta, double h,
-            Case& c)
+void expect(const glm::vec<4, Real>& x, const glm::vec<4, Real>& low, const glm::vec<4, Real>& delta,
+            double h, Case& c)
 {
     double size = 0;
     for (int k = 0; k < 3; ++k)
@@ -27,7 +27,8 @@ void expect(const glm::vec<4, Real>& x, const glm::vec<4, Real>& low, const glm:
         const double at = static_cast<double>(x[k]), lost = static_cast<double>(low[k]);
         const double step = taken ? static_cast<double>(delta[k]) : lost;
         c.expected["position"].add(at + step, std::abs(at + step));
-        c.expected["velocity"].add(taken ? (step - lost) / h : 0, taken ? (std::abs(step) + std::abs(lost)) / h : 0);
+        c.expected["velocity"].add(taken ? (step - lost) / h : 0,
+                                   taken ? (std::abs(step) + std::abs(lost)) / h : 0);
         // The remainder is less than half a unit of the position; its value has a test of its own below.
         c.expected["low"].add(0, std::abs(at + step));
         c.expected["delta"].add(taken ? static_cast<double>(delta[k]) : lost, 0);
@@ -53,8 +54,9 @@ void plant(Vec4s<Real>& delta, std::uint32_t count)
 
 } // namespace
 
-TEMPLATE_TEST_CASE("finish takes the displacement into position and velocity and drops one that is not finite", "", float,
-                   double)
+TEMPLATE_TEST_CASE(
+    "finish takes the displacement into position and velocity and drops one that is not finite", "", float,
+    double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
@@ -88,8 +90,8 @@ TEMPLATE_TEST_CASE("finish takes the displacement into position and velocity and
     check_on_every_device(c);
 }
 
-TEMPLATE_TEST_CASE("position and low together hold the sum of position and displacement without any loss", "", float,
-                   double)
+TEMPLATE_TEST_CASE("position and low together hold the sum of position and displacement without any loss", "",
+                   float, double)
 {
     using Real = TestType;
     // Multiples of 2^-62 below 1, so that 64-bit integers can add them exactly.
@@ -129,7 +131,9 @@ TEMPLATE_TEST_CASE("position and low together hold the sum of position and displ
         std::uint32_t exact = 0;
         for (std::uint32_t i = 0; i < count; ++i)
             for (int k = 0; k < 3; ++k)
-                exact += fixed(high[i][k]) + fixed(low[i][k]) == fixed(position[i][k]) + fixed(delta[i][k]) ? 1 : 0;
+                exact += fixed(high[i][k]) + fixed(low[i][k]) == fixed(position[i][k]) + fixed(delta[i][k])
+                             ? 1
+                             : 0;
         CHECK(exact == 3 * count);
     }
 }

@@ -13,10 +13,11 @@ using Constraint = layout::DistanceConstraint<Real>;
 template <typename Real>
 using Input = Colours<Real, Constraint>;
 
-/// Mass splitting: n copies of the hub with 1/n of its mass each solve one constraint; the hub moves by the mean
-/// of its copies.
+/// Mass splitting: n copies of the hub with 1/n of its mass each solve one constraint; the hub moves by the
+/// mean of its copies.
 template <typename Real>
-void solve_hub(State& s, const std::vector<Constraint<Real>>& constraint, std::uint32_t first, std::uint32_t n)
+void solve_hub(State& s, const std::vector<Constraint<Real>>& constraint, std::uint32_t first,
+               std::uint32_t n)
 {
     const std::uint32_t hub = constraint[first].a;
     const double w_copy = s.position[hub].w * n;
@@ -40,8 +41,10 @@ void solve_hub(State& s, const std::vector<Constraint<Real>>& constraint, std::u
         }
         const double total = w_copy + w + soft;
         const double dlambda = -(length - rest + soft * before) / total;
-        const double size = length + glm::length(glm::dvec3(s.delta[c.b])) + glm::length(glm::dvec3(s.delta[hub]));
-        const double terms = (size + rest + soft * std::abs(before)) / total + std::abs(dlambda) * size / length;
+        const double size =
+            length + glm::length(glm::dvec3(s.delta[c.b])) + glm::length(glm::dvec3(s.delta[hub]));
+        const double terms =
+            (size + rest + soft * std::abs(before)) / total + std::abs(dlambda) * size / length;
         copies += d * (w_copy * dlambda / length);
         copies_size += w_copy * terms;
         s.push(c.b, d * (-w * dlambda / length), w * terms);
@@ -67,7 +70,8 @@ Input<Real> star(std::uint32_t n, Real hub_weight, std::uint64_t seed)
     in.delta = random.vec4s<Real>(n + 6, 1e-2, 0, 1e-3);
     in.step.inverse_substep = Real(600);
     const auto add = [&](std::uint32_t a, std::uint32_t b) {
-        const Real rest = random.uniform<Real>(0.2, 2), compliance = random.chance(0.5) ? Real(0) : Real(1e-6);
+        const Real rest = random.uniform<Real>(0.2, 2),
+                   compliance = random.chance(0.5) ? Real(0) : Real(1e-6);
         in.constraint.push_back({a, b, rest, compliance});
         in.multiplier.push_back(random.uniform<Real>(-1e-3, 1e-3));
     };
@@ -99,7 +103,8 @@ void plant(Input<Real>& in, std::uint32_t n)
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a hub moves by the mean of its copies and every spoke by its own constraint", "", float, double)
+TEMPLATE_TEST_CASE("a hub moves by the mean of its copies and every spoke by its own constraint", "", float,
+                   double)
 {
     using Real = TestType;
     const std::uint32_t n = GENERATE(1u, 2u, 63u, 64u, 65u, 1000u, 10000u);
@@ -125,7 +130,8 @@ TEMPLATE_TEST_CASE("a hub moves by the mean of its copies and every spoke by its
     check_on_every_device(c);
 }
 
-TEMPLATE_TEST_CASE("the first hub iteration with multipliers moves vertices bitwise as the one without", "", float, double)
+TEMPLATE_TEST_CASE("the first hub iteration with multipliers moves vertices bitwise as the one without", "",
+                   float, double)
 {
     using Real = TestType;
     auto in = star<Real>(333, Real(0.5), 777);
@@ -137,8 +143,10 @@ TEMPLATE_TEST_CASE("the first hub iteration with multipliers moves vertices bitw
         if (!can_run(*device, precision))
             continue;
         CAPTURE(selector);
-        const Buffers a = run(*device, {make_launch(kernels::hub::info("", precision), params, 1)}, in.buffers());
-        const Buffers b = run(*device, {make_launch(kernels::hub::info("lambda", precision), params, 1)}, in.buffers());
+        const Buffers a =
+            run(*device, {make_launch(kernels::hub::info("", precision), params, 1)}, in.buffers());
+        const Buffers b =
+            run(*device, {make_launch(kernels::hub::info("lambda", precision), params, 1)}, in.buffers());
         CHECK(differing_buffers(a, b) == "");
     }
 }

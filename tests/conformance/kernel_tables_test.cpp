@@ -47,7 +47,8 @@ std::string text_of(const std::string& stem)
     return {};
 }
 
-std::shared_ptr<const CompiledKernel> compile(const std::string& text, Precision precision = Precision::float32)
+std::shared_ptr<const CompiledKernel> compile(const std::string& text,
+                                              Precision precision = Precision::float32)
 {
     return compile_kernel({"sample", text, {}, kernel_variants("sample", text).front(), precision});
 }
@@ -139,7 +140,8 @@ TEST_CASE("variants differ from the base kernel in their own bindings, and param
         const KernelInfo& base = find_kernel(kernel->name, "", kernel->precision);
         REQUIRE(kernel->params.size() == base.params.size());
         for (std::size_t i = 0; i < base.params.size(); ++i)
-            CHECK((kernel->params[i].name == base.params[i].name && kernel->params[i].offset == base.params[i].offset));
+            CHECK((kernel->params[i].name == base.params[i].name &&
+                   kernel->params[i].offset == base.params[i].offset));
         std::set<std::string_view> names;
         for (const BindingInfo& binding : kernel->bindings)
             names.insert(binding.name);
@@ -165,14 +167,17 @@ TEST_CASE("flattened text has no include and no REAL left")
 
 TEST_CASE("REAL becomes a literal with all its digits in the precision of the kernel")
 {
-    const std::string text = kHead + "WRITE(0, real, result);\nKERNEL(count) { result[i] = REAL(0.1) * REAL(1e-3); }\n";
+    const std::string text =
+        kHead + "WRITE(0, real, result);\nKERNEL(count) { result[i] = REAL(0.1) * REAL(1e-3); }\n";
     CHECK(contains(std::string(compile(text)->info.glsl), "result[i] = (0.1f) * (1e-3f);"));
-    CHECK(contains(std::string(compile(text, Precision::float64)->info.glsl), "result[i] = (0.1lf) * (1e-3lf);"));
+    CHECK(contains(std::string(compile(text, Precision::float64)->info.glsl),
+                   "result[i] = (0.1lf) * (1e-3lf);"));
 }
 
 TEST_CASE("a variant line gives its macros to the variant and 0 to every other one")
 {
-    const auto variants = kernel_variants("sample", "//! variant fast FAST=1 WIDTH=4\n//! variant safe SAFE=1\n");
+    const auto variants =
+        kernel_variants("sample", "//! variant fast FAST=1 WIDTH=4\n//! variant safe SAFE=1\n");
     REQUIRE(variants.size() == 3);
     const auto value = [](const KernelVariant& variant, const std::string& macro) {
         for (const auto& [name, text] : variant.defines)
@@ -208,7 +213,8 @@ TEST_CASE("a variant line without a value is refused with its text")
 
 TEST_CASE("a text that does not compile is refused with file and line")
 {
-    const std::string text = kHead + "WRITE(0, real, result);\nKERNEL(count)\n{\n    result[i] = no_such_name;\n}\n";
+    const std::string text =
+        kHead + "WRITE(0, real, result);\nKERNEL(count)\n{\n    result[i] = no_such_name;\n}\n";
     const std::string what = refusal(text);
     CHECK(contains(what, "sample.comp:6"));
     CHECK(contains(what, "no_such_name"));
@@ -218,10 +224,12 @@ TEST_CASE("a mistake in an include is reported at the include's own line")
 {
     const auto folder = std::filesystem::temp_directory_path() / "taut_kernel_tables_test";
     std::filesystem::create_directories(folder / "shared");
-    std::ofstream(folder / "shared" / "part.glsl") << "// a comment\n\nreal half_of(real x) { return x / two; }\n";
+    std::ofstream(folder / "shared" / "part.glsl")
+        << "// a comment\n\nreal half_of(real x) { return x / two; }\n";
     std::ofstream(folder / "shared" / "portable.glsl") << builtin_include("shared/portable.glsl");
-    const std::string text = "#include \"shared/portable.glsl\"\n#include \"shared/part.glsl\"\nPARAMS { uint count; };\n"
-                             "WRITE(0, real, result);\nKERNEL(count) { result[i] = half_of(real(1)); }\n";
+    const std::string text =
+        "#include \"shared/portable.glsl\"\n#include \"shared/part.glsl\"\nPARAMS { uint count; };\n"
+        "WRITE(0, real, result);\nKERNEL(count) { result[i] = half_of(real(1)); }\n";
     std::string what;
     try
     {
@@ -249,7 +257,8 @@ TEST_CASE("slots with a gap, too many buffers and vector parameters are refused 
     CHECK(contains(gap, "slot 1"));
     CHECK(contains(gap, "sample"));
 
-    std::string many = kHead + "READ(0, real, first);\nWRITE(1, real, result);\n", sum = "KERNEL(count) { result[i] = first[i]";
+    std::string many = kHead + "READ(0, real, first);\nWRITE(1, real, result);\n",
+                sum = "KERNEL(count) { result[i] = first[i]";
     for (int slot = 2; slot < 9; ++slot)
     {
         const std::string name = "more" + std::to_string(slot);
@@ -260,9 +269,10 @@ TEST_CASE("slots with a gap, too many buffers and vector parameters are refused 
     CHECK(contains(nine, "9"));
     CHECK(contains(nine, "limit is 8"));
 
-    const std::string vector = refusal("#include \"shared/portable.glsl\"\nPARAMS { uint count; vec4 wind; };\n"
-                                       "READ(0, real, first);\nWRITE(1, real, result);\n"
-                                       "KERNEL(count) { result[i] = first[i] * wind.x; }\n");
+    const std::string vector =
+        refusal("#include \"shared/portable.glsl\"\nPARAMS { uint count; vec4 wind; };\n"
+                "READ(0, real, first);\nWRITE(1, real, result);\n"
+                "KERNEL(count) { result[i] = first[i] * wind.x; }\n");
     CHECK(contains(vector, "wind"));
     CHECK(contains(vector, "32-bit"));
 }
@@ -290,8 +300,8 @@ TEST_CASE("a kernel compiled at run time has the tables of the same kernel compi
 
 TEST_CASE("a kernel compiled at run time runs on every device that takes texts, and is refused on the others")
 {
-    const std::string text =
-        kHead + "READ(0, real, first);\nWRITE(1, real, result);\nKERNEL(count) { result[i] = first[i] * REAL(0.5); }\n";
+    const std::string text = kHead + "READ(0, real, first);\nWRITE(1, real, result);\nKERNEL(count) { "
+                                     "result[i] = first[i] * REAL(0.5); }\n";
     const auto kernel = compile(text);
     struct Params
     {
@@ -301,7 +311,8 @@ TEST_CASE("a kernel compiled at run time runs on every device that takes texts, 
     {
         CAPTURE(selector);
         const auto device = test_device(selector);
-        const BufferPtr first = device->make_buffer(65 * 4, "first"), result = device->make_buffer(65 * 4, "result");
+        const BufferPtr first = device->make_buffer(65 * 4, "first"),
+                        result = device->make_buffer(65 * 4, "result");
         device->write<float>(first, std::vector<float>(65, 3));
         Recorder recorder(device);
         recorder.dispatch(kernel->info, {first, result}, Params{65}, 65);

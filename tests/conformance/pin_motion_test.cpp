@@ -6,8 +6,9 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("a moving pin is on the line between its two places, and at the second one after the last substep",
-                   "", float, double)
+TEMPLATE_TEST_CASE(
+    "a moving pin is on the line between its two places, and at the second one after the last substep", "",
+    float, double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
@@ -40,11 +41,13 @@ TEMPLATE_TEST_CASE("a moving pin is on the line between its two places, and at t
     for (std::uint32_t i = 0; i < count; ++i)
         for (int k = 0; k < 3; ++k)
         {
-            const double from = static_cast<double>(target[2 * i][k]), to = static_cast<double>(target[2 * i + 1][k]);
+            const double from = static_cast<double>(target[2 * i][k]),
+                         to = static_cast<double>(target[2 * i + 1][k]);
             const double at = static_cast<double>(position[vertex[i]][k]);
             const double part = (substep + 1.0) / substeps;
             expected.value[4 * vertex[i] + static_cast<std::size_t>(k)] = (1 - part) * from + part * to - at;
-            expected.scale[4 * vertex[i] + static_cast<std::size_t>(k)] = std::abs(from) + std::abs(to) + std::abs(at);
+            expected.scale[4 * vertex[i] + static_cast<std::size_t>(k)] =
+                std::abs(from) + std::abs(to) + std::abs(at);
         }
     check_on_every_device(c);
 }

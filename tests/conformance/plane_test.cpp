@@ -12,15 +12,18 @@ template <typename Real>
 using Plane = layout::PlaneCollider<Real>;
 
 template <typename Real>
-Plane<Real> make_plane(const glm::dvec3& normal, double start, double end, const glm::dvec3& shift, double friction)
+Plane<Real> make_plane(const glm::dvec3& normal, double start, double end, const glm::dvec3& shift,
+                       double friction)
 {
     const auto r = [](double x) { return static_cast<Real>(x); };
-    return {r(normal.x), r(normal.y), r(normal.z), r(start), r(end), r(shift.x), r(shift.y), r(shift.z), r(friction)};
+    return {r(normal.x), r(normal.y), r(normal.z), r(start),   r(end),
+            r(shift.x),  r(shift.y),  r(shift.z),  r(friction)};
 }
 
 /// Half-space {x : n.x >= offset}; the offset and the drag move linearly over the substeps.
 template <typename Real>
-Touch touch_plane(const Plane<Real>& c, const Contacts<Real>& in, const glm::dvec3& x, const glm::dvec3& d, double kept)
+Touch touch_plane(const Plane<Real>& c, const Contacts<Real>& in, const glm::dvec3& x, const glm::dvec3& d,
+                  double kept)
 {
     const auto r = [](Real v) { return static_cast<double>(v); };
     const double start = r(c.offset_start), end = r(c.offset_end), steps = in.substeps;
@@ -32,13 +35,14 @@ Touch touch_plane(const Plane<Real>& c, const Contacts<Real>& in, const glm::dve
     t.gap = glm::dot(t.normal, x + d) - there - kept;
     t.shift = glm::dvec3(r(c.shift_x), r(c.shift_y), r(c.shift_z)) / steps;
     t.friction = r(c.friction);
-    t.size = glm::length(x) + glm::length(d) + std::abs(here) + std::abs(there - here) + kept + glm::length(t.shift);
+    t.size = glm::length(x) + glm::length(d) + std::abs(here) + std::abs(there - here) + kept +
+             glm::length(t.shift);
     return t;
 }
 
 template <typename Real>
-void check_planes(const Contacts<Real>& in, const std::vector<Plane<Real>>& planes, const std::string& variant,
-                  bool first_iteration, bool report)
+void check_planes(const Contacts<Real>& in, const std::vector<Plane<Real>>& planes,
+                  const std::string& variant, bool first_iteration, bool report)
 {
     const KernelInfo& kernel = kernels::plane::info(variant, precision_of<Real>());
     const Params params{in.count, in.colliders, in.substep, in.substeps, first_iteration, report};
@@ -63,17 +67,19 @@ void plant(Contacts<Real>& in, const Plane<Real>& ground)
     const Real zero(0), quarter(0.25);
     put(0, zero, Real(1), {zero, Real(-0.125), zero, zero});
     put(1, zero, Real(1), {zero, zero, zero, zero});
-    put(2, zero, Real(0), {zero, zero, zero, zero}); // held exactly on the surface of ground: fine
-    put(3, -quarter, Real(0), {zero, zero, zero, zero}); // held below: a conflict
-    put(4, -quarter, Real(1), {zero, zero, zero, zero}); // comes out by depenetration only
+    put(2, zero, Real(0), {zero, zero, zero, zero});           // held exactly on the surface of ground: fine
+    put(3, -quarter, Real(0), {zero, zero, zero, zero});       // held below: a conflict
+    put(4, -quarter, Real(1), {zero, zero, zero, zero});       // comes out by depenetration only
     put(5, Real(-0.03125), Real(1), {zero, zero, zero, zero}); // comes out at once
-    put(6, Real(0.015625), Real(1), {quarter, Real(-0.0625), zero, Real(0.015625)}); // lands at the gap kept, slides
+    put(6, Real(0.015625), Real(1),
+        {quarter, Real(-0.0625), zero, Real(0.015625)});       // lands at the gap kept, slides
     put(7, zero, Real(1), {Real(1), Real(-1), Real(2), zero}); // lands fast and slides
 }
 
 } // namespace
 
-TEMPLATE_TEST_CASE("vertices end above every plane, and friction takes sliding up to its cone", "", float, double)
+TEMPLATE_TEST_CASE("vertices end above every plane, and friction takes sliding up to its cone", "", float,
+                   double)
 {
     using Real = TestType;
     const std::string variant = GENERATE("", "friction", "friction_kept");
@@ -94,7 +100,8 @@ TEMPLATE_TEST_CASE("vertices end above every plane, and friction takes sliding u
         const glm::dvec3 normal = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
         const glm::dvec3 shift(random.vec4<double>(0.2, 0));
         const double start = random.uniform(-1, -0.3);
-        planes.push_back(make_plane<Real>(normal, start, start + random.uniform(-0.2, 0.2), shift, random.uniform(0, 1)));
+        planes.push_back(
+            make_plane<Real>(normal, start, start + random.uniform(-0.2, 0.2), shift, random.uniform(0, 1)));
     }
     plant(in, planes.front());
     check_planes(in, planes, variant, first_iteration, report);
@@ -109,8 +116,8 @@ TEMPLATE_TEST_CASE("a plane without colliders changes nothing", "", float, doubl
     check_planes(in, planes, GENERATE("", "friction", "friction_kept"), true, true);
 }
 
-TEMPLATE_TEST_CASE("on a plane, friction holds a vertex inside the cone and slows one outside by the push", "", float,
-                   double)
+TEMPLATE_TEST_CASE("on a plane, friction holds a vertex inside the cone and slows one outside by the push",
+                   "", float, double)
 {
     using Real = TestType;
     const double pressed = 0.25, slides = GENERATE(0.0625, 0.5);
@@ -121,7 +128,8 @@ TEMPLATE_TEST_CASE("on a plane, friction holds a vertex inside the cone and slow
     in.delta = {{static_cast<Real>(slides), static_cast<Real>(-pressed), Real(0), Real(0)}};
     in.contact = {glm::vec<4, Real>(Real(0))};
     const std::vector planes{make_plane<Real>({0, 1, 0}, 0, 0, {0, 0, 0}, 0.5)};
-    const Launch launch = make_launch(kernels::plane::info("friction", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+    const Launch launch =
+        make_launch(kernels::plane::info("friction", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);

@@ -30,7 +30,8 @@ struct Input
         plant(count);
     }
 
-    /// Held and fast; too fast; exactly on the limit (no gravity along x would be needed: just below); not a number.
+    /// Held and fast; too fast; exactly on the limit (no gravity along x would be needed: just below); not a
+    /// number.
     void plant(std::uint32_t count)
     {
         const auto put = [&](std::uint32_t i, Real w, glm::vec<4, Real> v) {
@@ -70,7 +71,8 @@ void expect(const Input<Real>& in, std::uint32_t i, Field& field, Events& events
     for (int k = 0; k < 3; ++k)
     {
         const double low = d(in.low[i][k]);
-        const double size = std::isnan(square) ? 0 : std::abs(v[k] * factor * h) + std::abs(gravity[k]) * h * h;
+        const double size =
+            std::isnan(square) ? 0 : std::abs(v[k] * factor * h) + std::abs(gravity[k]) * h * h;
         field.add(held ? low : v[k] * factor * h + low, held ? 0 : size + std::abs(low));
     }
     field.add(d(in.low[i].w), 0);
@@ -78,8 +80,9 @@ void expect(const Input<Real>& in, std::uint32_t i, Field& field, Events& events
 
 } // namespace
 
-TEMPLATE_TEST_CASE("predict moves free vertices along their velocity, limits speed, and carries what rounding lost", "",
-                   float, double)
+TEMPLATE_TEST_CASE(
+    "predict moves free vertices along their velocity, limits speed, and carries what rounding lost", "",
+    float, double)
 {
     using Real = TestType;
     const std::string variant = GENERATE("", "kept");
@@ -98,7 +101,8 @@ TEMPLATE_TEST_CASE("predict moves free vertices along their velocity, limits spe
             {"predicted", bytes_of(before)},
             {"step_values", bytes_of(std::vector{in.step})},
             {"events", no_events()}};
-    c.launches = {make_launch(kernels::predict::info(variant, c.precision), kernels::predict::Params{count}, count)};
+    c.launches = {
+        make_launch(kernels::predict::info(variant, c.precision), kernels::predict::Params{count}, count)};
     Field& expected = c.expected["delta"];
     for (std::uint32_t i = 0; i < count; ++i)
         expect(in, i, expected, c.events);

@@ -18,8 +18,9 @@ Sphere<Real> make_sphere(const glm::dvec3& start, const glm::dvec3& end, double 
     return {r(start.x), r(start.y), r(start.z), r(end.x), r(end.y), r(end.z), r(radius), r(friction)};
 }
 
-/// The first time in [0, 1] at which a point on the way from `a` to `e` enters the ball of radius r about 0, by
-/// bisection; 2 if it does not, or starts inside by more than r / 2000. `doubtful` when a rounding could decide otherwise.
+/// The first time in [0, 1] at which a point on the way from `a` to `e` enters the ball of radius r about 0,
+/// by bisection; 2 if it does not, or starts inside by more than r / 2000. `doubtful` when a rounding could
+/// decide otherwise.
 double time_of_entry(const glm::dvec3& a, const glm::dvec3& e, double r, bool& doubtful)
 {
     const auto outside = [&](double t) { return glm::length(a + (e - a) * t) - r; };
@@ -45,7 +46,8 @@ double time_of_entry(const glm::dvec3& a, const glm::dvec3& e, double r, bool& d
 /// In the frame of the ball: a vertex that ends inside, on the side that it came from, leaves by the nearest
 /// point; one that entered and went past the centre or out again is stopped where it entered.
 template <typename Real>
-Touch touch_sphere(const Sphere<Real>& c, const Contacts<Real>& in, const glm::dvec3& x, const glm::dvec3& d, double kept)
+Touch touch_sphere(const Sphere<Real>& c, const Contacts<Real>& in, const glm::dvec3& x, const glm::dvec3& d,
+                   double kept)
 {
     const auto r = [](Real v) { return static_cast<double>(v); };
     const glm::dvec3 start(r(c.start_x), r(c.start_y), r(c.start_z)), end(r(c.end_x), r(c.end_y), r(c.end_z));
@@ -74,8 +76,8 @@ Touch touch_sphere(const Sphere<Real>& c, const Contacts<Real>& in, const glm::d
 }
 
 template <typename Real>
-void check_spheres(const Contacts<Real>& in, const std::vector<Sphere<Real>>& spheres, const std::string& variant,
-                   bool first_iteration, bool report)
+void check_spheres(const Contacts<Real>& in, const std::vector<Sphere<Real>>& spheres,
+                   const std::string& variant, bool first_iteration, bool report)
 {
     const KernelInfo& kernel = kernels::sphere::info(variant, precision_of<Real>());
     const Params params{in.count, in.colliders, in.substep, in.substeps, first_iteration, report};
@@ -106,18 +108,22 @@ void plant(Contacts<Real>& in)
     put(5, V(-two, zero, zero), one, V(Real(4), zero, zero));      // through the whole ball in one substep
     put(6, V(-two, Real(0.125), zero), one, V(two, zero, zero));   // stops inside, past the middle plane
     put(7, V(-two, zero, zero), one, V(two, zero, zero));          // stops exactly at the centre
-    put(8, V(zero, Real(0.25), zero), one, V(Real(0.0625), zero, zero)); // inside from the start: limited way out
-    put(9, V(-two, two, zero), one, V(Real(4), zero, zero));       // passes by
+    put(8, V(zero, Real(0.25), zero), one,
+        V(Real(0.0625), zero, zero));                        // inside from the start: limited way out
+    put(9, V(-two, two, zero), one, V(Real(4), zero, zero)); // passes by
     put(10, V(half, zero, zero), one, V(Real(0.25), Real(0.25), zero)); // on the surface, leaving
-    put(11, V(half, zero, zero), Real(0), V(zero));                // held exactly on the surface
-    put(13, V(zero, Real(0.4999), zero), one, V(zero, Real(-4), zero)); // from a little inside through the ball
-    put(13, V(Real(0.49999), zero, zero), one, V(-two, zero, zero)); // a hair inside, into the ball: still outside
-    put(12, V(-two, zero, zero), one, V(Real(1024), zero, zero));  // very fast
+    put(11, V(half, zero, zero), Real(0), V(zero));                     // held exactly on the surface
+    put(13, V(zero, Real(0.4999), zero), one,
+        V(zero, Real(-4), zero)); // from a little inside through the ball
+    put(13, V(Real(0.49999), zero, zero), one,
+        V(-two, zero, zero)); // a hair inside, into the ball: still outside
+    put(12, V(-two, zero, zero), one, V(Real(1024), zero, zero)); // very fast
 }
 
 } // namespace
 
-TEMPLATE_TEST_CASE("vertices end outside every ball, swept, and friction takes sliding up to its cone", "", float, double)
+TEMPLATE_TEST_CASE("vertices end outside every ball, swept, and friction takes sliding up to its cone", "",
+                   float, double)
 {
     using Real = TestType;
     const std::string variant = GENERATE("", "friction", "friction_kept");
@@ -135,7 +141,8 @@ TEMPLATE_TEST_CASE("vertices end outside every ball, swept, and friction takes s
     while (spheres.size() < colliders)
     {
         const glm::dvec3 start(random.vec4<double>(1, 0)), way(random.vec4<double>(0.3, 0));
-        spheres.push_back(make_sphere<Real>(start, start + way, random.uniform(0.2, 0.6), random.uniform(0, 1)));
+        spheres.push_back(
+            make_sphere<Real>(start, start + way, random.uniform(0.2, 0.6), random.uniform(0, 1)));
     }
     plant(in);
     check_spheres(in, spheres, variant, first_iteration, report);
@@ -153,13 +160,15 @@ TEMPLATE_TEST_CASE("a ball without colliders changes nothing", "", float, double
 TEMPLATE_TEST_CASE("a vertex faster than a ball is wide stops where it enters", "", float, double)
 {
     using Real = TestType;
-    const double far = GENERATE(4.0, 2.5, 2.0, 100.0); // goes through, ends on the far side, at the centre, far away
+    const double far =
+        GENERATE(4.0, 2.5, 2.0, 100.0); // goes through, ends on the far side, at the centre, far away
     Contacts<Real> in;
     in.count = in.colliders = 1;
     in.position = {{Real(-2), Real(0), Real(0), Real(1)}};
     in.delta = {{static_cast<Real>(far), Real(0), Real(0), Real(0.25)}};
     const std::vector spheres{make_sphere<Real>({0, 0, 0}, {0, 0, 0}, 0.5, 0)};
-    const Launch launch = make_launch(kernels::sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+    const Launch launch =
+        make_launch(kernels::sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
@@ -172,7 +181,8 @@ TEMPLATE_TEST_CASE("a vertex faster than a ball is wide stops where it enters", 
     }
 }
 
-TEMPLATE_TEST_CASE("a ball that moves faster than it is wide takes a resting vertex with it", "", float, double)
+TEMPLATE_TEST_CASE("a ball that moves faster than it is wide takes a resting vertex with it", "", float,
+                   double)
 {
     using Real = TestType;
     Contacts<Real> in;
@@ -180,7 +190,8 @@ TEMPLATE_TEST_CASE("a ball that moves faster than it is wide takes a resting ver
     in.position = {{Real(0), Real(0), Real(0), Real(1)}};
     in.delta = {glm::vec<4, Real>(Real(0))};
     const std::vector spheres{make_sphere<Real>({-2, 0, 0}, {2, 0, 0}, 0.5, 0)};
-    const Launch launch = make_launch(kernels::sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+    const Launch launch =
+        make_launch(kernels::sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);

@@ -3,10 +3,10 @@
 //
 // An entry counts in units of eps * scale: eps is 2^-23 (float) or 2^-52 (double), and the scale is the size
 // of the terms that were added to make the value, which each reference computes beside the value. So a number
-// here is a count of roundings, not a fitted error. The reference rounds too: in double both sides contribute.
-// Largest found on executors that round correctly: bending 2.1, distance 1.5, predict 1.3, hub 1, external_force 1,
-// finish 0.9, pin_motion 0.9, damping 0.5, plane 0.5, sphere 0.3. The rest is for hardware, where a quotient or a
-// root may be 2.5 to 3 units off.
+// here is a count of roundings, not a fitted error. The reference rounds too: in double both sides
+// contribute. Largest found on executors that round correctly: bending 2.1, distance 1.5, predict 1.3, hub 1,
+// external_force 1, finish 0.9, pin_motion 0.9, damping 0.5, plane 0.5, sphere 0.3. The rest is for hardware,
+// where a quotient or a root may be 2.5 to 3 units off.
 
 #include "support/catch.hpp"
 #include "taut/runtime/device.hpp"
@@ -23,13 +23,16 @@ struct Tolerance
 };
 
 inline constexpr Tolerance kTolerances[] = {
-    {"predict", 4, "gravity product, sum, product with h, sum with low; a clamp adds a root, a quotient, a product"},
+    {"predict", 4,
+     "gravity product, sum, product with h, sum with low; a clamp adds a root, a quotient, a product"},
     {"finish", 4, "one sum for the position (half a unit); a difference and a quotient for the velocity"},
     {"damping", 1, "one product"},
     {"external_force", 2, "two products and a sum"},
     {"pin_motion", 3, "a quotient, a difference, a product, a sum, a difference"},
-    {"distance", 6, "difference, root, quotient for the direction, quotient for the multiplier, product, sum"},
-    {"bending", 8, "cross products of cross products: each gradient passes some ten roundings, the angle six"},
+    {"distance", 6,
+     "difference, root, quotient for the direction, quotient for the multiplier, product, sum"},
+    {"bending", 8,
+     "cross products of cross products: each gradient passes some ten roundings, the angle six"},
     {"hub", 6, "as distance, and a tree of 64 partial sums of up to 16 terms each"},
     {"plane", 3, "two dot products, a push, a slide and its removal, for each collider in turn"},
     {"sphere", 4, "as plane, and a root of a quadratic for the way in"},
@@ -46,9 +49,6 @@ inline double tolerance_of(std::string_view kernel)
 
 /// The native executors always; software drivers because they round each operation as C++ does.
 /// Hardware may fuse products into sums and divide with up to 2.5 units of error: tolerance only.
-inline bool bitwise_equal_expected(const DeviceInfo& info)
-{
-    return !info.hardware_gpu;
-}
+inline bool bitwise_equal_expected(const DeviceInfo& info) { return !info.hardware_gpu; }
 
 } // namespace taut::conformance

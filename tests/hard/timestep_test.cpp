@@ -110,6 +110,38 @@ TEST_CASE("A12: a state goes on in a world of another time step as after set_tim
     });
 }
 
+TEST_CASE("A11: steps of a microsecond fall as far as they should, 100 m from the origin [hard]")
+{
+    Body body = particles({{100, 100, 100}});
+    Scene scene = alone(body);
+    scene.gravity = {0, -9.81, 0};
+    scene.timestep = 1e-6;
+    scene.method.substeps = 1;
+    const auto error_after = [](const Scene& s, const std::shared_ptr<Device>& device, int steps) {
+        World world(s, device);
+        run(world, steps);
+        check_sound(world);
+        const double n = steps, fall = 9.81 * 1e-12 * n * (n + 1) / 2;
+        return std::abs(s.bodies[0].mesh.positions[0].y - world.positions()[0].y - fall) / fall;
+    };
+    on_every_device([&](const auto& device) {
+        const int steps = steps_for(*device, 100000, 5000);
+        const double error = error_after(scene, device, steps);
+        note("A11", *device, "fall, error at 100 m", error);
+        CHECK(error < 0.01);
+        CHECK(make_plan(scene).warnings.empty());
+    });
+    Scene far = scene; // where float cannot, the plan says so, and double can
+    far.bodies[0].mesh.positions[0] *= 1000;
+    const auto device = test_device("cpu:serial");
+    note("A11", *device, "fall, error at 100 km", error_after(far, device, 20000));
+    REQUIRE(make_plan(far).warnings.size() == 1);
+    CHECK(make_plan(far).warnings[0].find("precision: ") == 0);
+    far.method.precision = "double";
+    CHECK(make_plan(far).warnings.empty());
+    CHECK(error_after(far, device, 20000) < 0.01);
+}
+
 TEST_CASE("A13: what is all held stays bit by bit, costs no solver pass, and violated springs are named [hard]")
 {
     Scene scene = test::hanging(4);

@@ -1,6 +1,6 @@
 #pragma once
-// Constraints in colours: what the tests of constraint kernels share. A reference projects one constraint after
-// another on a State in fp64 and says how large the terms were.
+// Constraints in colours: what the tests of constraint kernels share. A reference projects one constraint
+// after another on a State in fp64 and says how large the terms were.
 
 #include "support/expect.hpp"
 #include "support/random.hpp"
@@ -27,9 +27,12 @@ struct Colours
 
     Buffers buffers() const
     {
-        return {{"constraint", bytes_of(constraint)},     {"position", bytes_of(position)},
-                {"delta", bytes_of(delta)},               {"step_values", bytes_of(std::vector{step})},
-                {"events", no_events()},                  {"table", bytes_of(table())},
+        return {{"constraint", bytes_of(constraint)},
+                {"position", bytes_of(position)},
+                {"delta", bytes_of(delta)},
+                {"step_values", bytes_of(std::vector{step})},
+                {"events", no_events()},
+                {"table", bytes_of(table())},
                 {"multiplier", bytes_of(multiplier)}};
     }
 
@@ -46,7 +49,6 @@ struct Colours
         words.insert(words.end(), colour_start.begin(), colour_start.end());
         return words;
     }
-
 };
 
 /// What a reference works on, with the size of everything that was added up so far per vertex and constraint.
@@ -67,7 +69,10 @@ struct State
         delta_scale[vertex] += size + glm::length(glm::dvec3(delta[vertex]));
     }
 
-    glm::dvec3 at(std::uint32_t vertex) const { return glm::dvec3(position[vertex]) + glm::dvec3(delta[vertex]); }
+    glm::dvec3 at(std::uint32_t vertex) const
+    {
+        return glm::dvec3(position[vertex]) + glm::dvec3(delta[vertex]);
+    }
 
     Field delta_field() const
     {
@@ -124,12 +129,14 @@ std::vector<Launch> colour_launches(KernelTable info, Precision precision, const
         for (std::uint32_t c = begin; c < end; ++c)
         {
             const std::uint32_t count = in.colour_start[c + 1] - in.colour_start[c];
-            launches.push_back(make_launch(kernel, Params{in.colour_start[c], count, first_iteration, report}, count));
+            launches.push_back(
+                make_launch(kernel, Params{in.colour_start[c], count, first_iteration, report}, count));
         }
     return launches;
 }
 
-/// Projects the constraints of all groups by `project(state, constraint, k)`; checks every executor against it.
+/// Projects the constraints of all groups by `project(state, constraint, k)`; checks every executor against
+/// it.
 template <typename Params, typename Input, typename Project>
 void check_colours(KernelTable info, const Input& in, const Mode& mode, Precision precision, Project project)
 {

@@ -1,5 +1,6 @@
 #pragma once
-// What the tests of collider kernels share: vertices, and contact with friction in fp64 from the written rules.
+// What the tests of collider kernels share: vertices, and contact with friction in fp64 from the written
+// rules.
 
 #include "support/expect.hpp"
 #include "support/random.hpp"
@@ -35,7 +36,7 @@ struct Touch
     double gap = 0;        ///< the same at its end
     glm::dvec3 shift{0};   ///< of the collider during the substep
     double friction = 0;
-    double size = 0;       ///< of the numbers that made the gaps
+    double size = 0; ///< of the numbers that made the gaps
 };
 
 /// The reference's view of one vertex.
@@ -53,10 +54,11 @@ struct Rules
 };
 
 /// Pushes a vertex out along the normal to where the gap is 0, or no less deep than it began less the allowed
-/// way out. Friction takes away sliding against the collider, at most friction * the push of the substep so far.
-/// `store` is what earlier iterations took, xyz, and pushed, w. Returns whether it is a conflict: a held vertex
-/// that would have to be pushed.
-inline bool resolve_contact(Walker& v, const Touch& t, const Rules& rules, glm::dvec4& store, double& store_scale)
+/// way out. Friction takes away sliding against the collider, at most friction * the push of the substep so
+/// far. `store` is what earlier iterations took, xyz, and pushed, w. Returns whether it is a conflict: a held
+/// vertex that would have to be pushed.
+inline bool resolve_contact(Walker& v, const Touch& t, const Rules& rules, glm::dvec4& store,
+                            double& store_scale)
 {
     const double target = t.gap_before + rules.depenetration < 0 ? t.gap_before + rules.depenetration : 0;
     const double wanted = t.gap < target ? target - t.gap : 0;
@@ -81,7 +83,8 @@ inline bool resolve_contact(Walker& v, const Touch& t, const Rules& rules, glm::
 
 /// Random vertices in a cube of half width `size`, one in ten held.
 template <typename Real>
-Contacts<Real> random_contacts(Random& random, std::uint32_t count, std::uint32_t colliders, double size, double speed)
+Contacts<Real> random_contacts(Random& random, std::uint32_t count, std::uint32_t colliders, double size,
+                               double speed)
 {
     Contacts<Real> in;
     in.count = count;

@@ -66,12 +66,13 @@ inline Bytes no_events() { return bytes_of(std::vector<std::uint32_t>(TAUT_EVENT
 inline std::string first_difference(const Field& field, const std::vector<double>& actual, double unit)
 {
     if (field.value.size() != actual.size())
-        return "expected " + std::to_string(field.value.size()) + " values, got " + std::to_string(actual.size());
+        return "expected " + std::to_string(field.value.size()) + " values, got " +
+               std::to_string(actual.size());
     for (std::size_t i = 0; i < actual.size(); ++i)
     {
         const double want = field.value[i], have = actual[i], scale = field.scale[i];
         const bool both_nan = std::isnan(want) && std::isnan(have);
-        const bool good = scale == kAnyFinite ? std::isfinite(have)
+        const bool good = scale == kAnyFinite      ? std::isfinite(have)
                           : both_nan || scale == 0 ? both_nan || want == have
                                                    : std::abs(want - have) <= unit * scale;
         if (good)
@@ -94,7 +95,8 @@ inline void check_against_reference(const Case& c, const Buffers& out)
     for (const auto& [name, field] : c.expected)
     {
         const Bytes& bytes = out.at(name);
-        const auto actual = c.precision == Precision::float64 ? reals_of<double>(bytes) : reals_of<float>(bytes);
+        const auto actual =
+            c.precision == Precision::float64 ? reals_of<double>(bytes) : reals_of<float>(bytes);
         const std::string difference = first_difference(field, actual, unit);
         INFO("buffer " << name);
         CHECK(difference == "");
@@ -132,7 +134,8 @@ inline void check_on_every_device(const Case& c)
         if (!can_run(*device, c.precision))
             continue;
         const KernelInfo& kernel = *c.launches.front().kernel;
-        INFO(selector << ": " << kernel.name << " \"" << kernel.variant << "\" " << to_string(kernel.precision));
+        INFO(selector << ": " << kernel.name << " \"" << kernel.variant << "\" "
+                      << to_string(kernel.precision));
         const Buffers out = run(*device, c.launches, c.in);
         check_against_reference(c, out);
         if (bitwise_equal_expected(device->info()))

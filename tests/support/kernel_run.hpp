@@ -70,11 +70,14 @@ inline BufferPtr upload(Device& device, const BindingInfo& binding, const Bytes&
     return buffer;
 }
 
-/// Device copies of the buffers of some launches. Contents of two launches that name the same binding are one.
+/// Device copies of the buffers of some launches. Contents of two launches that name the same binding are
+/// one.
 class BufferSet
 {
 public:
-    BufferSet(Device& device, const std::vector<Launch>& launches, const Buffers& in) : device_(device), in_(in)
+    BufferSet(Device& device, const std::vector<Launch>& launches, const Buffers& in)
+        : device_(device),
+          in_(in)
     {
         for (const Launch& launch : launches)
             for (const BindingInfo& binding : launch.kernel->bindings)
@@ -113,7 +116,8 @@ public:
             device_.read(buffer, 0, all);
             const Bytes& before = in_.at(name);
             const Bytes guard = guard_band(entry.binding);
-            const bool guard_untouched = std::memcmp(all.data() + before.size(), guard.data(), guard.size()) == 0;
+            const bool guard_untouched =
+                std::memcmp(all.data() + before.size(), guard.data(), guard.size()) == 0;
             all.resize(before.size());
             const bool input_untouched = entry.written || all == before;
             INFO("buffer " << name << " on " << device_.info().executor);

@@ -24,4 +24,7 @@ const uint kSolid = 1;
 const uint kGround = 2;
 const uint kStrand = 3;
 
-vec3 background(float y) { return mix(frame.sky_top.rgb, frame.sky_bottom.rgb, clamp(y / frame.sky_top.w, 0.0, 1.0)); }
+vec3 background(float y)
+{
+    return mix(frame.sky_top.rgb, frame.sky_bottom.rgb, clamp(y / frame.sky_top.w, 0.0, 1.0));
+}

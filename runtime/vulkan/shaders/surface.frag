@@ -8,10 +8,10 @@ layout(location = 0) in vec3 world;
 layout(location = 1) in vec3 normal;
 layout(location = 0) out vec4 colour;
 
-const vec3 kKey = vec3(0.76, 0.72, 0.66);
-const vec3 kSky = vec3(0.31, 0.335, 0.375);
-const vec3 kBounce = vec3(0.15, 0.14, 0.13);
-const float kFill = 0.17;    // from the viewer: folds keep their shape where the key light does not reach
+const vec3 kKey = vec3(0.68, 0.645, 0.59);
+const vec3 kSky = vec3(0.28, 0.30, 0.335);
+const vec3 kBounce = vec3(0.14, 0.13, 0.12);
+const float kFill = 0.15;    // from the viewer: folds keep their shape where the key light does not reach
 const int kTaps = 3;         // 7 x 7 samples
 const float kSpread = 2.0;   // texels between them
 

@@ -134,8 +134,7 @@ TEST_CASE("sweeps are counted, not measured: as many as the plan dispatches", "[
 {
     const Scene scene = free_chain();
     const CostStudy study = study_of(scene, only({1, 5}, {1, 3}, {Precision::float32}));
-    const auto dispatches = [&](const CostPoint& point)
-    {
+    const auto dispatches = [&](const CostPoint& point) {
         Scene at = scene;
         at.method.substeps = point.substeps;
         at.method.iterations = point.iterations;
@@ -149,7 +148,8 @@ TEST_CASE("sweeps are counted, not measured: as many as the plan dispatches", "[
     };
     CHECK(study.points[0].sweeps == Approx(60));
     for (const CostPoint& point : study.points)
-        CHECK(point.sweeps / study.points[0].sweeps == Approx(dispatches(point) / dispatches(study.points[0])));
+        CHECK(point.sweeps / study.points[0].sweeps ==
+              Approx(dispatches(point) / dispatches(study.points[0])));
 }
 
 TEST_CASE("rigid links have no independent reference; the fallback says that it is the same method", "[cost]")
@@ -237,19 +237,21 @@ TEST_CASE("errors below the reference's floor are not told apart", "[cost]")
     CHECK(study.points[1].at_floor);
     CHECK(study.points[2].at_floor);
     CHECK(study.points[1].pareto);
-    CHECK_FALSE(study.points[2].pareto); // smaller in number only
+    CHECK_FALSE(study.points[2].pareto);                                      // smaller in number only
+    CHECK(pareto_front(cost_plot(study, CostAxis::time).series).size() == 2); // the diagram agrees
 }
 
 TEST_CASE("the cheapest setting is the fastest that is accurate enough, whatever the order", "[cost]")
 {
-    const CostStudy study = table({made(50, 5e-4, 40), made(10, 9e-3, 12), made(20, 4e-3, 10), made(1, 0.4, 1),
-                                   made(5, 0.09, 3), made(2, std::nullopt, 0.1)});
+    const CostStudy study = table({made(50, 5e-4, 40), made(10, 9e-3, 12), made(20, 4e-3, 10),
+                                   made(1, 0.4, 1), made(5, 0.09, 3), made(2, std::nullopt, 0.1)});
     CHECK(cheapest(study, 0).substeps == 5);
     CHECK(cheapest(study, 1).substeps == 20);
     CHECK(cheapest(study, 2).substeps == 50);
     const std::vector<std::string> sentences = cost_sentences(study);
     REQUIRE(sentences.size() == 3);
-    CHECK(sentences[1] == "1 %: 20 substeps x 1 iteration in float, 10 ms per simulated second (e_disp 0.4 %).");
+    CHECK(sentences[1] ==
+          "1 %: 20 substeps x 1 iteration in float, 10 ms per simulated second (e_disp 0.4 %).");
 }
 
 TEST_CASE("an accuracy that only the reference's own error would grant is not reached", "[cost]")
@@ -290,8 +292,9 @@ TEST_CASE("JSON and CSV carry every setting under the promised keys", "[cost]")
         CHECK(json["reference"].contains(key));
     REQUIRE(json["points"].size() == 2);
     for (const auto& point : json["points"])
-        for (const char* key : {"method", "substeps", "iterations", "precision", "error", "error_metric", "reference",
-                                "ms_per_simulated_second", "sweeps", "pareto", "status", "error_l"})
+        for (const char* key :
+             {"method", "substeps", "iterations", "precision", "error", "error_metric", "reference",
+              "ms_per_simulated_second", "sweeps", "pareto", "status", "error_l"})
             CHECK(point.contains(key));
     CHECK(json["points"][0]["reference"] == "R2");
     CHECK(json["points"][0]["ms_per_simulated_second"].get<double>() > 0);
@@ -305,7 +308,8 @@ TEST_CASE("a diagram names its units, its reference class and the floor", "[cost
     CostStudy study = table({made(1, 0.2, 1), made(10, 5e-3, 5)}, 1e-3);
     study.points[0].sweeps = 60;
     study.points[1].sweeps = 600;
-    const std::string time = svg(cost_plot(study, CostAxis::time)), work = svg(cost_plot(study, CostAxis::sweeps));
+    const std::string time = svg(cost_plot(study, CostAxis::time)),
+                      work = svg(cost_plot(study, CostAxis::sweeps));
     CHECK(time.find("ms per simulated second") != std::string::npos);
     CHECK(work.find("sweeps over all constraints per simulated second") != std::string::npos);
     CHECK(time.find("Reference class R2") != std::string::npos);
@@ -324,9 +328,15 @@ TEST_CASE("a stopped study keeps what is done and calls the rest gaps", "[cost]"
     CHECK_FALSE(study.points[2].error.has_value());
 }
 
-TEST_CASE("empty or impossible lists of settings are refused", "[cost]")
+TEST_CASE("what cannot be studied is refused: no or impossible settings, no bodies, no time", "[cost]")
 {
     for (const CostOptions& bad : {only({}, {1}, {Precision::float32}), only({0}, {1}, {Precision::float32}),
                                    only({1}, {1001}, {Precision::float32}), only({1}, {1}, {})})
         CHECK_THROWS_AS(study_of(free_chain(), bad), Error);
+    Scene nothing = free_chain();
+    nothing.bodies.clear();
+    CHECK_THROWS_AS(study_of(nothing, only({1}, {1}, {Precision::float32})), Error);
+    Scene instant = free_chain();
+    instant.duration = 0;
+    CHECK_THROWS_AS(study_of(instant, only({1}, {1}, {Precision::float32})), Error);
 }

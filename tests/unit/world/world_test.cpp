@@ -6,6 +6,7 @@
 #include "taut/world/world.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 using namespace taut;
