@@ -51,13 +51,14 @@ KERNEL(count)
         rvec3 shift = rvec3(c.shift_x, c.shift_y, c.shift_z) / real(substeps);
         slide -= shift - n * dot(n, shift);
 #if KEPT
-        rvec4 kept = first_iteration != 0u ? rvec4(real(0)) : contact[j * count + i];
-        real height = kept.w + push;
-        rvec3 removal = friction_removal(slide + rvec3(kept), c.friction * height);
-        d -= removal - rvec3(kept);
-        contact[j * count + i] = rvec4(removal, height);
+        rvec4 taken = first_iteration != 0u ? rvec4(real(0)) : contact[j * count + i];
 #else
-        d -= friction_removal(slide, c.friction * push);
+        rvec4 taken = rvec4(real(0));
+#endif
+        rvec4 now = friction_taken(taken, slide, push, c.friction);
+        d -= rvec3(now - taken);
+#if KEPT
+        contact[j * count + i] = now;
 #endif
 #endif
     }

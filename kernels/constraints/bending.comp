@@ -12,6 +12,7 @@
 //! variant tail_lambda TAIL=1 LAMBDA=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
+#include "shared/compliance.glsl"
 #include "shared/angle.glsl"
 
 PARAMS
@@ -81,7 +82,7 @@ void project(uint k)
 
     real weight = p0.w * dot(g0, g0) + p1.w * dot(g1, g1) + p2.w * dot(g2, g2) + p3.w * dot(g3, g3);
     bool usable = shaped && weight > real(0); // held vertices alone may carry the gradient
-    real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
+    real scaled = scaled_compliance(c.compliance, step_values[0].inverse_substep);
     real total = usable ? weight + scaled : real(1);
 #if LAMBDA
     real before = first_iteration != 0u ? real(0) : multiplier[k];
@@ -98,25 +99,4 @@ void project(uint k)
         COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
 }
 
-#if TAIL
-// One group a run of small colours, or a small body: its colours one after another, the same sums in the
-// same order as one dispatch a colour.
-GROUP_KERNEL(64)
-{
-    uint begin = table[first + 2u * group];
-    // Folded dispatches may bring groups too many; they have no colours.
-    uint end = group < count ? table[first + 2u * group + 1u] : begin;
-    for (uint colour = begin; colour < end; ++colour)
-    {
-        PHASE_BEGIN
-        for (uint k = table[colour] + lane; k < table[colour + 1u]; k += 64u)
-            project(k);
-        PHASE_END
-    }
-}
-#else
-KERNEL(count)
-{
-    project(first + i);
-}
-#endif
+#include "shared/sweep.glsl"

@@ -12,6 +12,7 @@
 //! variant tail_lambda TAIL=1 LAMBDA=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
+#include "shared/compliance.glsl"
 
 PARAMS
 {
@@ -51,7 +52,7 @@ void project(uint k)
     rvec4 db = delta[c.b];
     rvec4 d = (xa - xb) + (da - db);
     real len = length(rvec3(d));
-    real scaled = c.compliance * (step_values[0].inverse_substep * step_values[0].inverse_substep);
+    real scaled = scaled_compliance(c.compliance, step_values[0].inverse_substep);
     real denominator = ((xa.w + xb.w) + scaled) * len;
     bool usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
     real value = c.rest_length - len;
@@ -74,25 +75,4 @@ void project(uint k)
     }
 }
 
-#if TAIL
-// One group a run of small colours, or a small body: its colours one after another, the same sums in the
-// same order as one dispatch a colour.
-GROUP_KERNEL(64)
-{
-    uint begin = table[first + 2u * group];
-    // Folded dispatches may bring groups too many; they have no colours.
-    uint end = group < count ? table[first + 2u * group + 1u] : begin;
-    for (uint colour = begin; colour < end; ++colour)
-    {
-        PHASE_BEGIN
-        for (uint k = table[colour] + lane; k < table[colour + 1u]; k += 64u)
-            project(k);
-        PHASE_END
-    }
-}
-#else
-KERNEL(count)
-{
-    project(first + i);
-}
-#endif
+#include "shared/sweep.glsl"

@@ -8,6 +8,7 @@
 //! variant lambda LAMBDA=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
+#include "shared/compliance.glsl"
 
 PARAMS
 {
@@ -40,7 +41,7 @@ GROUP_KERNEL(64)
         rvec4 db = delta[c.b];
         rvec3 d = rvec3(xa - xb) + rvec3(delta[c.a] - db);
         real len = length(d);
-        real scaled = c.compliance * step_values[0].inverse_substep * step_values[0].inverse_substep;
+        real scaled = scaled_compliance(c.compliance, step_values[0].inverse_substep);
         real weight = xa.w * real(count) + xb.w;
         bool usable = len > real(0) && weight > real(0);
         real value = len - c.rest_length;

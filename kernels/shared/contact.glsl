@@ -15,11 +15,15 @@ real allowed_gap(real gap_before, real depenetration)
     return min(real(0), gap_before + depenetration);
 }
 
-/// Tangential displacement to take away: all of `slide` inside the cone, else its limit.
-rvec3 friction_removal(rvec3 slide, real limit)
+/// Friction taken so far in the substep (xyz) and the normal push so far (w), brought up to date: all of the
+/// slide inside the cone, else its limit. `slide` is what is left of the tangential displacement.
+rvec4 friction_taken(rvec4 taken, rvec3 slide, real push, real friction)
 {
-    real size = length(slide);
-    return size > limit ? slide * (limit / size) : slide;
+    real height = taken.w + push;
+    real limit = friction * height;
+    rvec3 whole = slide + rvec3(taken);
+    real size = length(whole);
+    return rvec4(size > limit ? whole * (limit / size) : whole, height);
 }
 
 #endif

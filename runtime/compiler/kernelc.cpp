@@ -25,7 +25,8 @@ std::string read_text(const fs::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Writes only when the text differs, so that an unchanged header rebuilds nothing.
+/// An unchanged text keeps its bytes but gets a new time: Make runs a command again in every build while its
+/// output is older than what it depends on. Ninja would not need that.
 void write_text(const fs::path& path, const std::string& text)
 {
     std::ifstream old(path);
@@ -36,6 +37,7 @@ void write_text(const fs::path& path, const std::string& text)
     }
     std::ofstream file(path);
     file << text;
+    file.close(); // what was buffered fails here, not in the destructor
     if (!file)
         throw taut::Error(taut::ErrorCode::io, "cannot write " + path.string());
 }

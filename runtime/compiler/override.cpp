@@ -9,6 +9,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The folder that TAUT_KERNEL_DIR names, or an empty path.
+fs::path override_root()
+{
+    const char* const variable = std::getenv("TAUT_KERNEL_DIR");
+    if (variable == nullptr || *variable == '\0')
+        return {};
+    std::error_code ignored;
+    if (!fs::is_directory(variable, ignored))
+        throw Error(ErrorCode::io,
+                    "TAUT_KERNEL_DIR=" + std::string(variable) + " is not a folder; unset it or name one");
+    return variable;
+}
+
 /// The one file of that stem below `root`, or an empty path.
 fs::path find_text(const fs::path& root, std::string_view name)
 {
@@ -99,20 +112,18 @@ std::string difference(const KernelInfo& built, const KernelInfo& edited)
 
 } // namespace
 
+fs::path kernel_override_file(const KernelInfo& kernel)
+{
+    const fs::path root = override_root();
+    return root.empty() ? fs::path() : find_text(root, kernel.name);
+}
+
 std::shared_ptr<const CompiledKernel> kernel_override(const KernelInfo& kernel)
 {
-    const char* const variable = std::getenv("TAUT_KERNEL_DIR");
-    if (variable == nullptr || *variable == '\0')
-        return nullptr;
-    const fs::path root = variable;
-    std::error_code ignored;
-    if (!fs::is_directory(root, ignored))
-        throw Error(ErrorCode::io,
-                    "TAUT_KERNEL_DIR=" + root.string() + " is not a folder; unset it or name one");
-    const fs::path path = find_text(root, kernel.name);
+    const fs::path path = kernel_override_file(kernel);
     if (path.empty())
         return nullptr;
-    std::shared_ptr<const CompiledKernel> edited = compile_kernel(load(path, root, kernel));
+    std::shared_ptr<const CompiledKernel> edited = compile_kernel(load(path, override_root(), kernel));
     if (const std::string text = difference(kernel, edited->info); !text.empty())
         throw Error(ErrorCode::kernel_compilation, path.string() + " does not fit the host code: " + text +
                                                        "; rebuild to change an interface");

@@ -1,11 +1,14 @@
 #include "taut/runtime/cpu/cpu_device.hpp"
 
+#include "taut/runtime/compiler/override.hpp"
 #include "taut/runtime/cpu/recording.hpp"
 #include "taut/runtime/limits.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -63,6 +66,20 @@ std::unique_ptr<cpu::Runner> make_runner(CpuMode mode, const OpenOptions& option
     return cpu::make_parallel_runner(options.threads != 0 ? options.threads : hardware_threads());
 }
 
+/// Native code was compiled with the program: an edited text would be left out without a word.
+void refuse_kernel_texts(const RecordingDesc& desc)
+{
+    std::set<const KernelInfo*> kernels;
+    for (const Dispatch& dispatch : desc.dispatches)
+        kernels.insert(dispatch.kernel);
+    for (const KernelInfo* kernel : kernels)
+        if (const std::filesystem::path text = kernel_override_file(*kernel); !text.empty())
+            throw Error(ErrorCode::unsupported,
+                        "TAUT_KERNEL_DIR holds " + text.string() +
+                            ", but the native executor runs only the kernels that were built in; use vulkan or "
+                            "opengl, or unset the variable");
+}
+
 class CpuDevice final : public Device
 {
 public:
@@ -107,6 +124,7 @@ public:
     std::unique_ptr<Recording> compile(RecordingDesc desc) override
     {
         check_limits(desc, info_);
+        refuse_kernel_texts(desc);
         return std::make_unique<cpu::CpuRecording>(std::move(desc), engine_);
     }
 

@@ -62,8 +62,9 @@ void append_devices(const Egl& egl, std::vector<NamedDisplay>& out)
     for (EGLint i = 0; i < count; ++i)
     {
         void* device = devices[static_cast<std::size_t>(i)];
-        out.push_back({egl.GetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
-                       "EGL device " + std::to_string(i)});
+        const EGLDisplay display = egl.GetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+        if (display != EGL_NO_DISPLAY) // which stands for the default display in this list
+            out.push_back({display, "EGL device " + std::to_string(i)});
     }
 }
 
@@ -132,8 +133,9 @@ std::vector<NamedDisplay> windowless_displays(const Egl& egl)
     std::vector<NamedDisplay> out;
     const char* extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (has_word(extensions, "EGL_MESA_platform_surfaceless"))
-        out.push_back({egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr),
-                       "EGL surfaceless platform"});
+        if (const EGLDisplay display = egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+            display != EGL_NO_DISPLAY)
+            out.push_back({display, "EGL surfaceless platform"});
     if (has_word(extensions, "EGL_EXT_platform_device"))
         append_devices(egl, out);
     out.push_back({EGL_NO_DISPLAY, "default EGL display"}); // opened only when it is its turn

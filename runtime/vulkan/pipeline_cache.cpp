@@ -1,12 +1,11 @@
 #include "taut/runtime/vulkan/pipeline_cache.hpp"
 
+#include "taut/runtime/base/atomic_file.hpp"
+
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 
 namespace taut::vulkan {
@@ -49,14 +48,6 @@ Header header_for(const VkPhysicalDeviceProperties& device, std::span<const std:
     return header;
 }
 
-/// No two writers share it, in this process or another.
-std::string temporary_name(const std::string& path)
-{
-    static std::atomic<unsigned> number = 0;
-    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-    return path + "." + std::to_string(now) + "-" + std::to_string(number++) + ".tmp";
-}
-
 } // namespace
 
 std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device)
@@ -85,19 +76,12 @@ bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperti
 {
     try
     {
-        const std::string temporary = temporary_name(path);
         const Header header = header_for(device, contents);
-        std::ofstream file(temporary, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(&header), sizeof(Header));
-        file.write(reinterpret_cast<const char*>(contents.data()),
-                   static_cast<std::streamsize>(contents.size()));
-        file.close();
-        std::error_code error;
-        if (file)
-            std::filesystem::rename(temporary, path, error);
-        if (file && !error)
-            return true;
-        std::filesystem::remove(temporary, error);
+        std::string text(sizeof(Header) + contents.size(), '\0');
+        std::memcpy(text.data(), &header, sizeof(Header));
+        std::copy_n(reinterpret_cast<const char*>(contents.data()), contents.size(), text.data() + sizeof(Header));
+        write_file(path, text);
+        return true;
     }
     catch (...)
     {}

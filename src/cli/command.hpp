@@ -1,5 +1,7 @@
 #pragma once
-// What every command of the program shares: how it is chosen and what its exit status means.
+// What every command of the program shares: how it is chosen.
+
+#include "taut/cli/exit_status.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -7,15 +9,6 @@
 #include <string>
 
 namespace taut::cli {
-
-/// Exit status of the program. The list is closed; docs/program.md explains each.
-enum Exit : int
-{
-    kDone = 0,
-    kNotSound = 1, ///< it ran, but the result is not sound
-    kBadInput = 2, ///< wrong arguments or input, or a file that cannot be read or written
-    kNoDevice = 3,
-};
 
 /// The command that the arguments chose; returns the exit status, throws taut::Error.
 using Command = std::function<int()>;

@@ -6,6 +6,7 @@
 #include "taut/cli/interrupt.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/progress.hpp"
+#include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <iostream>

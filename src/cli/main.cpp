@@ -12,16 +12,6 @@ namespace {
 
 using namespace taut;
 
-int exit_status(ErrorCode code)
-{
-    switch (code)
-    {
-    case ErrorCode::no_device: return cli::kNoDevice;
-    case ErrorCode::device_lost: return cli::kNotSound;
-    default: return cli::kBadInput;
-    }
-}
-
 int complain(const std::string& sentence, int status)
 {
     std::cout.flush();
@@ -72,11 +62,12 @@ int execute(const cli::Command& command)
     }
     catch (const Error& error)
     {
-        return complain(error.what(), exit_status(error.code()));
+        return complain(error.what(), cli::exit_status(error.code()));
     }
     catch (const std::bad_alloc&)
     {
-        return complain("the host has no memory left for this scene; use a smaller one.", cli::kBadInput);
+        return complain("the host has no memory left for this scene; use a smaller one.",
+                        cli::exit_status(ErrorCode::out_of_memory));
     }
     catch (const std::exception& error)
     {

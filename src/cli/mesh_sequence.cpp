@@ -1,8 +1,9 @@
 #include "taut/cli/mesh_sequence.hpp"
 
 #include "taut/cli/output.hpp"
+#include "taut/runtime/base/atomic_file.hpp"
+#include "taut/scene/obj_text.hpp"
 
-#include <charconv>
 #include <cstdio>
 
 namespace fs = std::filesystem;
@@ -20,37 +21,6 @@ std::string object_name(const Body& body, std::size_t index)
     return name;
 }
 
-std::string faces_text(const Mesh& mesh, std::size_t first_vertex)
-{
-    std::string text;
-    const auto append = [&](std::uint32_t vertex) {
-        text += ' ';
-        text += std::to_string(first_vertex + vertex + 1);
-    };
-    for (const auto& triangle : mesh.triangles)
-    {
-        text += 'f';
-        for (const std::uint32_t vertex : triangle)
-            append(vertex);
-        text += '\n';
-    }
-    for (const auto& link : mesh.links)
-    {
-        text += 'l';
-        for (const std::uint32_t vertex : link)
-            append(vertex);
-        text += '\n';
-    }
-    return text;
-}
-
-void append_number(std::string& text, double value)
-{
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 9).ptr;
-    text.append(digits, end);
-}
-
 } // namespace
 
 MeshSequence::MeshSequence(const Scene& resolved, fs::path folder) : folder_(std::move(folder))
@@ -59,7 +29,9 @@ MeshSequence::MeshSequence(const Scene& resolved, fs::path folder) : folder_(std
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
         const Mesh& mesh = resolved.bodies[b].mesh;
-        faces_.push_back("o " + object_name(resolved.bodies[b], b) + "\n" + faces_text(mesh, first));
+        std::string text = "o " + object_name(resolved.bodies[b], b) + "\n";
+        scene_file::append_elements(text, mesh, first);
+        faces_.push_back(std::move(text));
         vertices_.push_back(mesh.positions.size());
         first += mesh.positions.size();
     }
@@ -76,22 +48,13 @@ void MeshSequence::write(const std::vector<glm::dvec3>& positions, std::uint64_t
 {
     std::string text =
         "# taut, frame " + std::to_string(frame) + ", time " + number(time, 9) + " s, metres\n";
-    text.reserve(positions.size() * 40);
     std::size_t vertex = 0;
     for (std::size_t body = 0; body < faces_.size(); ++body)
     {
         const std::size_t name_end = faces_[body].find('\n') + 1;
         text.append(faces_[body], 0, name_end);
-        for (const std::size_t end = vertex + vertices_[body]; vertex < end; ++vertex)
-        {
-            text += "v";
-            for (int axis = 0; axis < 3; ++axis)
-            {
-                text += " ";
-                append_number(text, positions[vertex][axis]);
-            }
-            text += "\n";
-        }
+        scene_file::append_vertices(text, std::span(positions).subspan(vertex, vertices_[body]));
+        vertex += vertices_[body];
         text.append(faces_[body], name_end);
     }
     write_file(file_name(count_), text);

@@ -1,42 +1,16 @@
 #include "taut/cli/output.hpp"
 
 #include "taut/runtime/base/error.hpp"
-
-#include <unistd.h>
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
-#include <cerrno>
+#include <charconv>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <iostream>
 
 namespace fs = std::filesystem;
 
 namespace taut::cli {
-
-void write_file(const fs::path& file, std::string_view text)
-{
-    // The process id keeps two runs into one folder from writing the same temporary file.
-    const fs::path temporary = file.string() + ".tmp" + std::to_string(getpid());
-    const auto refuse = [&] {
-        const std::string why = std::strerror(errno);
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw Error(ErrorCode::io, "cannot write " + file.string() + ": " + why + ".");
-    };
-    {
-        std::ofstream stream(temporary, std::ios::binary);
-        if (!stream)
-            refuse();
-        stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-        stream.close();
-        if (!stream)
-            refuse();
-    }
-    if (std::rename(temporary.c_str(), file.c_str()) != 0)
-        refuse();
-}
 
 void make_folder(const fs::path& folder)
 {
@@ -87,16 +61,11 @@ std::string bytes_text(std::uint64_t bytes)
     for (; value >= 1024 && unit < 3; ++unit)
         value /= 1024;
     char text[32];
-    std::snprintf(text, sizeof text, "%.1f %s", value, units[unit]);
-    return text;
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 1).ptr;
+    return std::string(text, end) + " " + units[unit];
 }
 
-std::string number(double value, int digits)
-{
-    char text[48];
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    return text;
-}
+std::string number(double value, int digits) { return shown(value, digits); }
 
 void warn(const std::string& sentence)
 {

@@ -1,20 +1,16 @@
 #pragma once
-// What commands write: files that appear whole or not at all, JSON, tables of text.
+// What commands write: JSON, tables of text.
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace taut::cli {
 
 /// Keys stay in the order in which they are set.
 using Json = nlohmann::ordered_json;
-
-/// Written to a temporary name in the same folder, then renamed. Throws Error{io}.
-void write_file(const std::filesystem::path& file, std::string_view text);
 
 /// Makes the folder and its parents. Throws Error{io} when that cannot be done.
 void make_folder(const std::filesystem::path& folder);
@@ -28,7 +24,7 @@ std::string table(const std::vector<std::vector<std::string>>& rows);
 /// "812 B", "3.4 KiB", "12.0 MiB"
 std::string bytes_text(std::uint64_t bytes);
 
-/// printf("%.*g")
+/// printf("%.*g") in the "C" locale
 std::string number(double value, int digits = 4);
 
 /// On standard error: "taut: warning: <sentence>"

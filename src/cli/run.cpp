@@ -7,6 +7,7 @@
 #include "taut/cli/pictures.hpp"
 #include "taut/cli/progress.hpp"
 #include "taut/cli/run_result.hpp"
+#include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
@@ -239,7 +240,7 @@ int run(RunCommand options)
     const std::string report = to_text(to_json(result));
     write_file(options.folder / "report.json", report);
     std::cout << (options.json ? report : summary(result));
-    return sound(result.report.status) ? kDone : kNotSound;
+    return exit_status(result.report.status);
 }
 
 } // namespace

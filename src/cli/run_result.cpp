@@ -36,11 +36,6 @@ Json passes_json(const std::vector<EffectTime>& passes)
 
 } // namespace
 
-bool sound(Status status)
-{
-    return status == Status::completed || status == Status::interrupted || status == Status::converged;
-}
-
 Json to_json(const RunResult& result)
 {
     const StepReport& report = result.report;

@@ -27,9 +27,6 @@ struct RunResult
     std::vector<std::string> pictures; ///< files written, relative to the folder
 };
 
-/// Did it run, and is what came out sound?
-bool sound(Status status);
-
 /// The keys are documented in docs/program.md.
 Json to_json(const RunResult& result);
 

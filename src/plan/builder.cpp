@@ -9,6 +9,9 @@
 namespace taut {
 namespace {
 
+/// A recording keeps every pass of a time step; beyond this it would fill the memory before it ran.
+constexpr std::size_t kMaxPasses = std::size_t(1) << 20;
+
 /// Grids keep their rows, which parity colours want; other meshes follow a space-filling curve.
 std::vector<std::uint32_t> body_order(const Body& body)
 {
@@ -88,6 +91,10 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
 {
     if (count == 0)
         return;
+    if (plan.passes.size() >= kMaxPasses)
+        throw Error(ErrorCode::limit, "a time step of more than " + std::to_string(kMaxPasses) + " passes; use fewer than " +
+                                          std::to_string(plan.substeps) + " substeps or " +
+                                          std::to_string(plan.iterations) + " iterations");
     Dispatch pass;
     pass.kernel = &kernel;
     pass.params.assign(params.begin(), params.end());

@@ -6,6 +6,7 @@
 
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -79,6 +80,9 @@ public:
     std::vector<double> inverse_mass;      ///< plan order, 1/kg, 0 = held
     std::vector<glm::dvec3> start;         ///< plan order, m
     std::vector<double> gap;               ///< plan order, kept from colliders, m
+    std::uint32_t pin_vertices = kNoBuffer;
+    std::array<bool, 2> friction = {};     ///< by ColliderKind
+    std::array<std::uint32_t, 2> friction_taken = {kNoBuffer, kNoBuffer};
 
 private:
     void add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,
@@ -104,7 +108,7 @@ struct Effect
     Stage stage;
     bool (*wanted)(const Scene&);
     void (*prepare)(PlanBuilder&);                ///< buffers, topology; may be null
-    void (*record)(PlanBuilder&, const Moment&);  ///< passes of one moment
+    void (*record)(PlanBuilder&, const Moment&);  ///< passes of one moment; may be null
 };
 
 /// The table, in the order of a step. An effect that a scene does not call for adds nothing.

@@ -44,15 +44,6 @@ void add_buffers(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> 
     b.plan.constraints.push_back(set);
 }
 
-/// Compliance in the kernel's precision. Beyond 1e24 h^2 a constraint has no force that any precision
-/// could show, but compliance / h^2 could overflow and turn a multiplier of zero into no number.
-template <typename Real>
-Real bounded_compliance(const PlanBuilder& b, double compliance)
-{
-    const double substep = b.plan.timestep / b.plan.substeps;
-    return static_cast<Real>(std::min(compliance, 1e24 * substep * substep));
-}
-
 /// Splits the constraints of a hub so that no part holds two with the same other end.
 void add_hubs(Coloured<StretchElement>& out, const std::vector<StretchElement>& elements, const Colouring& colouring)
 {
@@ -99,14 +90,13 @@ std::vector<StretchElement> moving_stretch(PlanBuilder& b, std::size_t body, boo
     return elements;
 }
 
-/// A graph over one body's plan vertices, counted from its first, without constraints yet.
+/// A graph over one body's plan vertices, counted from its first, without constraints yet. Held vertices
+/// conflict like others: kernels write both ends of a constraint.
 ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t stride)
 {
     ConstraintGraph graph;
     graph.vertex_count = b.plan.body_start[body + 1] - b.plan.body_start[body];
     graph.stride = stride;
-    for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
-        graph.fixed.push_back(b.inverse_mass[v] == 0);
     return graph;
 }
 
@@ -222,7 +212,7 @@ void prepare_distance(PlanBuilder& b)
         using Real = decltype(zero);
         std::vector<layout::DistanceConstraint<Real>> records;
         for (const StretchElement& e : flat)
-            records.push_back({e.a, e.b, static_cast<Real>(e.rest_length), bounded_compliance<Real>(b, e.compliance)});
+            records.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(e.compliance)});
         set.buffer = b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, "distance constraints", records);
     });
     add_buffers(b, set, std::move(table));
@@ -263,7 +253,7 @@ void prepare_bending(PlanBuilder& b)
         std::vector<layout::BendingConstraint<Real>> records;
         for (const BendElement& e : flat)
             records.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
-                               bounded_compliance<Real>(b, e.compliance)});
+                               static_cast<Real>(e.compliance)});
         set.buffer = b.add_buffer<layout::BendingConstraint<Real>>(set.kind, "bending constraints", records);
     });
     add_buffers(b, set, std::move(table));

@@ -120,14 +120,6 @@ bool wants_pin_motion(const Scene& scene)
     return false;
 }
 
-std::uint32_t pin_vertices_buffer(const Plan& plan)
-{
-    for (std::uint32_t i = 0; i < plan.buffers.size(); ++i)
-        if (plan.buffers[i].name == "pin vertices")
-            return i;
-    return kNoBuffer;
-}
-
 void prepare_pin_motion(PlanBuilder& b)
 {
     std::vector<bool> taken(b.plan.vertex_count, false); // the first pin of a vertex wins
@@ -144,7 +136,7 @@ void prepare_pin_motion(PlanBuilder& b)
                 b.plan.moving_pins.push_back({v, body, p, b.start[v]});
                 vertices.push_back(v);
             }
-    b.add_buffer<std::uint32_t>("pin_motion", "pin vertices", vertices);
+    b.pin_vertices = b.add_buffer<std::uint32_t>("pin_motion", "pin vertices", vertices);
     b.plan.pin_targets = b.add_buffer("pin_motion", "pin targets", vertices.size() * 8 * b.real_size());
     b.plan.buffers[b.plan.pin_targets].host_written = true;
 }
@@ -152,7 +144,7 @@ void prepare_pin_motion(PlanBuilder& b)
 void record_pin_motion(PlanBuilder& b, const Moment& moment)
 {
     const auto count = static_cast<std::uint32_t>(b.plan.moving_pins.size());
-    const Use uses[] = {{pin_vertices_buffer(b.plan)}, {b.plan.pin_targets, 2}, {b.plan.position}, {b.plan.delta}};
+    const Use uses[] = {{b.pin_vertices}, {b.plan.pin_targets, 2}, {b.plan.position}, {b.plan.delta}};
     b.dispatch("pin_motion", "pin_motion", "", uses, kernels::pin_motion::Params{count, moment.substep, b.plan.substeps}, count);
 }
 
@@ -176,14 +168,19 @@ void prepare_sphere(PlanBuilder& b)
     b.plan.buffers[b.plan.spheres].host_written = true;
 }
 
-/// With one iteration a substep, what friction took so far is zero and needs no buffer.
-std::uint32_t friction_buffer(PlanBuilder& b, std::string_view shape, std::uint32_t colliders)
+/// Turns the contact passes' friction on. With one iteration a substep, what friction took so far is zero
+/// and needs no buffer.
+void prepare_friction(PlanBuilder& b)
 {
-    const std::string name = std::string(shape) + " friction";
-    for (std::uint32_t i = 0; i < b.plan.buffers.size(); ++i)
-        if (b.plan.buffers[i].name == name)
-            return i;
-    return b.add_buffer("friction", name, std::uint64_t(colliders) * b.plan.vertex_count * 4 * b.real_size());
+    for (const ColliderKind kind : {ColliderKind::plane, ColliderKind::sphere})
+    {
+        const auto shape = static_cast<std::size_t>(kind);
+        b.friction[shape] = has_friction(b.scene, kind);
+        if (b.friction[shape] && b.plan.iterations > 1)
+            b.friction_taken[shape] =
+                b.add_buffer("friction", kind == ColliderKind::plane ? "plane friction" : "sphere friction",
+                             std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
+    }
 }
 
 template <typename Params>
@@ -191,13 +188,11 @@ void record_contact(PlanBuilder& b, const Moment& moment, std::string_view shape
 {
     const std::uint32_t colliders = collider_count(b.scene, kind);
     std::vector<Use> uses = {{b.plan.position}, {b.plan.delta}, {buffer, 0}, {b.plan.step_values, 0}, {b.plan.events, 0}};
-    std::string_view variant;
-    if (has_friction(b.scene, kind))
-    {
-        variant = b.plan.iterations > 1 ? "friction_kept" : "friction";
-        if (b.plan.iterations > 1)
-            uses.push_back({friction_buffer(b, shape, colliders), colliders});
-    }
+    const auto row = static_cast<std::size_t>(kind);
+    const bool kept = b.friction_taken[row] != kNoBuffer;
+    const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";
+    if (kept)
+        uses.push_back({b.friction_taken[row], colliders});
     b.dispatch(shape, shape, variant, uses,
                Params{b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
                b.plan.vertex_count);
@@ -211,6 +206,11 @@ void record_plane(PlanBuilder& b, const Moment& moment)
 void record_sphere(PlanBuilder& b, const Moment& moment)
 {
     record_contact<kernels::sphere::Params>(b, moment, "sphere", ColliderKind::sphere, b.plan.spheres);
+}
+
+bool wants_friction(const Scene& scene)
+{
+    return has_bodies(scene) && (has_friction(scene, ColliderKind::plane) || has_friction(scene, ColliderKind::sphere));
 }
 
 bool any_stretch(const Scene& scene)
@@ -234,6 +234,7 @@ constexpr Effect kEffects[] = {
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance},
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending},
+    {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); }, prepare_plane, record_plane},
     {"sphere", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::sphere); }, prepare_sphere, record_sphere},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},

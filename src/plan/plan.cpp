@@ -2,83 +2,31 @@
 
 #include "taut/plan/builder.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string_view>
 
 namespace taut {
 namespace {
 
-std::string shown(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
 /// The square of a substep's inverse must stay finite in single precision, also times a compliance.
 constexpr double kMinSubstep = 1e-15;
-
-std::string place(std::size_t body, std::string_view list, std::size_t index)
-{
-    return "bodies[" + std::to_string(body) + "]." + std::string(list) + "[" + std::to_string(index) + "] ";
-}
-
-void check_springs(const Body& body, std::size_t b)
-{
-    const std::size_t count = body.mesh.positions.size();
-    for (std::size_t k = 0; k < body.springs.size(); ++k)
-    {
-        const Body::Spring& s = body.springs[k];
-        if (s.a >= count || s.b >= count || s.a == s.b)
-            throw Error(ErrorCode::bad_input, place(b, "springs", k) + "joins vertices " + std::to_string(s.a) + " and " +
-                                                  std::to_string(s.b) + "; they must differ, and the body has " +
-                                                  std::to_string(count) + " vertices");
-        if (!(s.rest_length >= 0) || !(s.compliance >= 0) || !std::isfinite(s.rest_length) || !std::isfinite(s.compliance))
-            throw Error(ErrorCode::bad_input, place(b, "springs", k) + "has rest_length " + std::to_string(s.rest_length) +
-                                                  " m and compliance " + std::to_string(s.compliance) +
-                                                  " m/N; both must be finite, 0 or more");
-    }
-}
-
-/// What a plan indexes and divides by. Scenes with meshes filled by hand have not passed check().
-void check_body(const Body& body, std::size_t b)
-{
-    const std::size_t count = body.mesh.positions.size();
-    check_springs(body, b);
-    for (const Pin& pin : body.pins)
-        for (std::size_t k = 0; k < pin.vertices.size(); ++k)
-            if (pin.vertices[k] >= count)
-                throw Error(ErrorCode::bad_input, place(b, "pins.vertices", k) + "is " + std::to_string(pin.vertices[k]) +
-                                                      "; the body has " + std::to_string(count) + " vertices");
-    for (const std::size_t size : {body.vertex_masses.size(), body.start_positions.size()})
-        if (size != 0 && size != count)
-            throw Error(ErrorCode::bad_input, "bodies[" + std::to_string(b) + "] has " + std::to_string(size) +
-                                                  " vertex_masses or start_positions, but " + std::to_string(count) +
-                                                  " vertices");
-    for (std::size_t v = 0; v < body.vertex_masses.size(); ++v)
-        if (!(body.vertex_masses[v] > 0) || !std::isfinite(body.vertex_masses[v]))
-            throw Error(ErrorCode::bad_input, place(b, "vertex_masses", v) + "is " +
-                                                  std::to_string(body.vertex_masses[v]) + " kg; it must be above 0 and finite");
-    const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
-    for (std::size_t v = 0; v < count; ++v)
-        if (!std::isfinite(start[v].x + start[v].y + start[v].z))
-            throw Error(ErrorCode::bad_input, place(b, "start_positions", v) + "is not finite");
-}
 
 void check_settings(const Scene& scene, const DeviceTraits& traits)
 {
     if (scene.method.type != "xpbd")
         throw Error(ErrorCode::unsupported, "method.type \"" + scene.method.type + "\" is not there; there is \"xpbd\"");
-    if (scene.method.substeps == 0 || scene.method.iterations == 0)
-        throw Error(ErrorCode::bad_input, "method.substeps and method.iterations must be at least 1");
     check_timestep(scene.timestep, scene.method.substeps);
+    for (const SceneIssue& issue : check_resolved(scene))
+        if (issue.error)
+            throw Error(issue.code, issue.field + " " + issue.text);
     if (scene.method.precision == "double" && !traits.float64)
         throw Error(ErrorCode::unsupported,
                     "method.precision is \"double\", but the device has no 64-bit floats; use \"float\" or another device");
@@ -103,11 +51,11 @@ void warn_of_precision(const Scene& scene, PlanBuilder& builder)
     const double last_digit = kUnit * kUnit * far;
     std::vector<std::string>& warnings = builder.plan.warnings;
     if (fall > 0 && last_digit > 0.25 * fall)
-        warnings.push_back("precision: a substep falls " + shown(fall) + " m, the last digit of a position is " +
-                           shown(last_digit) + " m; use double, longer substeps or places nearer the origin");
+        warnings.push_back("precision: a substep falls " + shown(fall, 3) + " m, the last digit of a position is " +
+                           shown(last_digit, 3) + " m; use double, longer substeps or places nearer the origin");
     const bool placed = !scene.colliders.empty() || !builder.plan.moving_pins.empty();
     if (placed && !builder.start.empty() && kUnit * far > 1e-4 * glm::length(high - low))
-        warnings.push_back("precision: colliders and led vertices are placed to " + shown(kUnit * far) +
+        warnings.push_back("precision: colliders and led vertices are placed to " + shown(kUnit * far, 3) +
                            " m; use double or places nearer the origin");
 }
 
@@ -128,7 +76,7 @@ std::vector<const Effect*> wanted_effects(const Scene& scene, const PlanOptions&
 void record_stage(PlanBuilder& builder, const std::vector<const Effect*>& rows, Stage stage, const Moment& moment)
 {
     for (const Effect* row : rows)
-        if (row->stage == stage)
+        if (row->stage == stage && row->record != nullptr)
             row->record(builder, moment);
 }
 
@@ -159,7 +107,7 @@ void record_step(PlanBuilder& builder, const std::vector<const Effect*>& rows)
 void check_timestep(double timestep, std::uint32_t substeps)
 {
     if (!(timestep > 0) || timestep > 1 || timestep / substeps < kMinSubstep)
-        throw Error(ErrorCode::bad_timestep, "timestep is " + std::to_string(timestep) + " s in " +
+        throw Error(ErrorCode::bad_timestep, "timestep is " + shown(timestep) + " s in " +
                                                  std::to_string(substeps) +
                                                  " substeps; it must lie in (0, 1] s, a substep at least 1e-15 s");
 }
@@ -167,8 +115,6 @@ void check_timestep(double timestep, std::uint32_t substeps)
 Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOptions& options)
 {
     check_settings(resolved, traits);
-    for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
-        check_body(resolved.bodies[b], b);
     PlanBuilder builder(resolved, traits, options);
     const std::vector<const Effect*> rows = wanted_effects(resolved, options);
     // The state comes first: other effects bind it.
@@ -181,6 +127,7 @@ Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOpti
     warn_of_precision(resolved, builder);
     record_step(builder, rows);
     builder.plan.barrier_before = derive_barriers(builder.plan.passes);
+    assert(find_hazards(builder.plan.passes, builder.plan.barrier_before).empty());
     return std::move(builder.plan);
 }
 

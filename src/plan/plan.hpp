@@ -17,9 +17,6 @@ namespace taut {
 struct DeviceTraits
 {
     std::uint64_t max_buffer_bytes = std::uint64_t(1) << 27;
-    std::uint64_t offset_alignment = 256;
-    std::uint32_t max_group_size = 128;
-    std::uint32_t max_shared_bytes = 16384;
     bool float64 = true;
     // Four measured costs, ns (docs/runtime.md says how).
     double dispatch_ns = 2000;      ///< one more dispatch with its barrier

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -162,7 +163,9 @@ std::vector<std::string> captions(const CostStudy& study, CostAxis axis)
     std::vector<std::string> out{"Reference class " + study.reference.name + ". " + study.reference.text};
     for (const std::string& passed : study.reference.passed)
         out.push_back("Passed over: " + passed + ".");
-    if (study.reference.error && *study.reference.error > 0)
+    const bool at_floor = std::any_of(study.points.begin(), study.points.end(),
+                                      [](const CostPoint& point) { return point.at_floor; });
+    if (at_floor)
         out.push_back("Errors below " + number(10 * *study.reference.error, 2) +
                       ", ten times the reference's own, are not told apart.");
     const std::string span =

@@ -1,6 +1,6 @@
 #include "taut/report/image.hpp"
 
-#include "taut/scene/file_text.hpp"
+#include "taut/runtime/base/atomic_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -99,7 +99,7 @@ void write_png(const std::filesystem::path& file, const Image& image)
     if (stbi_write_png_to_func(append, &png, width, height, 4, image.rgba.data(), 4 * width) == 0)
         throw Error(ErrorCode::io, "cannot encode " + file.string() + " as PNG (" + std::to_string(width) +
                                        " x " + std::to_string(height) + " pixels)");
-    scene_file::write_file(file, png);
+    write_file(file, png);
 }
 
 } // namespace taut

@@ -3,12 +3,11 @@
 #include "taut/report/svg_plot.hpp"
 
 #include "taut/report/svg_text.hpp"
-#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/atomic_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -247,21 +246,7 @@ std::string svg(const Plot& plot)
 
 void write_svg(const std::filesystem::path& file, const Plot& plot)
 {
-    std::filesystem::path temporary = file;
-    temporary += ".part";
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        out << svg(plot);
-        out.close();
-        if (!out)
-            throw Error(ErrorCode::io,
-                        "cannot write " + temporary.string() + ": check the folder and the room on it");
-    }
-    std::error_code failed;
-    std::filesystem::rename(temporary, file, failed);
-    if (failed)
-        throw Error(ErrorCode::io, "cannot rename " + temporary.string() + " to " + file.string() + ": " +
-                                       failed.message());
+    write_file(file, svg(plot));
 }
 
 } // namespace taut

@@ -61,7 +61,7 @@ void check_times(const Scene& scene, const Checker& out)
     out.not_negative("duration", scene.duration, "s");
     if (good && scene.duration <= kMaxValue && scene.duration / scene.timestep > kMaxSteps)
         out.error("duration", "is " + shown(scene.duration) + " s, that is " +
-                                  shown(scene.duration / scene.timestep) +
+                                  shown(scene.duration / scene.timestep, 6) +
                                   " time steps; at most 1e9 are run");
 }
 
@@ -171,22 +171,28 @@ void check_springs(const Body& body, const Checker& out)
     }
 }
 
-void check_body(const Body& body, const Checker& out)
+/// What does not depend on where the mesh comes from.
+void check_body_values(const Body& body, const Checker& out)
 {
-    check_shape(body.shape, out);
     check_material(body.material, out.at("material"));
-    const Checker transform = out.at("transform");
-    transform.finite("translate", body.transform.translate, "m");
-    check_axis(body.transform.rotate_axis, body.transform.rotate_degrees, transform.at("rotate"));
-    transform.positive("scale", body.transform.scale, "(no unit)");
     out.finite("velocity", body.velocity, "m/s");
-    for (std::size_t i = 0; i < body.pins.size(); ++i)
-        check_pin(body.pins[i], body.shape.kind, out.at("pins", i));
     check_springs(body, out);
     for (std::size_t i = 0; i < body.vertex_masses.size(); ++i)
         out.at("vertex_masses", i).positive("", body.vertex_masses[i], "kg");
     for (std::size_t i = 0; i < body.start_positions.size(); ++i)
         out.at("start_positions", i).finite("", body.start_positions[i], "m");
+}
+
+void check_body(const Body& body, const Checker& out)
+{
+    check_shape(body.shape, out);
+    check_body_values(body, out);
+    const Checker transform = out.at("transform");
+    transform.finite("translate", body.transform.translate, "m");
+    check_axis(body.transform.rotate_axis, body.transform.rotate_degrees, transform.at("rotate"));
+    transform.positive("scale", body.transform.scale, "(no unit)");
+    for (std::size_t i = 0; i < body.pins.size(); ++i)
+        check_pin(body.pins[i], body.shape.kind, out.at("pins", i));
     if (body.shape.kind == ShapeKind::grid)
         scene_file::check_counts(
             body, (std::size_t(body.shape.cells.x) + 1) * (std::size_t(body.shape.cells.y) + 1), out);
@@ -203,6 +209,9 @@ void check_collider(const Collider& collider, const Checker& out)
             !(glm::length(collider.normal) > 0))
             out.error("plane.normal",
                       "is " + shown(collider.normal) + "; it must have a direction, for example [0, 1, 0]");
+        for (std::size_t i = 0; i < collider.motion.size(); ++i)
+            if (collider.motion[i].rotate_degrees != 0)
+                out.at("motion", i).error("rotate", "turns a plane; planes only translate so far");
     }
     else
     {
@@ -255,22 +264,47 @@ void check_counts(const Body& body, std::size_t vertex_count, const Checker& out
 
 } // namespace scene_file
 
-std::vector<SceneIssue> check(const Scene& scene)
+namespace {
+
+void check_world(const Scene& scene, const Checker& out)
 {
-    std::vector<SceneIssue> issues;
-    const Checker out(issues, {});
-    if (scene.version != 1)
-        out.error("taut", "is " + std::to_string(scene.version) + "; this library reads version 1");
     check_times(scene, out);
     out.finite("gravity", scene.gravity, "m/s^2");
     out.not_negative("damping", scene.damping, "1/s");
     out.not_negative("max_speed", scene.max_speed, "m/s");
     out.not_negative("depenetration_speed", scene.depenetration_speed, "m/s");
     check_method(scene.method, out.at("method"));
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        check_body(scene.bodies[i], out.at("bodies", i));
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)
         check_collider(scene.colliders[i], out.at("colliders", i));
+}
+
+} // namespace
+
+std::vector<SceneIssue> check_resolved(const Scene& scene)
+{
+    std::vector<SceneIssue> issues;
+    const Checker out(issues, {});
+    check_world(scene, out);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+        const Checker at = out.at("bodies", i);
+        check_body_values(scene.bodies[i], at);
+        scene_file::check_counts(scene.bodies[i], scene.bodies[i].mesh.positions.size(), at);
+        for (std::size_t v = 0; v < scene.bodies[i].mesh.positions.size(); ++v)
+            at.at("mesh.positions", v).finite("", scene.bodies[i].mesh.positions[v], "m");
+    }
+    return issues;
+}
+
+std::vector<SceneIssue> check(const Scene& scene)
+{
+    std::vector<SceneIssue> issues;
+    const Checker out(issues, {});
+    if (scene.version != 1)
+        out.error("taut", "is " + std::to_string(scene.version) + "; this library reads version 1");
+    check_world(scene, out);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        check_body(scene.bodies[i], out.at("bodies", i));
     check_names(scene.bodies, "bodies", out);
     check_names(scene.colliders, "colliders", out);
     return issues;

@@ -4,16 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace taut::scene_file {
-
-std::string shown(double value)
-{
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
 
 std::string shown(const glm::dvec3& value)
 {

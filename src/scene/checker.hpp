@@ -1,6 +1,7 @@
 #pragma once
 // Collects what is wrong with a scene: one place for the wording of ranges.
 
+#include "taut/runtime/base/shown.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <span>
@@ -15,8 +16,7 @@ inline constexpr double kMaxValue = 1e30;
 /// Most vertices of a generated body; a typing error should not fill the machine's memory.
 inline constexpr double kMaxVertices = 1 << 26;
 
-/// A number as messages print it.
-std::string shown(double value);
+using taut::shown;
 std::string shown(const glm::dvec3& value);
 
 /// Appends issues whose fields start with a path.

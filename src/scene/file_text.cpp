@@ -2,11 +2,9 @@
 
 #include "taut/runtime/base/error.hpp"
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <random>
 
 namespace taut::scene_file {
 
@@ -15,14 +13,6 @@ namespace {
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& text)
 {
     throw Error(ErrorCode::io, file.string() + ": " + text);
-}
-
-/// Unique among processes and threads that write the same file at the same time.
-std::filesystem::path temporary_name(const std::filesystem::path& file)
-{
-    static const std::uint32_t process = std::random_device{}();
-    static std::atomic<std::uint32_t> next{0};
-    return file.string() + "." + std::to_string(process) + "-" + std::to_string(next++) + ".tmp";
 }
 
 } // namespace
@@ -47,26 +37,6 @@ std::string read_file(const std::filesystem::path& file, std::uintmax_t max_byte
     if (!stream || !stream.read(text.data(), static_cast<std::streamsize>(bytes)))
         fail(file, std::string("it cannot be read: ") + std::strerror(errno));
     return text;
-}
-
-void write_file(const std::filesystem::path& file, const std::string& contents)
-{
-    const std::filesystem::path temporary = temporary_name(file);
-    std::ofstream stream(temporary, std::ios::binary);
-    if (!stream)
-        fail(file, std::string("it cannot be created: ") + std::strerror(errno) + "; does the folder exist?");
-    stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
-    stream.close();
-    std::error_code code;
-    if (stream)
-        std::filesystem::rename(temporary, file, code);
-    else
-        code = std::make_error_code(std::errc::io_error);
-    if (!code)
-        return;
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    fail(file, "it cannot be written: " + code.message() + "; is there room, and is it writable?");
 }
 
 } // namespace taut::scene_file

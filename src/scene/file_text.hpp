@@ -1,5 +1,5 @@
 #pragma once
-// Whole files to memory and back, with errors that name the file.
+// Whole files to memory, with errors that name the file.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,9 +10,5 @@ namespace taut::scene_file {
 /// Throws Error{io} if the file is missing, no regular file or unreadable, Error{bad_input} if it is
 /// larger than `max_bytes`.
 std::string read_file(const std::filesystem::path& file, std::uintmax_t max_bytes);
-
-/// Writes beside the file under a temporary name, then renames: a reader never sees half a file.
-/// Throws Error{io}.
-void write_file(const std::filesystem::path& file, const std::string& contents);
 
 } // namespace taut::scene_file

@@ -170,6 +170,9 @@ struct SceneIssue
 /// Checks every value and range. Does not read mesh files.
 std::vector<SceneIssue> check(const Scene& scene);
 
+/// The same for a scene whose bodies have meshes already: all values, and indices against the meshes.
+std::vector<SceneIssue> check_resolved(const Scene& scene);
+
 /// Checks, generates or loads every body's mesh, applies transforms, resolves pins; returns a scene
 /// whose bodies have `mesh`, and whose pins have only `vertices` and `motion`. Warnings are appended.
 /// Throws Error{bad_input} with the first issue in full and the number of others.

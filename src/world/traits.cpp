@@ -97,37 +97,49 @@ private:
     BufferPtr constraint_, position_, delta_, step_, events_, table_;
 };
 
-DeviceTraits measure(Device& device)
+/// Fills the costs.
+void measure_costs(Device& device, DeviceTraits& traits)
 {
-    const DeviceLimits& limits = device.limits();
-    DeviceTraits traits;
-    traits.max_buffer_bytes = limits.max_buffer_bytes;
-    traits.offset_alignment = limits.offset_alignment;
-    traits.max_group_size = limits.max_group_size;
-    traits.max_shared_bytes = limits.max_shared_bytes;
-    traits.float64 = limits.float64;
-
     Probe probe(device);
     const double few = probe.time_dispatches(8, 1), many = probe.time_dispatches(72, 1);
     traits.dispatch_ns = std::max((many - few) / 64, 1.0);
     const double short_tail = probe.time_tail(Probe::kOneColour), long_tail = probe.time_tail(Probe::kManyColours);
     traits.group_barrier_ns = std::max((long_tail - short_tail) / (Probe::kPhases - 1), 1.0);
-    traits.element_ns = std::max((probe.time_dispatches(1, Probe::kSprings) - probe.time_dispatches(1, 1)) / Probe::kSprings, 1e-3);
+    const double all = probe.time_dispatches(1, Probe::kSprings), one = probe.time_dispatches(1, 1);
+    traits.element_ns = std::max((all - one) / Probe::kSprings, 1e-3);
     traits.lane_element_ns =
         std::max((probe.time_tail(Probe::kLargeColour) - short_tail) / Probe::kLaneSprings, traits.element_ns);
-    return traits;
 }
 
 } // namespace
+
+DeviceTraits limits_as_traits(const Device& device)
+{
+    DeviceTraits traits;
+    traits.max_buffer_bytes = device.limits().max_buffer_bytes;
+    traits.float64 = device.limits().float64;
+    return traits;
+}
 
 DeviceTraits measure_traits(Device& device)
 {
     static std::mutex mutex;
     static std::map<std::string, DeviceTraits> known;
     const std::lock_guard lock(mutex);
-    const std::string key = device.info().executor + "|" + device.info().selector + "|" + device.info().name;
-    const auto found = known.find(key);
-    return found != known.end() ? found->second : known.emplace(key, measure(device)).first->second;
+    const DeviceInfo& info = device.info();
+    const std::string key = info.executor + "|" + info.selector + "|" + info.name + "|" + info.driver;
+    DeviceTraits traits = limits_as_traits(device);
+    auto found = known.find(key);
+    if (found == known.end())
+    {
+        measure_costs(device, traits);
+        return known.emplace(key, traits).first->second;
+    }
+    traits.dispatch_ns = found->second.dispatch_ns;
+    traits.group_barrier_ns = found->second.group_barrier_ns;
+    traits.element_ns = found->second.element_ns;
+    traits.lane_element_ns = found->second.lane_element_ns;
+    return traits;
 }
 
 } // namespace taut

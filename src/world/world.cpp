@@ -3,11 +3,13 @@
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 #include "taut/world/inputs.hpp"
 
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -115,6 +117,13 @@ Scene resolved(const Scene& scene)
     return scene;
 }
 
+bool has_constraints(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
+        return b.material.stretch_stiffness > 0 || b.material.bending_stiffness > 0 || !b.springs.empty();
+    });
+}
+
 } // namespace
 
 World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOptions& options)
@@ -122,7 +131,9 @@ World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOpti
 {
     impl_->scene = resolved(scene);
     impl_->device = std::move(device);
-    impl_->plan = make_plan(impl_->scene, measure_traits(*impl_->device), options.plan);
+    // Costs only decide how constraints are grouped: without any, no probe runs.
+    const DeviceTraits traits = has_constraints(impl_->scene) ? measure_traits(*impl_->device) : limits_as_traits(*impl_->device);
+    impl_->plan = make_plan(impl_->scene, traits, options.plan);
     impl_->moves = inputs_move(impl_->scene, impl_->plan);
     impl_->restart_clock({});
     impl_->create_buffers();
@@ -255,6 +266,11 @@ void World::restore(const WorldState& state)
         if (!finite)
             throw Error(ErrorCode::bad_input, std::string("restore: ") + names[i] + " holds a value that is not finite");
     }
+    const Clock& clock = state.clock;
+    const double sum = clock.time + clock.timestep + glm::length(clock.gravity) + glm::length(clock.fall);
+    if (!std::isfinite(sum) || clock.timestep < 0 || clock.step > state.step)
+        throw Error(ErrorCode::bad_input, "restore: the clock is not that of step " + std::to_string(state.step) +
+                                              ": it must be finite and begin at that step or before");
     for (const auto& [buffer, bytes] : parts)
         if (buffer != kNoBuffer)
             impl_->device->write(impl_->buffers[buffer], 0, *bytes);

@@ -35,7 +35,7 @@ struct WorldState
     Clock clock = {};
 };
 
-/// What kernels counted since the last reset.
+/// What kernels counted since the world was made.
 struct Events
 {
     std::uint64_t non_finite = 0, speed_clamped = 0, degenerate = 0, conflicts = 0;
@@ -109,6 +109,9 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// Limits from the device, costs at their defaults. Runs nothing.
+DeviceTraits limits_as_traits(const Device& device);
 
 /// Limits from the device; costs measured by four micro-runs, once per device and process.
 DeviceTraits measure_traits(Device& device);

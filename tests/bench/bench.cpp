@@ -1,31 +1,73 @@
 // taut_bench [FILE.csv]: prints the table of docs/bench.md and, if asked, writes it as CSV.
+// Exit status 1 and one sentence when a rival computes something else, or the file cannot be written.
 
 #include "bench.hpp"
 
+#include "taut/runtime/base/atomic_file.hpp"
+#include "taut/runtime/base/shown.hpp"
+#include "taut/runtime/device.hpp"
 #include "taut/version.hpp"
 
 #include <cstdio>
-#include <fstream>
+#include <exception>
+
+namespace {
+
+/// Everything in it must be known to compare two tables.
+std::string conditions(int argc, char** argv)
+{
+    std::string text = "taut " TAUT_VERSION "; devices:";
+    for (const taut::DeviceInfo& device : taut::Device::list())
+        text += " " + device.selector + " = " + device.name + " (" + device.driver + "),";
+    text.back() = ';';
+#if defined(__clang__)
+    text += " compiler: clang " __clang_version__;
+#else
+    text += " compiler: g++ " __VERSION__;
+#endif
+    text += "; CPU: " + bench::processor() + "; command:";
+    for (int i = 0; i < argc; ++i)
+        text += std::string(" ") + argv[i];
+    return text;
+}
+
+void print(const std::vector<bench::Row>& rows)
+{
+    std::printf("| what | median ms | best ms | error m | ratio | to | target |\n|---|---|---|---|---|---|---|\n");
+    for (const bench::Row& r : rows)
+        std::printf("| %s | %.3f | %.3f | %.2g | %.2f | %s | %s |\n", r.what.c_str(), r.milliseconds, r.best,
+                    r.error, r.ratio, r.against.c_str(),
+                    r.target > 0 ? taut::shown(r.target, 3).c_str() : "");
+}
+
+std::string csv(const std::vector<bench::Row>& rows, const std::string& conditions)
+{
+    std::string text = "# " + conditions + "\nwhat,median_ms,best_ms,error_m,ratio,to,target\n";
+    for (const bench::Row& r : rows)
+    {
+        text += '"' + r.what + '"';
+        for (const double value : {r.milliseconds, r.best, r.error, r.ratio})
+            text += ',' + taut::shown(value, 6);
+        text += ",\"" + r.against + "\"," + taut::shown(r.target) + '\n';
+    }
+    return text;
+}
+
+} // namespace
 
 int main(int argc, char** argv)
+try
 {
     std::vector<bench::Row> rows = bench::distance_rows();
     for (const bench::Row& row : bench::recording_rows())
         rows.push_back(row);
-    std::printf("| what | median ms | best ms | error | ratio | to | target |\n|---|---|---|---|---|---|---|\n");
-    for (const bench::Row& r : rows)
-        std::printf("| %s | %.3f | %.3f | %.2g | %.2f | %s | %s |\n", r.what.c_str(), r.milliseconds, r.best, r.error,
-                    r.ratio, r.against.c_str(), r.target > 0 ? std::to_string(r.target).substr(0, 4).c_str() : "");
-    if (argc < 2)
-        return 0;
-    const std::string temporary = std::string(argv[1]) + ".tmp";
-    {
-        std::ofstream file(temporary);
-        file << "# taut " << TAUT_VERSION << "; command: taut_bench FILE.csv\n"
-             << "what,median_ms,best_ms,error,ratio,to,target\n";
-        for (const bench::Row& r : rows)
-            file << '"' << r.what << "\"," << r.milliseconds << ',' << r.best << ',' << r.error << ',' << r.ratio << ",\""
-                 << r.against << "\"," << r.target << '\n';
-    }
-    return std::rename(temporary.c_str(), argv[1]) == 0 ? 0 : 1;
+    print(rows);
+    if (argc > 1)
+        taut::write_file(argv[1], csv(rows, conditions(argc, argv)));
+    return 0;
+}
+catch (const std::exception& error)
+{
+    std::fprintf(stderr, "taut_bench: %s\n", error.what());
+    return 1;
 }

@@ -15,7 +15,7 @@ struct Row
     std::string what;
     double milliseconds = 0; ///< median
     double best = 0;
-    double error = 0;
+    double error = 0;     ///< m
     double ratio = 0;     ///< to the row it is compared with
     std::string against;
     double target = 0;    ///< the ratio to reach; 0 = none
@@ -50,6 +50,12 @@ inline void take_turns(std::vector<Rival>& rivals, int turns)
         }
 }
 
+/// Model name of the processor, as the native executor reports it.
+std::string processor();
+
+/// Throws std::runtime_error when a rival's result is further than kLargestError from the reference's: what
+/// computes something else is not timed.
+inline constexpr double kLargestError = 1e-6; // m
 std::vector<Row> distance_rows();
 std::vector<Row> recording_rows();
 

@@ -5,6 +5,8 @@
 
 #include "taut/kernels/distance.hpp"
 #include "taut/plan/topology.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 #include "taut/runtime/device.hpp"
 
 #include <glm/geometric.hpp>
@@ -17,6 +19,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <thread>
 
 namespace bench {
@@ -109,6 +112,39 @@ double difference(const std::vector<plain::Vec4>& a, const std::vector<plain::Ve
     return worst;
 }
 
+/// Gives the error back, or throws.
+double verified(const std::string& who, double error)
+{
+    if (!(error <= kLargestError))
+        throw std::runtime_error(who + " is " + taut::shown(error, 3) +
+                                 " m from plain C++ after ten sweeps; nothing is timed above " +
+                                 taut::shown(kLargestError) + " m");
+    return error;
+}
+
+struct GraphicsDevice
+{
+    std::string selector;
+    std::unique_ptr<OnDevice> problem;
+};
+
+/// Those that are there.
+std::vector<GraphicsDevice> open_graphics(const Problem& problem)
+{
+    std::vector<GraphicsDevice> out;
+    for (const char* selector : {"vulkan", "opengl"})
+        try
+        {
+            out.push_back({selector, std::make_unique<OnDevice>(selector, problem)});
+        }
+        catch (const taut::Error& error)
+        {
+            if (error.code() != taut::ErrorCode::no_device)
+                throw;
+        }
+    return out;
+}
+
 /// Keeps one core busy while it lives.
 class BusyCore
 {
@@ -127,6 +163,8 @@ private:
 
 } // namespace
 
+std::string processor() { return taut::Device::open("cpu:serial")->info().name; }
+
 std::vector<Row> distance_rows()
 {
     const Problem problem = make_problem();
@@ -136,22 +174,34 @@ std::vector<Row> distance_rows()
         plain::sweep_displacements(problem.constraints, problem.colour_start, problem.position.data(), delta.data(), kInverseStep);
     };
 
+    const std::vector<GraphicsDevice> graphics = open_graphics(problem);
+
     // Verify, then time: ten sweeps of each from the same start.
     for (int i = 0; i < 10; ++i)
     {
         sweep_plain();
         serial.sweep();
         parallel.sweep();
+        for (const GraphicsDevice& device : graphics)
+            device.problem->sweep();
     }
-    const double serial_error = difference(delta, serial.delta()), parallel_error = difference(serial.delta(), parallel.delta());
+    const double serial_error = verified("native serial", difference(delta, serial.delta()));
+    const double parallel_error = verified("native parallel", difference(delta, parallel.delta()));
+    std::vector<double> graphics_errors;
+    for (const GraphicsDevice& device : graphics)
+        graphics_errors.push_back(verified(device.selector, difference(delta, device.problem->delta())));
 
     std::vector<Rival> rivals = {
         {"plain C++, displacements", sweep_plain},
         {"plain C++, positions only",
-         [&] { plain::sweep_positions(problem.constraints, problem.colour_start, position.data(), kInverseStep); }},
+         [&] {
+             plain::sweep_positions(problem.constraints, problem.colour_start, position.data(), kInverseStep);
+         }},
         {"native serial", [&] { serial.sweep(); }},
         {"native parallel", [&] { parallel.sweep(); }},
     };
+    for (const GraphicsDevice& device : graphics)
+        rivals.push_back({device.selector + ", wall time of replay and wait", [&] { device.problem->sweep(); }});
     take_turns(rivals, 40);
 
     std::vector<Rival> crowded = {{"native serial, one core busy", [&] { serial.sweep(); }},
@@ -161,15 +211,23 @@ std::vector<Row> distance_rows()
         take_turns(crowded, 40);
     }
     const double loop = rivals[0].median(), one = rivals[2].median();
-    return {
+    std::vector<Row> rows = {
         {rivals[0].name, loop, rivals[0].best(), 0, 1, "", 0},
         {rivals[1].name, rivals[1].median(), rivals[1].best(), 0, rivals[1].median() / loop, rivals[0].name, 0},
         {rivals[2].name, one, rivals[2].best(), serial_error, one / loop, rivals[0].name, 1.1},
-        {rivals[3].name, rivals[3].median(), rivals[3].best(), parallel_error, rivals[3].median() / one, rivals[2].name, 0.6},
+        {rivals[3].name, rivals[3].median(), rivals[3].best(), parallel_error, rivals[3].median() / one,
+         rivals[2].name, 0.6},
         {crowded[0].name, crowded[0].median(), crowded[0].best(), serial_error, 1, "", 0},
-        {crowded[1].name, crowded[1].median(), crowded[1].best(), parallel_error, crowded[1].median() / crowded[0].median(),
-         crowded[0].name, 1.3},
+        {crowded[1].name, crowded[1].median(), crowded[1].best(), parallel_error,
+         crowded[1].median() / crowded[0].median(), crowded[0].name, 1.3},
     };
+    for (std::size_t i = 0; i < graphics.size(); ++i)
+    {
+        const Rival& rival = rivals[4 + i];
+        rows.push_back({rival.name, rival.median(), rival.best(), graphics_errors[i], rival.median() / loop,
+                        rivals[0].name, 0});
+    }
+    return rows;
 }
 
 } // namespace bench

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -196,6 +197,8 @@ TEST_CASE("pictures are PNG files, or a message says why there are none")
     const auto report = program::parse(result.out);
     if (report["pictures"].empty())
     {
+        const char* const required = std::getenv("TAUT_REQUIRE_DEVICE");
+        CHECK_FALSE((required && std::string(required) == "1")); // then there is a device that draws
         const auto messages = report["messages"].get<std::vector<std::string>>();
         CHECK(std::any_of(messages.begin(), messages.end(),
                           [](const std::string& m) { return m.rfind("no pictures: ", 0) == 0; }));

@@ -61,8 +61,9 @@ TEST_CASE("E01: particles of 100 m/s do not pass a plane or a small ball [hard]"
                 world.step();
                 const auto to = world.positions();
                 for (std::size_t v = 0; v < to.size(); ++v)
-                    least = std::min(least, collider.kind == ColliderKind::plane ? to[v].y
-                                                                                 : distance_of_path(from[v], to[v]) - collider.radius);
+                    least = std::min(least, collider.kind == ColliderKind::plane
+                                                ? to[v].y
+                                                : distance_of_path(from[v], to[v]) - collider.radius);
                 from = to;
             }
             check_sound(world);
@@ -105,7 +106,8 @@ TEST_CASE("E03: a ball of 20 m/s into hanging cloth leaves no vertex inside [har
         CHECK(report.penetration < 0.01 * radius);
         CHECK(deepest < 0.01 * radius);
         CHECK(std::isfinite(stretch));
-        for (const glm::dvec3& x : world.positions()) // the pinned corners stay, the cloth is pushed, not passed
+        for (const glm::dvec3& x :
+             world.positions()) // the pinned corners stay, the cloth is pushed, not passed
             CHECK(x.z < 0.9);
     });
 }
@@ -135,7 +137,8 @@ TEST_CASE("E04: what starts inside a collider leaves it slowly and completely [h
             }
             const StepReport report = check_sound(world);
             note("E04", *device, round ? "exit speed, ball, m/s" : "exit speed, plane, m/s", fastest);
-            note("E04", *device, round ? "depth after 1 s / D, ball" : "depth after 1 s / D, plane", report.penetration / d);
+            note("E04", *device, round ? "depth after 1 s / D, ball" : "depth after 1 s / D, plane",
+                 report.penetration / d);
             CHECK(total > 0);
             CHECK(fastest < std::sqrt(2 * 9.81 * 0.1 * d));
             CHECK(report.penetration < 0.01 * d);
@@ -174,12 +177,14 @@ TEST_CASE("E06: cloth on a slope slides just below the friction that holds it, a
         on_every_device([&](const auto& device) {
             const int steps = 60;
             const double v_per_s = 1.0 * steps / 60;
-            for (const auto& [mu, acceleration] : {std::pair(0.49, 0.087743307437), std::pair(0.3, 1.754866148742)})
+            for (const auto& [mu, acceleration] :
+                 {std::pair(0.49, 0.087743307437), std::pair(0.3, 1.754866148742)})
             {
                 World slides(on_slope(mu, iterations), device);
                 run(slides, steps);
                 const double speed = mean(slides.velocities()).x / v_per_s;
-                note("E06", *device, mu > 0.4 ? "acceleration at 0.49 / exact" : "acceleration at 0.3 / exact",
+                note("E06", *device,
+                     mu > 0.4 ? "acceleration at 0.49 / exact" : "acceleration at 0.3 / exact",
                      speed / acceleration);
                 CHECK(std::abs(speed / acceleration - 1) < 0.2);
                 check_sound(slides);

@@ -81,7 +81,7 @@ TEST_CASE("B02: a vertex that coincides with its neighbours does not stop the ot
         run(world, 300);
         const StepReport report = check_sound(world); // apart before the first report
         note("B02", *device, "max stretch after 5 s", report.max_stretch);
-        CHECK(report.max_stretch < 0.05); // the neighbours pull the two apart
+        CHECK(report.max_stretch < 1e-4); // the neighbours pull the two apart
     });
 }
 
@@ -97,13 +97,15 @@ TEST_CASE("B03: ends 1e-20 and 1e-30 m apart give no infinity [hard]")
                 run(world, 30);
                 const auto x = world.positions();
                 const double gap = glm::distance(x[25], x[26]);
-                const bool skipped = gap == glm::distance(scene.bodies[1].mesh.positions[0], x[26]) || gap < 1e-19;
-                // Where squares underflow the ends count as coincident; else the rest length is there at once.
+                // Where squares underflow the ends count as coincident; else the rest length is there at
+                // once.
                 check_sound(world, gap < 1e-10 ? Words{"degenerate"} : Words{});
-                CHECK((skipped || gap >= 0.099));
+                CHECK((gap >= 0.099 || gap <= 2 * apart));
                 if (apart >= 1e-15)
                     CHECK(gap >= 0.099);
-                note("B03", *device, (std::to_string(apart) + ": gap after 30 steps, m").c_str(), gap);
+                char what[40];
+                std::snprintf(what, sizeof what, "start %.1e: gap after 30 steps, m", apart);
+                note("B03", *device, what, gap);
             });
 }
 
@@ -169,7 +171,7 @@ TEST_CASE("B18: cloth hangs 10 km from the origin as it does at the origin [hard
         note("B18", *device, "error at the origin, m", origin);
         note("B18", *device, "error at 1e4 m, m", distance);
         CHECK(distance < 10 * origin);
-        CHECK(distance < 1e-3);
+        CHECK(distance < 1e-6);
         CHECK(at_distance.plan().warnings.empty());
         check_sound(at_distance);
     });

@@ -22,9 +22,10 @@ TEST_CASE("G03: cloth survives 1e6 N on one vertex for one frame, and the clamp 
             run(world, 900);
             const StepReport report = check_sound(world, limit > 0 ? Words{"speed_clamp"} : Words{});
             note("G03", *device, limit > 0 ? "stretch in the frame, clamped" : "stretch in the frame", shock);
-            note("G03", *device, limit > 0 ? "stretch 15 s later, clamped" : "stretch 15 s later", report.max_stretch);
+            note("G03", *device, limit > 0 ? "stretch 15 s later, clamped" : "stretch 15 s later",
+                 report.max_stretch);
             CHECK(shock > 0.1);
-            CHECK(report.max_stretch < 0.1);
+            CHECK(report.max_stretch < 0.02);
             for (const glm::dvec3& x : world.positions())
                 CHECK(glm::length(x) < 3);
         });
@@ -69,8 +70,10 @@ TEST_CASE("G04: gravity of 1e4, turned round every frame, gives no more than its
                 gravity = -gravity;
             }
             const StepReport report = check_sound(world);
-            note("G04", *device, held ? "energy / input work, pinned" : "energy / input work, free", inner() / bound);
-            note("G04", *device, held ? "largest gain beyond the work of a frame, J" : "largest gain, free, J", excess);
+            note("G04", *device, held ? "energy / input work, pinned" : "energy / input work, free",
+                 inner() / bound);
+            note("G04", *device,
+                 held ? "largest gain beyond the work of a frame, J" : "largest gain, free, J", excess);
             if (!held)
                 CHECK(report.momentum_error < 1e-4);
         }
@@ -184,7 +187,8 @@ TEST_CASE("G10: what a device cannot bind is refused with both numbers, before a
         // The device itself refuses one byte more than it says. Sizes that only the address space limits
         // are not asked for.
         if (traits.max_buffer_bytes < (std::uint64_t(1) << 40))
-            CHECK(refusal_of([&] { device->make_buffer(traits.max_buffer_bytes + 1, "too large"); }) == "limit");
+            CHECK(refusal_of([&] { device->make_buffer(traits.max_buffer_bytes + 1, "too large"); }) ==
+                  "limit");
         CHECK(device->counters().bytes_allocated == before.bytes_allocated);
     });
 }

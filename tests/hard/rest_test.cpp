@@ -104,7 +104,8 @@ TEST_CASE("100,000 steps at rest: no drift, no creep of energy [hard]")
         note("1e5 steps", *device, "drift / D", drift);
         note("1e5 steps", *device, "speed / sqrt(g D)", report.max_speed / std::sqrt(9.81));
         note("1e5 steps", *device, "energy change, first half / (m g D)", (middle - first) / (0.05 * 9.81));
-        note("1e5 steps", *device, "energy change, second half / (m g D)", (energy(report) - middle) / (0.05 * 9.81));
+        note("1e5 steps", *device, "energy change, second half / (m g D)",
+             (energy(report) - middle) / (0.05 * 9.81));
         CHECK(drift < 1e-6);
         CHECK(report.max_speed / std::sqrt(9.81) < 1e-5);
         CHECK(std::abs(energy(report) - first) / (0.05 * 9.81) < 1e-7);
@@ -141,9 +142,11 @@ TEST_CASE("E05: cloth on the floor lies still for 30 s [hard]")
                 fastest = std::max(fastest, measure(world).max_speed);
             }
             const double d = std::sqrt(2.0);
-            const double jitter = fastest / std::sqrt(9.81 * d), drift = largest_distance(world.positions(), before) / d;
+            const double jitter = fastest / std::sqrt(9.81 * d),
+                         drift = largest_distance(world.positions(), before) / d;
             note("E05", *device, friction > 0 ? "jitter, friction 0.5" : "jitter, no friction", jitter);
-            note("E05", *device, friction > 0 ? "drift in 2 s / D, friction 0.5" : "drift in 2 s / D, no friction", drift);
+            note("E05", *device,
+                 friction > 0 ? "drift in 2 s / D, friction 0.5" : "drift in 2 s / D, no friction", drift);
             CHECK(jitter < 1e-3);
             CHECK(drift < 1e-3);
             CHECK(check_sound(world).penetration < 1e-6);

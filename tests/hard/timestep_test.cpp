@@ -12,7 +12,8 @@ TEST_CASE("A10: a time step that is no time step is refused and changes nothing 
         World world(test::hanging(3), device);
         run(world, 3);
         const WorldState before = world.state();
-        for (const double bad : {0.0, -0.0, -1.0 / 60, kNaN, 1e30, kInfinity, -kInfinity, 1.0000001, 1e-16, denormal})
+        for (const double bad :
+             {0.0, -0.0, -1.0 / 60, kNaN, 1e30, kInfinity, -kInfinity, 1.0000001, 1e-16, denormal})
         {
             INFO(bad);
             Scene scene = test::hanging(3);
@@ -71,7 +72,8 @@ TEST_CASE("A12: a pendulum swings on through changes of the time step [hard]")
         for (const double h : {1.0 / 60, 1.0 / 240, 1.0 / 30})
         {
             World world(pendulum(h), device);
-            fixed = std::max(fixed, std::abs(measured_period(world, [](World& w) { w.step(); }) / kPeriod - 1));
+            fixed =
+                std::max(fixed, std::abs(measured_period(world, [](World& w) { w.step(); }) / kPeriod - 1));
         }
         const auto change = [&](World& w) {
             const double h = w.time() < 0.6 ? 1.0 / 60 : w.time() < 1.2 ? 1.0 / 240 : 1.0 / 30;
@@ -138,11 +140,12 @@ TEST_CASE("A11: steps of a microsecond fall as far as they should, 100 m from th
     REQUIRE(make_plan(far).warnings.size() == 1);
     CHECK(make_plan(far).warnings[0].find("precision: ") == 0);
     far.method.precision = "double";
-    CHECK(make_plan(far).warnings.empty());
+    CHECK(make_plan(far, measure_traits(*device)).warnings.empty());
     CHECK(error_after(far, device, 20000) < 0.01);
 }
 
-TEST_CASE("A13: what is all held stays bit by bit, costs no solver pass, and violated springs are named [hard]")
+TEST_CASE(
+    "A13: what is all held stays bit by bit, costs no solver pass, and violated springs are named [hard]")
 {
     Scene scene = test::hanging(4);
     scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
@@ -208,9 +211,10 @@ TEST_CASE("A15: masses of 1e12 and 1e-12 kg keep the state finite and the moment
 
 TEST_CASE("a bob of 1e6 times the mass stretches its chain but breaks nothing [hard]")
 {
-    // Methods 2.A A06: XPBD reports a large stretch at such ratios; it has to stay finite and come to rest.
+    // Methods 2.A A06: XPBD reports a large stretch at such ratios; it has to stay finite. The springs alone
+    // would stretch by m g / (k L) = 0.0981.
     on_every_device([](const auto& device) {
-        Scene scene = test::chain(10, 1e5, 0.01);
+        Scene scene = test::chain(10, 1e7, 0.01);
         scene.bodies[0].vertex_masses[10] = 1e4;
         scene.damping = 1;
         World world(scene, device);
@@ -218,7 +222,7 @@ TEST_CASE("a bob of 1e6 times the mass stretches its chain but breaks nothing [h
         const StepReport report = check_sound(world);
         note("mass ratio 1e6", *device, "max stretch", report.max_stretch);
         CHECK(report.max_stretch > 0);
-        CHECK(report.max_stretch < 1e4);
+        CHECK(report.max_stretch < 200);
         CHECK(world.positions()[10].y < -1);
     });
 }
@@ -248,7 +252,7 @@ TEST_CASE("stiffnesses from 1 to 1e12 N/m live in one scene [hard]")
         worst = std::max(worst, std::abs(-x[36].y - soft) / soft);
         worst = std::max(worst, std::abs(-x[39].y - soft - 3) / (soft + 3));
         note("stiffness 1..1e12", *device, "worst error of a hanging length", worst);
-        CHECK(worst < 1e-2);
+        CHECK(worst < 1e-3);
     });
 }
 
@@ -272,10 +276,14 @@ TEST_CASE("a time step of 1/10 s keeps cloth finite, above the floor and near it
             }
             const StepReport report = check_sound(world);
             const char* one = substeps == 1 ? "1 substep" : "10 substeps";
-            note("time step 0.1", *device, (std::string("largest stretch on the way, ") + one).c_str(), stretch);
-            note("time step 0.1", *device, (std::string("stretch at the end, ") + one).c_str(), report.max_stretch);
-            note("time step 0.1", *device, (std::string("penetration at the end, m, ") + one).c_str(), report.penetration);
-            note("time step 0.1", *device, (std::string("kinetic energy at most, J, ") + one).c_str(), fastest);
+            note("time step 0.1", *device, (std::string("largest stretch on the way, ") + one).c_str(),
+                 stretch);
+            note("time step 0.1", *device, (std::string("stretch at the end, ") + one).c_str(),
+                 report.max_stretch);
+            note("time step 0.1", *device, (std::string("penetration at the end, m, ") + one).c_str(),
+                 report.penetration);
+            note("time step 0.1", *device, (std::string("kinetic energy at most, J, ") + one).c_str(),
+                 fastest);
             CHECK(report.kinetic_energy < 0.2 * 9.81); // what a fall of 1 m gives
             if (substeps == 10)
             {

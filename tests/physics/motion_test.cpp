@@ -21,7 +21,8 @@ TEST_CASE("free fall is the discrete parabola, over ten substeps a step too")
             double worst = 0;
             for (std::size_t v = 0; v < start.size(); ++v)
                 worst = std::max(worst, glm::length(start[v] - glm::dvec3(0, fall, 0) - end[v]) / fall);
-            note("physics", *device, substeps == 1 ? "free fall, 1 substep" : "free fall, 10 substeps", worst);
+            note("physics", *device, substeps == 1 ? "free fall, 1 substep" : "free fall, 10 substeps",
+                 worst);
             CHECK(worst < 1e-5);
         }
     });
@@ -39,7 +40,8 @@ TEST_CASE("inner forces keep momentum while a sheet falls, turns and swings")
         {
             scene.method.iterations = iterations;
             World world(scene, device);
-            run(world, 60); // what remains is gravity's rounding: at most half a unit of the velocity a substep
+            run(world,
+                60); // what remains is gravity's rounding: at most half a unit of the velocity a substep
             const StepReport report = check_sound(world);
             note("physics", *device, "momentum error, falling sheet", report.momentum_error);
             CHECK(report.momentum_error < 1e-5);
@@ -151,7 +153,9 @@ TEST_CASE("many substeps do not lose to rounding: 256 in float are as right as i
             run(exact, steps);
             const double extension = 0.01 * 9.81 * 36 / 2000;
             const double error = largest_distance(world.positions(), exact.positions()) / extension;
-            note("physics", *device, away > 0 ? "256 substeps, float against double, at 100 m" : "256 substeps, float against double",
+            note("physics", *device,
+                 away > 0 ? "256 substeps, float against double, at 100 m"
+                          : "256 substeps, float against double",
                  error);
             CHECK(error < 1e-3);
         }
@@ -164,7 +168,8 @@ TEST_CASE("no step makes XPBD infinite: springs of any stiffness, any step, any 
         conformance::Random random(5);
         for (int draw = 0; draw < 12; ++draw)
         {
-            Scene scene = free_cloth(4, std::pow(10.0, random.uniform(-3, 14)), std::pow(10.0, random.uniform(-8, 4)));
+            Scene scene =
+                free_cloth(4, std::pow(10.0, random.uniform(-3, 14)), std::pow(10.0, random.uniform(-8, 4)));
             scene.gravity = {0, -random.uniform(0, 1000), 0};
             scene.timestep = std::pow(10.0, random.uniform(-6, 0));
             scene.method.substeps = 1 + random.below(20);

@@ -84,16 +84,6 @@ TEST_CASE("dispatches follow the formula: substeps (1 + iterations colours + 1)"
         }
 }
 
-TEST_CASE("the accounts notice a pass that the scene did not ask for")
-{
-    Plan plan = make_plan(test::hanging(), wide_device(), without_groups());
-    plan.passes.push_back(plan.passes.back());
-    std::uint64_t sum = 0;
-    for (const EffectCost& effect : plan.effects)
-        sum += effect.dispatches_per_step;
-    CHECK(sum != plan.passes.size());
-}
-
 TEST_CASE("no barrier is missing, and one taken away is found")
 {
     const Plan plan = make_plan(test::everything());

@@ -1,26 +1,21 @@
+#include "images.hpp"
+
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 #include "support/scenes.hpp"
 
-#include "taut/report/image.hpp"
 #include "taut/report/picture.hpp"
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#include <stb/stb_image.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <random>
 
 namespace {
 
 using namespace taut;
+using namespace taut::test;
 
 /// Null, with a visible reason, where no Vulkan device draws.
 std::shared_ptr<Device> drawing_device()
@@ -39,26 +34,7 @@ std::shared_ptr<Device> drawing_device()
 
 #define CHECK_NOTHING_SAID(device) CHECK((device)->counters().validation_messages == 0)
 
-glm::ivec3 pixel(const Image& image, std::uint32_t x, std::uint32_t y)
-{
-    const std::uint8_t* p = image.rgba.data() + 4 * (std::size_t(y) * image.width + x);
-    return {p[0], p[1], p[2]};
-}
-
 glm::ivec3 centre(const Image& image) { return pixel(image, image.width / 2, image.height / 2); }
-
-std::size_t differing(const Image& a, const Image& b)
-{
-    REQUIRE(a.rgba.size() == b.rgba.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); i += 4)
-        count += std::equal(a.rgba.begin() + static_cast<std::ptrdiff_t>(i),
-                            a.rgba.begin() + static_cast<std::ptrdiff_t>(i + 4),
-                            b.rgba.begin() + static_cast<std::ptrdiff_t>(i))
-                     ? 0
-                     : 1;
-    return count;
-}
 
 Shot small_shot()
 {
@@ -83,43 +59,6 @@ constexpr glm::vec3 kRed{0.8f, 0.1f, 0.1f}, kGreen{0.1f, 0.8f, 0.1f};
 
 bool reddish(const glm::ivec3& p) { return p.r > 2 * p.g && p.r > 2 * p.b; }
 bool greenish(const glm::ivec3& p) { return p.g > 2 * p.r && p.g > 2 * p.b; }
-
-template <typename Act>
-void check_refusal(ErrorCode code, const Act& act)
-{
-    try
-    {
-        act();
-        FAIL("nothing was thrown");
-    }
-    catch (const Error& error)
-    {
-        INFO(error.what());
-        CHECK(to_string(error.code()) == to_string(code));
-    }
-}
-
-/// A folder that lives as long as the test.
-struct Folder
-{
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("taut-picture-" + std::to_string(std::random_device{}()));
-    Folder() { std::filesystem::create_directories(path); }
-    ~Folder() { std::filesystem::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-};
-
-Image read_png(const std::filesystem::path& file)
-{
-    int width = 0, height = 0, channels = 0;
-    std::uint8_t* data = stbi_load(file.c_str(), &width, &height, &channels, 4);
-    REQUIRE(data != nullptr);
-    Image out = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
-    out.rgba.assign(data, data + std::size_t(4) * out.width * out.height);
-    stbi_image_free(data);
-    return out;
-}
 
 } // namespace
 
@@ -330,38 +269,6 @@ TEST_CASE("worlds in double precision and chains are drawn")
     CHECK(differing(image, Renderer(device).draw(shot, {})) > 100);
     CHECK(differing(image, pictures.draw(moment, shot)) == 0);
     CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("a PNG file holds the very pixels, with signature and size")
-{
-    Folder folder;
-    Image image = make_image(7, 3, {10, 20, 30});
-    for (std::size_t i = 0; i < image.rgba.size(); ++i)
-        if (i % 4 != 3)
-            image.rgba[i] = static_cast<std::uint8_t>(37 * i);
-    write_png(folder.path / "a.png", image);
-    std::ifstream file(folder.path / "a.png", std::ios::binary);
-    std::string head(24, '\0');
-    file.read(head.data(), 24);
-    CHECK(head == std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x07\0\0\0\x03", 24));
-    const Image back = read_png(folder.path / "a.png");
-    CHECK(back.width == 7);
-    CHECK(back.rgba == image.rgba);
-    check_refusal(ErrorCode::io, [&] { write_png(folder.path / "missing" / "a.png", image); });
-}
-
-TEST_CASE("a label changes pixels where it stands, and what does not fit is cut off")
-{
-    const Image plain = make_image(60, 20, {255, 255, 255});
-    Image image = plain;
-    label(image, "t", 2, 3, 1, {0, 0, 0});
-    CHECK(pixel(image, 3, 3) == glm::ivec3(0));
-    CHECK(pixel(image, 2, 3) == glm::ivec3(255));
-    CHECK(differing(image, plain) == 11);
-    label(image, "0.123456789 = -s", 50, 15, 2, {0, 0, 0});
-    place(image, make_image(10, 10, {1, 2, 3}), 55, 12);
-    CHECK(pixel(image, 59, 19) == glm::ivec3(1, 2, 3));
-    CHECK(pixel(image, 0, 19) == glm::ivec3(255));
 }
 
 TEST_CASE("a run leaves a picture and a contact sheet with a cell for each moment")

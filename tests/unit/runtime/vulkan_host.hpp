@@ -8,6 +8,7 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -26,6 +27,9 @@ public:
         void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
         if (list_vulkan().empty() || library == nullptr)
         {
+            const char* const required = std::getenv("TAUT_REQUIRE_DEVICE");
+            if (required && std::string(required) == "1")
+                FAIL("there is no Vulkan device, and TAUT_REQUIRE_DEVICE=1 asks for one");
             WARN("skipped: there is no Vulkan device");
             return nullptr;
         }

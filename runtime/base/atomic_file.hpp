@@ -1,0 +1,14 @@
+#pragma once
+// Files that appear whole or not at all.
+
+#include <filesystem>
+#include <string_view>
+
+namespace taut {
+
+/// Writes beside the file under a temporary name that no other writer uses, in this process or another,
+/// then renames: a reader never sees half a file. When that fails, nothing is left behind and the old
+/// file is as it was. Throws Error{io} naming the file and the reason.
+void write_file(const std::filesystem::path& file, std::string_view contents);
+
+} // namespace taut

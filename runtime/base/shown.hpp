@@ -1,0 +1,16 @@
+#pragma once
+// Numbers in messages.
+
+#include <string>
+
+namespace taut {
+
+/// The shortest decimal text that reads back as the same number ("1e-09", "0.1", "inf", "nan"). Never
+/// follows the locale, as std::to_string and printf do.
+std::string shown(double value);
+
+/// At most `digits` significant digits, as printf("%.*g") in the "C" locale. For tables and sentences in
+/// which more digits would say nothing. 1 <= digits <= 17.
+std::string shown(double value, int digits);
+
+} // namespace taut

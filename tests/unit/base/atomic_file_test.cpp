@@ -1,0 +1,86 @@
+#include "support/catch.hpp"
+
+#include "taut/runtime/base/atomic_file.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder
+{
+public:
+    Folder() : path_(fs::temp_directory_path() / ("taut_atomic_file_" + std::to_string(getpid())))
+    {
+        fs::remove_all(path_);
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+
+    fs::path operator/(const std::string& name) const { return path_ / name; }
+    std::ptrdiff_t entries() const { return std::distance(fs::directory_iterator(path_), {}); }
+
+private:
+    fs::path path_;
+};
+
+std::string text_of(const fs::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+} // namespace
+
+TEST_CASE("a file is replaced by exactly the new contents and nothing else is left in the folder")
+{
+    const Folder folder;
+    taut::write_file(folder / "a", "a longer text that was there before");
+    const std::string bytes("new\0\r\n\xff", 7);
+    taut::write_file(folder / "a", bytes);
+    CHECK(text_of(folder / "a") == bytes);
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("a file that cannot be put in its place is an io error that names it and leaves nothing behind")
+{
+    const Folder folder;
+    fs::create_directories(folder / "taken" / "inside"); // a folder cannot be replaced by a file
+    for (const fs::path& file : {folder / "taken", folder / "missing" / "a"})
+        try
+        {
+            taut::write_file(file, "text");
+            FAIL(file.string() + " was written");
+        }
+        catch (const taut::Error& error)
+        {
+            CHECK(error.code() == taut::ErrorCode::io);
+            CHECK(std::string(error.what()).find(file.string()) != std::string::npos);
+        }
+    CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("writers of one file at one time leave one of their texts whole")
+{
+    const Folder folder;
+    std::vector<std::thread> writers;
+    for (const char letter : {'a', 'b', 'c', 'd'})
+        writers.emplace_back([&folder, letter] {
+            for (int i = 0; i < 20; ++i)
+                taut::write_file(folder / "shared", std::string(20'000, letter));
+        });
+    for (std::thread& writer : writers)
+        writer.join();
+    const std::string text = text_of(folder / "shared");
+    REQUIRE(text.size() == 20'000);
+    CHECK(text == std::string(20'000, text[0]));
+    CHECK(folder.entries() == 1);
+}

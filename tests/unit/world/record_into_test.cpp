@@ -1,0 +1,39 @@
+// An engine's own device: World runs on it and records its steps into the engine's commands.
+
+#include "unit/runtime/vulkan_host.hpp"
+
+#include "support/scenes.hpp"
+
+#include "taut/world/world.hpp"
+
+using namespace taut;
+
+TEST_CASE("steps recorded into an engine's commands move the world as its own do, moving pins and all")
+{
+    const auto host = vulkan_test::Host::open();
+    if (!host)
+        return;
+    {
+        const std::shared_ptr<Device> device = adopt(host->context());
+        World own(test::everything(), device), recorded(test::everything(), device);
+        for (int i = 0; i < 3; ++i)
+        {
+            own.step();
+            host->begin();
+            recorded.record_into(host->commands);
+            host->submit_and_wait();
+        }
+        const WorldState a = own.state(), b = recorded.state();
+        CHECK(a.step == b.step);
+        CHECK(a.position == b.position);
+        CHECK(a.velocity == b.velocity);
+        CHECK(own.positions()[0].y > World(test::everything(), device).positions()[0].y);
+    }
+    CHECK(host->messages.empty());
+}
+
+TEST_CASE("a world of another executor cannot record into Vulkan commands")
+{
+    World world(test::hanging(), Device::open("cpu:serial"));
+    CHECK_THROWS_AS(world.record_into(nullptr), Error);
+}
