@@ -1,22 +1,18 @@
 # Compiles every kernels/**/*.comp into tables (SPIR-V, GLSL text, bindings) and native code.
-# A kernel that glslang or spirv-val rejects stops the build; a kernel without a test stops the
-# configuration: tests/conformance/<stem>_test.cpp must exist.
+# A kernel that glslang or spirv-val rejects stops the build; one that breaks cmake/kernel_rules.cmake stops
+# the configuration.
 
+include(${CMAKE_CURRENT_LIST_DIR}/kernel_rules.cmake)
 file(GLOB_RECURSE taut_kernel_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.comp)
 file(GLOB taut_kernel_shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/shared/*)
+taut_check_kernels(${taut_kernel_files})
 set(taut_generated ${PROJECT_BINARY_DIR}/generated/taut/kernels)
 set(taut_kernel_sources)
 set(taut_kernel_stems)
 
 foreach(kernel IN LISTS taut_kernel_files)
     cmake_path(GET kernel STEM stem)
-    if(stem IN_LIST taut_kernel_stems)
-        message(FATAL_ERROR "two kernels are called ${stem}.comp: the stem must be unique")
-    endif()
     list(APPEND taut_kernel_stems ${stem})
-    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/tests/conformance/${stem}_test.cpp)
-        message(FATAL_ERROR "${kernel} has no test: expected tests/conformance/${stem}_test.cpp")
-    endif()
     set(outputs ${taut_generated}/${stem}.hpp ${taut_generated}/${stem}.cpp ${taut_generated}/${stem}.native.cpp)
     add_custom_command(
         OUTPUT ${outputs}

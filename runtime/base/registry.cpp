@@ -13,7 +13,8 @@ const KernelInfo& find_kernel(std::string_view name, std::string_view variant, P
         if (kernel->name == name && kernel->variant == variant && kernel->precision == precision)
             return *kernel;
     throw Error(ErrorCode::unsupported, "there is no kernel \"" + std::string(name) + "\" variant \"" +
-                                            std::string(variant) + "\" in " + std::string(to_string(precision)));
+                                            std::string(variant) + "\" in " +
+                                            std::string(to_string(precision)));
 }
 
 } // namespace taut

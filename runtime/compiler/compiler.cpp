@@ -81,7 +81,8 @@ void flatten(Flat& out, const std::string& text, const std::string& file, const 
         }
         const std::string path = line.substr(quote + 1, line.find('"', quote + 1) - quote - 1);
         if (seen.insert(path).second)
-            flatten(out, load_include(root, path, file + ":" + std::to_string(number)), path, root, precision, seen);
+            flatten(out, load_include(root, path, file + ":" + std::to_string(number)), path, root, precision,
+                    seen);
     }
 }
 
@@ -91,7 +92,8 @@ Flat preamble_and_text(const KernelSource& source)
     const std::string where = source.name + " (preamble)";
     flat.add("#version 450", where, 1);
     flat.add("#define TAUT_GROUP_SIZE " + std::to_string(kGroupSize), where, 2);
-    flat.add("#define TAUT_REAL_DOUBLE " + std::string(source.precision == Precision::float64 ? "1" : "0"), where, 3);
+    flat.add("#define TAUT_REAL_DOUBLE " + std::string(source.precision == Precision::float64 ? "1" : "0"),
+             where, 3);
     for (const auto& [name, value] : source.variant.defines)
         flat.add("#define " + name + " " + value, where, 4);
     std::set<std::string> seen;
@@ -133,8 +135,10 @@ std::vector<std::uint32_t> to_spirv(const Flat& flat, const std::string& name, b
     const auto client = vulkan ? glslang::EShClientVulkan : glslang::EShClientOpenGL;
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, client, vulkan ? 100 : 450);
     shader.setEnvClient(client, vulkan ? glslang::EShTargetVulkan_1_1 : glslang::EShTargetOpenGL_450);
-    shader.setEnvTarget(glslang::EShTargetSpv, vulkan ? glslang::EShTargetSpv_1_3 : glslang::EShTargetSpv_1_0);
-    const auto rules = static_cast<EShMessages>(EShMsgSpvRules | (vulkan ? EShMsgVulkanRules : EShMsgDefault));
+    shader.setEnvTarget(glslang::EShTargetSpv,
+                        vulkan ? glslang::EShTargetSpv_1_3 : glslang::EShTargetSpv_1_0);
+    const auto rules =
+        static_cast<EShMessages>(EShMsgSpvRules | (vulkan ? EShMsgVulkanRules : EShMsgDefault));
     if (!shader.parse(GetDefaultResources(), 450, false, rules))
         refuse("kernel " + name + " does not compile:\n" + explain(shader.getInfoLog(), flat));
     glslang::TProgram program;
@@ -146,11 +150,11 @@ std::vector<std::uint32_t> to_spirv(const Flat& flat, const std::string& name, b
 
     spvtools::SpirvTools tools(vulkan ? SPV_ENV_VULKAN_1_1 : SPV_ENV_OPENGL_4_5);
     std::string complaint;
-    tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
-        complaint += std::string(message) + "\n";
-    });
+    tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                                 const char* message) { complaint += std::string(message) + "\n"; });
     if (!tools.Validate(spirv))
-        refuse("kernel " + name + ": spirv-val rejects the " + (vulkan ? "Vulkan" : "OpenGL") + " module:\n" + complaint);
+        refuse("kernel " + name + ": spirv-val rejects the " + (vulkan ? "Vulkan" : "OpenGL") + " module:\n" +
+               complaint);
     return spirv;
 }
 

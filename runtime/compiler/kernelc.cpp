@@ -86,21 +86,26 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
 {
     std::ostringstream out;
     out << "#pragma once\n// Generated from kernels/**/" << stem << ".comp. Do not edit.\n\n"
-        << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <cstddef>\n#include <cstdint>\n#include <string_view>\n\n"
+        << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <cstddef>\n"
+           "#include <cstdint>\n#include <string_view>\n\n"
         << "namespace taut::kernels::" << stem << " {\n\n";
     const auto& params = kernels.front()->params;
     if (!params.empty())
     {
         out << "/// Fixed per dispatch; the same block as in the kernel.\nstruct Params\n{\n";
         for (const auto& p : params)
-            out << "    " << (p.type == "uint" ? "std::uint32_t" : p.type == "int" ? "std::int32_t" : "float") << " "
-                << p.name << " = 0;\n";
+            out << "    "
+                << (p.type == "uint"  ? "std::uint32_t"
+                    : p.type == "int" ? "std::int32_t"
+                                      : "float")
+                << " " << p.name << " = 0;\n";
         out << "};\nstatic_assert(sizeof(Params) == " << kernels.front()->info.param_bytes << ");\n";
         for (const auto& p : params)
             out << "static_assert(offsetof(Params, " << p.name << ") == " << p.offset << ");\n";
     }
     out << "\n/// Throws Error{unsupported} when there is no such variant.\n"
-        << "const KernelInfo& info(std::string_view variant = {}, Precision precision = Precision::float32);\n\n"
+        << "const KernelInfo& info(std::string_view variant = {}, "
+           "Precision precision = Precision::float32);\n\n"
         << "} // namespace taut::kernels::" << stem << "\n";
     return out.str();
 }
@@ -113,8 +118,8 @@ void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
         << "const char glsl_" << id << "[] =\n" << literal(k.glsl) << ";\n";
     out << "const BindingInfo bindings_" << id << "[] = {\n";
     for (const auto& b : k.bindings)
-        out << "    {\"" << b.name << "\", " << b.slot << ", static_cast<Access>(" << static_cast<int>(b.access) << "), "
-            << b.stride << "},\n";
+        out << "    {\"" << b.name << "\", " << b.slot << ", static_cast<Access>("
+            << static_cast<int>(b.access) << "), " << b.stride << "},\n";
     out << "};\n";
     if (!k.params.empty())
     {
@@ -125,8 +130,9 @@ void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
     }
     const char* real = k.info.precision == taut::Precision::float64 ? "double" : "float";
     for (const auto& m : k.layouts)
-        out << "static_assert(offsetof(layout::" << m.record << "<" << real << ">, " << m.name << ") == " << m.offset
-            << " && sizeof(layout::" << m.record << "<" << real << ">) == " << m.stride << ");\n";
+        out << "static_assert(offsetof(layout::" << m.record << "<" << real << ">, " << m.name
+            << ") == " << m.offset << " && sizeof(layout::" << m.record << "<" << real << ">) == " << m.stride
+            << ");\n";
 }
 
 std::string source_text(const std::string& stem, const Kernels& kernels)
@@ -134,9 +140,11 @@ std::string source_text(const std::string& stem, const Kernels& kernels)
     std::ostringstream out;
     out << "// Generated. Do not edit.\n#include \"taut/kernels/" << stem << ".hpp\"\n"
         << "#define TAUT_HOST\n#include \"taut/kernels/shared/layouts.h\"\n"
-        << "#include \"taut/runtime/base/error.hpp\"\n#include <string>\n\nnamespace taut::kernels::" << stem << " {\n";
+        << "#include \"taut/runtime/base/error.hpp\"\n#include <string>\n\nnamespace taut::kernels::" << stem
+        << " {\n";
     for (const auto& k : kernels)
-        out << "void native_" << identifier(*k) << "(const void*, void* const*, std::uint32_t, std::uint32_t);\n";
+        out << "void native_" << identifier(*k)
+            << "(const void*, void* const*, std::uint32_t, std::uint32_t);\n";
     out << "namespace {\n";
     for (const auto& k : kernels)
         table_text(out, *k);
@@ -146,17 +154,19 @@ std::string source_text(const std::string& stem, const Kernels& kernels)
         const std::string id = identifier(*k);
         out << "    {\"" << stem << "\", \"" << k->variant << "\", Precision::float"
             << (k->info.precision == taut::Precision::float64 ? "64" : "32") << ", "
-            << (k->info.group_kernel ? "true" : "false") << ", " << k->info.group_size << ", " << k->info.shared_bytes
-            << ", " << k->info.param_bytes << ",\n     bindings_" << id << ", "
-            << (k->params.empty() ? "{}" : "params_" + id) << ", vulkan_" << id << ", opengl_" << id << ", glsl_" << id
-            << ", native_" << id << "},\n";
+            << (k->info.group_kernel ? "true" : "false") << ", " << k->info.group_size << ", "
+            << k->info.shared_bytes << ", " << k->info.param_bytes << ",\n     bindings_" << id << ", "
+            << (k->params.empty() ? "{}" : "params_" + id) << ", vulkan_" << id << ", opengl_" << id
+            << ", glsl_" << id << ", native_" << id << "},\n";
     }
     out << "};\n} // namespace\n\nconst KernelInfo& info(std::string_view variant, Precision precision)\n{\n"
         << "    for (const KernelInfo& kernel : table)\n"
-        << "        if (kernel.variant == variant && kernel.precision == precision)\n            return kernel;\n"
+        << "        if (kernel.variant == variant && kernel.precision == precision)\n"
+           "            return kernel;\n"
         << "    throw Error(ErrorCode::unsupported, \"kernel " << stem
         << " has no variant \\\"\" + std::string(variant) + \"\\\"\");\n}\n\n"
-        << "std::span<const KernelInfo> all() { return table; }\n\n} // namespace taut::kernels::" << stem << "\n";
+        << "std::span<const KernelInfo> all() { return table; }\n\n} // namespace taut::kernels::" << stem
+        << "\n";
     return out.str();
 }
 
@@ -167,17 +177,20 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     for (const std::string& file : shared)
     {
         std::string guard = "TAUT_SHARED_" + file;
-        std::transform(guard.begin(), guard.end(), guard.begin(),
-                       [](unsigned char c) { return std::isalnum(c) ? static_cast<char>(std::toupper(c)) : '_'; });
+        std::transform(guard.begin(), guard.end(), guard.begin(), [](unsigned char c) {
+            return std::isalnum(c) ? static_cast<char>(std::toupper(c)) : '_';
+        });
         out << "#undef " << guard << "\n";
     }
     for (const auto& [name, value] : variant.defines)
         out << "#define " << name << " " << value << "\n";
     const bool is_double = k.info.precision == taut::Precision::float64;
     out << "#define TAUT_REAL_DOUBLE " << (is_double ? 1 : 0) << "\n"
-        << "namespace " << id << " {\nusing namespace taut::native;\nusing real = " << (is_double ? "double" : "float")
-        << ";\nusing rvec3 = glm::vec<3, real>;\nusing rvec4 = glm::vec<4, real>;\nstruct Kernel\n{\n#include \"" << path
-        << "\"\n    void bind([[maybe_unused]] const void* params, void* const* buffers)\n    {\n";
+        << "namespace " << id
+        << " {\nusing namespace taut::native;\nusing real = " << (is_double ? "double" : "float")
+        << ";\nusing rvec3 = glm::vec<3, real>;\nusing rvec4 = glm::vec<4, real>;\nstruct Kernel\n{\n"
+           "#include \""
+        << path << "\"\n    void bind([[maybe_unused]] const void* params, void* const* buffers)\n    {\n";
     if (!k.params.empty())
         out << "        const Params& p = *static_cast<const Params*>(params);\n";
     for (const auto& p : k.params)
@@ -187,7 +200,8 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     out << "    }\n};\n} // namespace " << id << "\n#undef TAUT_REAL_DOUBLE\n";
     for (const auto& define : variant.defines)
         out << "#undef " << define.first << "\n";
-    out << "void native_" << id << "(const void* p, void* const* b, std::uint32_t begin, std::uint32_t end)\n{\n"
+    out << "void native_" << id
+        << "(const void* p, void* const* b, std::uint32_t begin, std::uint32_t end)\n{\n"
         << "    taut::native::run_" << (k.info.group_kernel ? "groups" : "elements") << "<" << id
         << "::Kernel>(p, b, begin, end);\n}\n\n";
 }
@@ -201,8 +215,9 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
     const auto shared = shared_files(root);
     Kernels kernels;
     std::ostringstream native;
-    native << "// Generated. Do not edit.\n#include \"taut/runtime/cpu/portable.hpp\"\n#include \"taut/kernels/" << stem
-           << ".hpp\"\n\nnamespace taut::kernels::" << stem << " {\n";
+    native
+        << "// Generated. Do not edit.\n#include \"taut/runtime/cpu/portable.hpp\"\n#include \"taut/kernels/"
+        << stem << ".hpp\"\n\nnamespace taut::kernels::" << stem << " {\n";
     for (const auto& variant : taut::kernel_variants(stem, text))
         for (const auto precision : {taut::Precision::float32, taut::Precision::float64})
         {
@@ -222,10 +237,12 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
 void embed_includes(const fs::path& root, const fs::path& out_file)
 {
     std::ostringstream out;
-    out << "// Generated. Do not edit.\n#include \"taut/runtime/compiler/compiler.hpp\"\n\nnamespace taut {\n\n"
+    out << "// Generated. Do not edit.\n#include \"taut/runtime/compiler/compiler.hpp\"\n\n"
+           "namespace taut {\n\n"
         << "std::string_view builtin_include(std::string_view path)\n{\n";
     for (const std::string& name : shared_files(root))
-        out << "    if (path == \"shared/" << name << "\")\n        return\n" << literal(read_text(root / "shared" / name)) << ";\n";
+        out << "    if (path == \"shared/" << name << "\")\n        return\n"
+            << literal(read_text(root / "shared" / name)) << ";\n";
     out << "    return {};\n}\n\n} // namespace taut\n";
     write_text(out_file, out.str());
 }

@@ -21,7 +21,8 @@ struct Module
     std::map<std::uint32_t, std::string> names;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> member_names;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> offsets;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, unsigned> member_flags; ///< 1 not writable, 2 not readable
+    std::map<std::pair<std::uint32_t, std::uint32_t>, unsigned>
+        member_flags; ///< 1 not writable, 2 not readable
     std::map<std::uint32_t, std::uint32_t> bindings, strides, constants;
     std::map<std::uint32_t, Type> types;
     struct Variable
@@ -161,7 +162,8 @@ ReflectedBinding reflect_binding(const Module& module, const std::string& kernel
     {
         binding.record = name_or(module.names, element);
         for (std::uint32_t m = 0; m < type.operands.size(); ++m)
-            binding.members.emplace_back(module.member_names.at({element, m}), module.offsets.at({element, m}));
+            binding.members.emplace_back(module.member_names.at({element, m}),
+                                         module.offsets.at({element, m}));
     }
     return binding;
 }
@@ -176,7 +178,9 @@ void reflect_params(const Module& module, const std::string& kernel, std::uint32
         const bool scalar = member.op == spv::OpTypeInt || member.op == spv::OpTypeFloat;
         if (!scalar || member.operands[0] != 32)
             refuse(kernel, "parameter " + name + " must be uint, int or float (32-bit scalars only)");
-        const char* spelled = member.op == spv::OpTypeFloat ? "float" : member.operands[1] != 0 ? "int" : "uint";
+        const char* spelled = member.op == spv::OpTypeFloat ? "float"
+                              : member.operands[1] != 0     ? "int"
+                                                            : "uint";
         out.params.push_back({name, spelled, module.offsets.at({block, m})});
         out.param_bytes = std::max(out.param_bytes, module.offsets.at({block, m}) + 4);
     }
@@ -211,8 +215,8 @@ Reflection reflect(const std::string& name, std::span<const std::uint32_t> spirv
         refuse(name, "uses " + std::to_string(out.bindings.size()) + " storage buffers; the limit is 8");
     for (std::size_t i = 0; i < out.bindings.size(); ++i)
         if (out.bindings[i].slot != i)
-            refuse(name, "slots must be 0.." + std::to_string(out.bindings.size() - 1) + " without gaps; slot " +
-                             std::to_string(i) + " is missing");
+            refuse(name, "slots must be 0.." + std::to_string(out.bindings.size() - 1) +
+                             " without gaps; slot " + std::to_string(i) + " is missing");
     return out;
 }
 

@@ -74,10 +74,11 @@ void refuse_kernel_texts(const RecordingDesc& desc)
         kernels.insert(dispatch.kernel);
     for (const KernelInfo* kernel : kernels)
         if (const std::filesystem::path text = kernel_override_file(*kernel); !text.empty())
-            throw Error(ErrorCode::unsupported,
-                        "TAUT_KERNEL_DIR holds " + text.string() +
-                            ", but the native executor runs only the kernels that were built in; use vulkan or "
-                            "opengl, or unset the variable");
+            throw Error(
+                ErrorCode::unsupported,
+                "TAUT_KERNEL_DIR holds " + text.string() +
+                    ", but the native executor runs only the kernels that were built in; use vulkan or "
+                    "opengl, or unset the variable");
 }
 
 class CpuDevice final : public Device

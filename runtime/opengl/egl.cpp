@@ -133,7 +133,8 @@ std::vector<NamedDisplay> windowless_displays(const Egl& egl)
     std::vector<NamedDisplay> out;
     const char* extensions = egl.QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (has_word(extensions, "EGL_MESA_platform_surfaceless"))
-        if (const EGLDisplay display = egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+        if (const EGLDisplay display =
+                egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
             display != EGL_NO_DISPLAY)
             out.push_back({display, "EGL surfaceless platform"});
     if (has_word(extensions, "EGL_EXT_platform_device"))

@@ -72,7 +72,8 @@ private:
 class VulkanBuffer final : public Buffer
 {
 public:
-    VulkanBuffer(std::shared_ptr<Context> context, std::uint64_t bytes, std::string_view label, BufferUse use);
+    VulkanBuffer(std::shared_ptr<Context> context, std::uint64_t bytes, std::string_view label,
+                 BufferUse use);
     ~VulkanBuffer() override;
 
     std::shared_ptr<Context> context;

@@ -79,7 +79,8 @@ bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperti
         const Header header = header_for(device, contents);
         std::string text(sizeof(Header) + contents.size(), '\0');
         std::memcpy(text.data(), &header, sizeof(Header));
-        std::copy_n(reinterpret_cast<const char*>(contents.data()), contents.size(), text.data() + sizeof(Header));
+        std::copy_n(reinterpret_cast<const char*>(contents.data()), contents.size(),
+                    text.data() + sizeof(Header));
         write_file(path, text);
         return true;
     }

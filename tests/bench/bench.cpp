@@ -33,7 +33,8 @@ std::string conditions(int argc, char** argv)
 
 void print(const std::vector<bench::Row>& rows)
 {
-    std::printf("| what | median ms | best ms | error m | ratio | to | target |\n|---|---|---|---|---|---|---|\n");
+    std::printf(
+        "| what | median ms | best ms | error m | ratio | to | target |\n|---|---|---|---|---|---|---|\n");
     for (const bench::Row& r : rows)
         std::printf("| %s | %.3f | %.3f | %.2g | %.2f | %s | %s |\n", r.what.c_str(), r.milliseconds, r.best,
                     r.error, r.ratio, r.against.c_str(),

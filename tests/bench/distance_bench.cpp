@@ -43,7 +43,8 @@ Problem make_problem()
     const float spacing = 2.0f / (kSide - 1);
     for (std::uint32_t v = 0; v < kSide * kSide; ++v)
     {
-        p.position.push_back({spacing * static_cast<float>(v % kSide), spacing * static_cast<float>(v / kSide), 0, 1});
+        p.position.push_back(
+            {spacing * static_cast<float>(v % kSide), spacing * static_cast<float>(v / kSide), 0, 1});
         p.delta.push_back({noise(random), noise(random), noise(random), 0});
     }
     const auto springs = taut::grid_springs(kSide, kSide, true, true);
@@ -61,19 +62,23 @@ Problem make_problem()
 class OnDevice
 {
 public:
-    OnDevice(const std::string& selector, const Problem& p) : device_(taut::Device::open(selector)), problem_(p)
+    OnDevice(const std::string& selector, const Problem& p)
+        : device_(taut::Device::open(selector)),
+          problem_(p)
     {
         constraint_ = upload(p.constraints);
         position_ = upload(p.position);
         delta_ = upload(p.delta);
-        const std::vector<taut::layout::StepValues<float>> step{{1 / kInverseStep, kInverseStep, 0, 0, 0, 1, 1e15f, 0}};
+        const std::vector<taut::layout::StepValues<float>> step{
+            {1 / kInverseStep, kInverseStep, 0, 0, 0, 1, 1e15f, 0}};
         step_ = upload(step);
         events_ = device_->make_buffer(16, "events");
         taut::Recorder recorder(device_);
         for (std::size_t c = 0; c + 1 < p.colour_start.size(); ++c)
         {
             const std::uint32_t first = p.colour_start[c], count = p.colour_start[c + 1] - first;
-            recorder.dispatch(taut::kernels::distance::info(), {constraint_, position_, delta_, step_, events_},
+            recorder.dispatch(taut::kernels::distance::info(),
+                              {constraint_, position_, delta_, step_, events_},
                               taut::kernels::distance::Params{first, count, 1, 0}, count);
         }
         recording_ = recorder.finish();
@@ -171,7 +176,8 @@ std::vector<Row> distance_rows()
     OnDevice serial("cpu:serial", problem), parallel("cpu", problem);
     std::vector<plain::Vec4> delta = problem.delta, position = problem.position;
     const auto sweep_plain = [&] {
-        plain::sweep_displacements(problem.constraints, problem.colour_start, problem.position.data(), delta.data(), kInverseStep);
+        plain::sweep_displacements(problem.constraints, problem.colour_start, problem.position.data(),
+                                   delta.data(), kInverseStep);
     };
 
     const std::vector<GraphicsDevice> graphics = open_graphics(problem);
@@ -201,7 +207,8 @@ std::vector<Row> distance_rows()
         {"native parallel", [&] { parallel.sweep(); }},
     };
     for (const GraphicsDevice& device : graphics)
-        rivals.push_back({device.selector + ", wall time of replay and wait", [&] { device.problem->sweep(); }});
+        rivals.push_back(
+            {device.selector + ", wall time of replay and wait", [&] { device.problem->sweep(); }});
     take_turns(rivals, 40);
 
     std::vector<Rival> crowded = {{"native serial, one core busy", [&] { serial.sweep(); }},
@@ -213,7 +220,8 @@ std::vector<Row> distance_rows()
     const double loop = rivals[0].median(), one = rivals[2].median();
     std::vector<Row> rows = {
         {rivals[0].name, loop, rivals[0].best(), 0, 1, "", 0},
-        {rivals[1].name, rivals[1].median(), rivals[1].best(), 0, rivals[1].median() / loop, rivals[0].name, 0},
+        {rivals[1].name, rivals[1].median(), rivals[1].best(), 0, rivals[1].median() / loop, rivals[0].name,
+         0},
         {rivals[2].name, one, rivals[2].best(), serial_error, one / loop, rivals[0].name, 1.1},
         {rivals[3].name, rivals[3].median(), rivals[3].best(), parallel_error, rivals[3].median() / one,
          rivals[2].name, 0.6},

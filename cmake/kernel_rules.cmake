@@ -1,0 +1,15 @@
+# taut_check_kernels(KERNELS...): stops the configuration on two kernels of one stem and on a kernel without a
+# test: tests/conformance/<stem>_test.cpp must exist. tests/rules/kernel_rules.cmake plants such kernels.
+function(taut_check_kernels)
+    set(stems)
+    foreach(kernel IN LISTS ARGN)
+        cmake_path(GET kernel STEM stem)
+        if(stem IN_LIST stems)
+            message(FATAL_ERROR "two kernels are called ${stem}.comp: the stem must be unique")
+        endif()
+        list(APPEND stems ${stem})
+        if(NOT EXISTS ${PROJECT_SOURCE_DIR}/tests/conformance/${stem}_test.cpp)
+            message(FATAL_ERROR "${kernel} has no test: expected tests/conformance/${stem}_test.cpp")
+        endif()
+    endforeach()
+endfunction()
