@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace taut {
@@ -17,11 +17,12 @@ using Json = nlohmann::ordered_json;
 
 Json maybe(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+/// Like %.*g, whatever the locale.
 std::string number(double value, int digits = 6)
 {
     char text[40];
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    return text;
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+    return std::string(text, end);
 }
 
 const char* kind_word(const CostStudy& study)

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <charconv>
 
 namespace taut {
 namespace {
 
+/// Three digits, whatever the locale.
 std::string number(double value)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
+    char text[40];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
+    return std::string(text, end);
 }
 
 /// What counts for ranking: nothing is told apart below ten times the reference's own error.

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 namespace taut::cost {
@@ -22,6 +23,7 @@ constexpr std::array<std::uint32_t, 3> kFine{100, 200, 400}; // substeps
 std::string number(double value)
 {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     out.precision(2);
     out << value;
     return out.str();
