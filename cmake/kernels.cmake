@@ -10,13 +10,24 @@ set(taut_generated ${PROJECT_BINARY_DIR}/generated/taut/kernels)
 set(taut_kernel_sources)
 set(taut_kernel_stems)
 
+# taut-kernelc leaves files alone that would not change. Ninja takes that as up to date (restat); Make would
+# run the command again in every build, so there `touch` is one more command.
+macro(taut_touch)
+    set(touch)
+    if(NOT CMAKE_GENERATOR MATCHES "Ninja")
+        set(touch COMMAND ${CMAKE_COMMAND} -E touch ${ARGN})
+    endif()
+endmacro()
+
 foreach(kernel IN LISTS taut_kernel_files)
     cmake_path(GET kernel STEM stem)
     list(APPEND taut_kernel_stems ${stem})
     set(outputs ${taut_generated}/${stem}.hpp ${taut_generated}/${stem}.cpp ${taut_generated}/${stem}.native.cpp)
+    taut_touch(${outputs})
     add_custom_command(
         OUTPUT ${outputs}
         COMMAND taut-kernelc ${kernel} ${PROJECT_SOURCE_DIR}/kernels ${taut_generated}
+        ${touch}
         DEPENDS taut-kernelc ${kernel} ${taut_kernel_shared}
         COMMENT "Kernel ${stem}"
         VERBATIM)
@@ -39,8 +50,10 @@ endforeach()
 string(APPEND registry "    return out;\n}\n\n} // namespace taut\n")
 file(CONFIGURE OUTPUT ${taut_generated}/registry.cpp CONTENT "${registry}" @ONLY)
 
+taut_touch(${taut_generated}/builtin_includes.cpp)
 add_custom_command(
     OUTPUT ${taut_generated}/builtin_includes.cpp
     COMMAND taut-kernelc --includes ${PROJECT_SOURCE_DIR}/kernels ${taut_generated}/builtin_includes.cpp
+    ${touch}
     DEPENDS taut-kernelc ${taut_kernel_shared}
     VERBATIM)

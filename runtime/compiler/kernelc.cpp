@@ -25,16 +25,13 @@ std::string read_text(const fs::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// An unchanged text keeps its bytes but gets a new time: Make runs a command again in every build while its
-/// output is older than what it depends on. Ninja would not need that.
+/// Writes only when the text differs: an unchanged header rebuilds nothing where the build tool looks at what a
+/// command really wrote (Ninja). For others cmake/kernels.cmake touches the outputs.
 void write_text(const fs::path& path, const std::string& text)
 {
     std::ifstream old(path);
     if (old && std::string(std::istreambuf_iterator<char>(old), {}) == text)
-    {
-        fs::last_write_time(path, fs::file_time_type::clock::now());
         return;
-    }
     std::ofstream file(path);
     file << text;
     file.close(); // what was buffered fails here, not in the destructor

@@ -36,8 +36,8 @@ std::vector<SceneIssue> find_issues(const std::string& file)
             if (std::none_of(issues.begin(), issues.end(),
                              [&](const SceneIssue& i) { return i.field == w.field && i.text == w.text; }))
                 issues.push_back(w);
-        for (const std::string& warning : make_plan(resolved).warnings)
-            issues.push_back({false, "", warning});
+        for (const PlanWarning& warning : make_plan(resolved).warnings)
+            issues.push_back({false, "", warning.sentence()});
     }
     catch (const Error& error)
     {

@@ -17,16 +17,16 @@ std::vector<std::uint64_t> moment_frames(std::uint64_t frames)
     return list;
 }
 
-std::vector<std::string> draw_pictures(const Scene& resolved, std::shared_ptr<Device> device,
+std::vector<std::string> draw_pictures(const World& world, std::shared_ptr<Device> device,
                                        const std::vector<Moment>& moments,
                                        const std::filesystem::path& folder, std::string& why_not)
 {
     try
     {
-        Pictures pictures(resolved, std::move(device));
+        Pictures pictures(world.scene(), std::move(device));
         for (const Moment& moment : moments)
             pictures.add(moment);
-        return pictures.write(folder);
+        return pictures.write(folder, &world);
     }
     catch (const Error& error)
     {

@@ -47,7 +47,9 @@ Json to_json(const PlanCommand& options, const Plan& plan, const std::string& de
     json["barriers_per_step"] = plan.barrier_count();
     json["bytes_allocated"] = plan.bytes_allocated();
     json["colours"] = plan.colour_counts();
-    json["warnings"] = plan.warnings;
+    json["warnings"] = nlohmann::json::array();
+    for (const PlanWarning& warning : plan.warnings)
+        json["warnings"].push_back(warning.sentence());
     return json;
 }
 

@@ -188,7 +188,8 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.colours = world.plan().colour_counts();
     result.report = measure(world);
     result.step_ms = runner.step_ms();
-    result.messages = world.plan().warnings;
+    for (const PlanWarning& warning : world.plan().warnings)
+        result.messages.push_back(warning.sentence());
     result.meshes = runner.mesh_count();
     return result;
 }
@@ -197,7 +198,7 @@ void draw(const RunCommand& options, const World& world, const std::shared_ptr<D
           const Runner& runner, RunResult& result)
 {
     std::string why_not;
-    result.pictures = draw_pictures(world.scene(), device, runner.moments(), options.folder, why_not);
+    result.pictures = draw_pictures(world, device, runner.moments(), options.folder, why_not);
     if (!why_not.empty())
         result.messages.push_back(why_not);
 }

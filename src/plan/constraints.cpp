@@ -85,8 +85,8 @@ std::vector<StretchElement> moving_stretch(PlanBuilder& b, std::size_t body, boo
             conflicts += std::abs(glm::length(b.start[e.a] - b.start[e.b]) - e.rest_length) > 1e-6 * e.rest_length;
     }
     if (conflicts > 0)
-        b.plan.warnings.push_back("conflict: " + std::to_string(conflicts) +
-                                  " violated constraints between held vertices of body " + std::to_string(body));
+        b.plan.warnings.push_back({"conflict", conflicts, std::to_string(conflicts) +
+                                   " violated constraints between held vertices of body " + std::to_string(body)});
     return elements;
 }
 
@@ -240,8 +240,8 @@ void prepare_bending(PlanBuilder& b)
         // Hinges round a hub share its neighbours too, so they stay in the colouring, one after another.
         add_body(b, coloured, elements, colour_greedy(graph, {0, true}));
         if (dropped > 0)
-            b.plan.warnings.push_back("degenerate: " + std::to_string(dropped) + " hinges without area at rest in body " +
-                                      std::to_string(body));
+            b.plan.warnings.push_back({"degenerate", dropped, std::to_string(dropped) +
+                                       " hinges without area at rest in body " + std::to_string(body)});
     }
     std::vector<BendElement> flat;
     std::vector<std::uint32_t> table;

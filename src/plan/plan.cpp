@@ -49,14 +49,14 @@ void warn_of_precision(const Scene& scene, PlanBuilder& builder)
     }
     const double h = scene.timestep / scene.method.substeps, fall = glm::length(scene.gravity) * h * h;
     const double last_digit = kUnit * kUnit * far;
-    std::vector<std::string>& warnings = builder.plan.warnings;
+    std::vector<PlanWarning>& warnings = builder.plan.warnings;
     if (fall > 0 && last_digit > 0.25 * fall)
-        warnings.push_back("precision: a substep falls " + shown(fall, 3) + " m, the last digit of a position is " +
-                           shown(last_digit, 3) + " m; use double, longer substeps or places nearer the origin");
+        warnings.push_back({"precision", 1, "a substep falls " + shown(fall, 3) + " m, the last digit of a position is " +
+                           shown(last_digit, 3) + " m; use double, longer substeps or places nearer the origin"});
     const bool placed = !scene.colliders.empty() || !builder.plan.moving_pins.empty();
     if (placed && !builder.start.empty() && kUnit * far > 1e-4 * glm::length(high - low))
-        warnings.push_back("precision: colliders and led vertices are placed to " + shown(kUnit * far, 3) +
-                           " m; use double or places nearer the origin");
+        warnings.push_back({"precision", 1, "colliders and led vertices are placed to " + shown(kUnit * far, 3) +
+                           " m; use double or places nearer the origin"});
 }
 
 /// The rows of the table that this scene calls for.

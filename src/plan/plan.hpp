@@ -77,6 +77,16 @@ struct MovingPin
     glm::dvec3 rest{0};
 };
 
+/// Something a user should know before anything runs. The words are those of docs/statuses.md.
+struct PlanWarning
+{
+    std::string word;        ///< "conflict", "degenerate" or "precision"
+    std::uint64_t count = 1; ///< how many constraints or hinges it is about
+    std::string text;        ///< with the numbers
+
+    std::string sentence() const { return word + ": " + text; }
+};
+
 struct Plan
 {
     Precision precision = Precision::float32;
@@ -93,7 +103,7 @@ struct Plan
     std::vector<std::uint32_t> body_start;  ///< first scene-wide vertex of each body, and the total
     std::vector<ConstraintSet> constraints;
     std::vector<MovingPin> moving_pins;
-    std::vector<std::string> warnings;      ///< words of the closed list, with their numbers
+    std::vector<PlanWarning> warnings;
 
     // Buffers the world writes and reads, kNoBuffer where the scene does not need them.
     std::uint32_t position = kNoBuffer;     ///< rvec4: xyz m, w = inverse mass 1/kg

@@ -2,7 +2,6 @@
 #include "taut/report/cost.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 
 namespace taut {

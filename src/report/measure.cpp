@@ -247,6 +247,8 @@ void judge(const View& view, StepReport& out)
     for (const auto& [warning, count] : counts)
         if (count > 0)
             out.warnings[std::string(to_string(warning))] += count;
+    for (const PlanWarning& warning : view.plan.warnings)
+        out.warnings[warning.word] += warning.count;
     bool finite = true;
     double extent = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)

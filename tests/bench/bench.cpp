@@ -25,8 +25,8 @@ std::string conditions(int argc, char** argv)
 #else
     text += " compiler: g++ " __VERSION__;
 #endif
-    text += "; CPU: " + bench::processor() + "; command:";
-    for (int i = 0; i < argc; ++i)
+    text += "; CPU: " + bench::processor() + "; command: taut_bench"; // not the folder that it lies in
+    for (int i = 1; i < argc; ++i)
         text += std::string(" ") + argv[i];
     return text;
 }

@@ -2,6 +2,7 @@
 // Shared by the Vulkan tests: opening with validation, kernels from text, and the check that nothing was
 // said.
 
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
 #include "taut/runtime/compiler/compiler.hpp"
@@ -108,25 +109,8 @@ BufferPtr upload(Device& device, const std::vector<T>& values)
     return buffer;
 }
 
-/// The code and text of the error that `act` throws; no code when it throws none.
-struct Refusal
-{
-    std::optional<ErrorCode> code;
-    std::string text;
-};
-
-inline Refusal refusal(const std::function<void()>& act)
-{
-    try
-    {
-        act();
-    }
-    catch (const Error& error)
-    {
-        return {error.code(), error.what()};
-    }
-    return {};
-}
+using test::Refusal;
+using test::refusal;
 
 inline bool contains(const std::string& text, std::string_view part)
 {
