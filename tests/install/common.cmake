@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # must(WHAT COMMAND...): runs a command, stops with its output if it fails, returns stdout in `output`.
 function(must what)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)

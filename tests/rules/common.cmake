@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # Trees of a few files under WORK, configured with the rules of SOURCE/cmake: what must stop a configuration
 # is planted in them. Needs -DSOURCE, -DWORK, -DGENERATOR.
 file(REMOVE_RECURSE ${WORK})

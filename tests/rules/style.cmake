@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # Sources stay readable: no line over 110 columns, no file over 400 lines. Needs -DSOURCE; git lists the files
 # where there is a checkout.
 set(kWidest 110)

@@ -69,8 +69,14 @@ inline std::vector<std::uint32_t> sizes(const Colouring& c)
     return out;
 }
 
-inline std::uint32_t largest(const std::vector<std::uint32_t>& v) { return *std::max_element(v.begin(), v.end()); }
-inline std::uint32_t smallest(const std::vector<std::uint32_t>& v) { return *std::min_element(v.begin(), v.end()); }
+inline std::uint32_t largest(const std::vector<std::uint32_t>& v)
+{
+    return *std::max_element(v.begin(), v.end());
+}
+inline std::uint32_t smallest(const std::vector<std::uint32_t>& v)
+{
+    return *std::min_element(v.begin(), v.end());
+}
 
 inline std::uint32_t degree_of(const ConstraintGraph& graph)
 {

@@ -123,7 +123,8 @@ TEST_CASE("a restored state continues bitwise (G09)")
     for (const std::string& device : test_devices())
     {
         INFO(device);
-        World straight(test::everything(), test_device(device)), first(test::everything(), test_device(device));
+        World straight(test::everything(), test_device(device)),
+            first(test::everything(), test_device(device));
         for (int i = 0; i < 12; ++i)
             straight.step();
         for (int i = 0; i < 5; ++i)
