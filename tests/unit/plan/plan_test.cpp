@@ -49,7 +49,8 @@ TEST_CASE("a scene gets the effects that it calls for and no others")
 {
     CHECK(effect_names(make_plan(test::hanging())) == std::vector<std::string>{"motion", "distance"});
     const auto all = effect_names(make_plan(test::everything()));
-    for (const char* name : {"damping", "external_force", "motion", "pin_motion", "distance", "bending", "plane", "sphere", "friction"})
+    for (const char* name : {"damping", "external_force", "motion", "pin_motion", "distance", "bending",
+                             "plane", "sphere", "friction"})
         CHECK(std::count(all.begin(), all.end(), name) == 1);
     const Scene still = resolve(Scene{});
     CHECK(make_plan(still).passes.empty());
@@ -60,7 +61,8 @@ TEST_CASE("an absent effect has no kernel, no buffer and no dispatch")
 {
     const Plan plan = make_plan(test::hanging());
     for (const Dispatch& pass : plan.passes)
-        CHECK((pass.kernel->name == "predict" || pass.kernel->name == "finish" || pass.kernel->name == "distance"));
+        CHECK((pass.kernel->name == "predict" || pass.kernel->name == "finish" ||
+               pass.kernel->name == "distance"));
     for (const PlanBuffer& buffer : plan.buffers)
         CHECK((buffer.effect == "motion" || buffer.effect == "distance"));
 }
@@ -89,7 +91,8 @@ TEST_CASE("no barrier is missing, and one taken away is found")
     const Plan plan = make_plan(test::everything());
     CHECK(find_hazards(plan.passes, plan.barrier_before).empty());
     std::vector<bool> without = plan.barrier_before;
-    const auto barrier = std::find(without.begin() + static_cast<long>(without.size() / 2), without.end(), true);
+    const auto barrier =
+        std::find(without.begin() + static_cast<long>(without.size() / 2), without.end(), true);
     REQUIRE(barrier != without.end());
     *barrier = false;
     CHECK_FALSE(find_hazards(plan.passes, without).empty());
@@ -150,7 +153,8 @@ TEST_CASE("a doubled spring at a hub is not solved twice at once")
     scene.bodies = {body};
     scene.method.substeps = 1;
     const Plan plan = make_plan(resolve(scene));
-    CHECK(std::count_if(plan.passes.begin(), plan.passes.end(), [](const Dispatch& d) { return d.kernel->name == "hub"; }) == 2);
+    CHECK(std::count_if(plan.passes.begin(), plan.passes.end(),
+                        [](const Dispatch& d) { return d.kernel->name == "hub"; }) == 2);
 }
 
 TEST_CASE("many small bodies share one dispatch a sweep when the device's costs say so")
@@ -206,7 +210,8 @@ TEST_CASE("constraints stay within their body and colours of bodies are merged")
 {
     Scene one = test::hanging(4), two = one;
     two.bodies.push_back(one.bodies[0]);
-    const Plan a = make_plan(one, wide_device(), without_groups()), b = make_plan(two, wide_device(), without_groups());
+    const Plan a = make_plan(one, wide_device(), without_groups()),
+               b = make_plan(two, wide_device(), without_groups());
     CHECK(b.passes.size() == a.passes.size());
     CHECK(b.constraint_counts().at("distance") == 2 * a.constraint_counts().at("distance"));
 }
