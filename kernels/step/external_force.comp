@@ -15,5 +15,6 @@ READ_ONE(3, StepValues, step_values);
 
 KERNEL(count)
 {
-    velocity[i] = rvec4(rvec3(velocity[i]) + rvec3(force[i]) * (position[i].w * step_values[0].substep), real(0));
+    real scale = position[i].w * step_values[0].substep;
+    velocity[i] = rvec4(rvec3(velocity[i]) + rvec3(force[i]) * scale, real(0));
 }

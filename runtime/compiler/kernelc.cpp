@@ -25,8 +25,8 @@ std::string read_text(const fs::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Writes only when the text differs: an unchanged header rebuilds nothing where the build tool looks at what a
-/// command really wrote (Ninja). For others cmake/kernels.cmake touches the outputs.
+/// Writes only when the text differs: an unchanged header rebuilds nothing where the build tool looks at what
+/// a command really wrote (Ninja). For others cmake/kernels.cmake touches the outputs.
 void write_text(const fs::path& path, const std::string& text)
 {
     std::ifstream old(path);

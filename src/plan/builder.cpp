@@ -44,7 +44,8 @@ PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOption
     plan.iterations = s.method.iterations;
     plan.body_start.push_back(0);
     for (const Body& body : s.bodies)
-        plan.body_start.push_back(plan.body_start.back() + static_cast<std::uint32_t>(body.mesh.positions.size()));
+        plan.body_start.push_back(plan.body_start.back() +
+                                  static_cast<std::uint32_t>(body.mesh.positions.size()));
     plan.vertex_count = plan.body_start.back();
     plan.original.reserve(plan.vertex_count);
     plan_index.resize(plan.vertex_count);
@@ -68,10 +69,10 @@ PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOption
 std::uint32_t PlanBuilder::add_buffer(std::string_view effect, std::string_view name, std::uint64_t bytes)
 {
     if (bytes > traits.max_buffer_bytes)
-        throw Error(ErrorCode::limit, "effect " + std::string(effect) + ": buffer " + std::string(name) + " needs " +
-                                          std::to_string(bytes) + " bytes, the device binds at most " +
-                                          std::to_string(traits.max_buffer_bytes) +
-                                          "; use a smaller mesh or another device");
+        throw Error(ErrorCode::limit,
+                    "effect " + std::string(effect) + ": buffer " + std::string(name) + " needs " +
+                        std::to_string(bytes) + " bytes, the device binds at most " +
+                        std::to_string(traits.max_buffer_bytes) + "; use a smaller mesh or another device");
     plan.buffers.push_back({std::string(name), std::string(effect), bytes, {}});
     cost_of(effect).bytes_allocated += bytes;
     return static_cast<std::uint32_t>(plan.buffers.size() - 1);
@@ -92,9 +93,9 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
     if (count == 0)
         return;
     if (plan.passes.size() >= kMaxPasses)
-        throw Error(ErrorCode::limit, "a time step of more than " + std::to_string(kMaxPasses) + " passes; use fewer than " +
-                                          std::to_string(plan.substeps) + " substeps or " +
-                                          std::to_string(plan.iterations) + " iterations");
+        throw Error(ErrorCode::limit, "a time step of more than " + std::to_string(kMaxPasses) +
+                                          " passes; use fewer than " + std::to_string(plan.substeps) +
+                                          " substeps or " + std::to_string(plan.iterations) + " iterations");
     Dispatch pass;
     pass.kernel = &kernel;
     pass.params.assign(params.begin(), params.end());
@@ -106,11 +107,13 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
         const PlanBuffer& buffer = plan.buffers[uses[slot].buffer];
         pass.bindings.push_back({uses[slot].buffer, 0, buffer.bytes});
         const BindingInfo& binding = kernel.bindings[slot];
-        const std::uint64_t touched = std::min<std::uint64_t>(buffer.bytes, elements * uses[slot].touched * binding.stride);
+        const std::uint64_t touched =
+            std::min<std::uint64_t>(buffer.bytes, elements * uses[slot].touched * binding.stride);
         if (binding.access != Access::count)
             cost.bytes_per_step += touched * (binding.access == Access::update ? 2 : 1);
     }
-    const std::string word = std::string(kernel.name) + (kernel.variant.empty() ? "" : ":" + std::string(kernel.variant));
+    const std::string word =
+        std::string(kernel.name) + (kernel.variant.empty() ? "" : ":" + std::string(kernel.variant));
     if (std::find(cost.kernels.begin(), cost.kernels.end(), word) == cost.kernels.end())
         cost.kernels.push_back(word);
     ++cost.dispatches_per_step;

@@ -70,7 +70,10 @@ public:
 
     std::uint64_t real_size() const { return real_bytes(plan.precision); }
     /// Plan vertex of a body's own vertex.
-    std::uint32_t vertex(std::size_t body, std::uint32_t v) const { return plan_index[plan.body_start[body] + v]; }
+    std::uint32_t vertex(std::size_t body, std::uint32_t v) const
+    {
+        return plan_index[plan.body_start[body] + v];
+    }
 
     const Scene& scene;
     const DeviceTraits& traits;

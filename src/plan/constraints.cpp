@@ -45,7 +45,8 @@ void add_buffers(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> 
 }
 
 /// Splits the constraints of a hub so that no part holds two with the same other end.
-void add_hubs(Coloured<StretchElement>& out, const std::vector<StretchElement>& elements, const Colouring& colouring)
+void add_hubs(Coloured<StretchElement>& out, const std::vector<StretchElement>& elements,
+              const Colouring& colouring)
 {
     for (std::size_t h = 0; h < colouring.hubs.size(); ++h)
     {
@@ -82,11 +83,14 @@ std::vector<StretchElement> moving_stretch(PlanBuilder& b, std::size_t body, boo
         if (b.inverse_mass[e.a] > 0 || b.inverse_mass[e.b] > 0)
             elements.push_back(e);
         else
-            conflicts += std::abs(glm::length(b.start[e.a] - b.start[e.b]) - e.rest_length) > 1e-6 * e.rest_length;
+            conflicts +=
+                std::abs(glm::length(b.start[e.a] - b.start[e.b]) - e.rest_length) > 1e-6 * e.rest_length;
     }
     if (conflicts > 0)
-        b.plan.warnings.push_back({"conflict", conflicts, std::to_string(conflicts) +
-                                   " violated constraints between held vertices of body " + std::to_string(body)});
+        b.plan.warnings.push_back({"conflict", conflicts,
+                                   std::to_string(conflicts) +
+                                       " violated constraints between held vertices of body " +
+                                       std::to_string(body)});
     return elements;
 }
 
@@ -100,7 +104,8 @@ ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t
     return graph;
 }
 
-Colouring stretch_colouring(const PlanBuilder& b, std::size_t body, const std::vector<StretchElement>& elements, bool grid)
+Colouring stretch_colouring(const PlanBuilder& b, std::size_t body,
+                            const std::vector<StretchElement>& elements, bool grid)
 {
     const std::uint32_t first = b.plan.body_start[body];
     if (grid)
@@ -119,7 +124,8 @@ Colouring stretch_colouring(const PlanBuilder& b, std::size_t body, const std::v
     return colouring;
 }
 
-std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each, bool grouped)
+std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
+                         bool grouped)
 {
     std::vector<Use> uses = {{set.buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
                              {b.plan.step_values, 0}, {b.plan.events, 0}};
@@ -132,7 +138,8 @@ std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::ui
 
 /// Passes of one sweep. `Params` is {first, count, first_iteration, report} for every constraint kernel.
 template <typename Params>
-void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each, const Moment& moment)
+void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
+                    const Moment& moment)
 {
     const bool keep = set.multipliers != kNoBuffer;
     const std::string_view alone = keep ? "lambda" : "", grouped = keep ? "tail_lambda" : "tail";
@@ -150,7 +157,8 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
     }
     if (set.small_bodies > 0)
         b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true),
-                   Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies, set.small_constraints);
+                   Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
+                   set.small_constraints);
 }
 
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
@@ -158,7 +166,10 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
     const bool keep = set.multipliers != kNoBuffer;
     for (std::size_t h = 0; h + 1 < set.hub_start.size(); ++h)
     {
-        std::vector<Use> uses = {{set.buffer}, {b.plan.position, 2}, {b.plan.delta, 2}, {b.plan.step_values, 0},
+        std::vector<Use> uses = {{set.buffer},
+                                 {b.plan.position, 2},
+                                 {b.plan.delta, 2},
+                                 {b.plan.step_values, 0},
                                  {b.plan.events, 0}};
         if (keep)
             uses.push_back({set.multipliers});
@@ -213,7 +224,8 @@ void prepare_distance(PlanBuilder& b)
         std::vector<layout::DistanceConstraint<Real>> records;
         for (const StretchElement& e : flat)
             records.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(e.compliance)});
-        set.buffer = b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, "distance constraints", records);
+        set.buffer =
+            b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, "distance constraints", records);
     });
     add_buffers(b, set, std::move(table));
 }
@@ -231,7 +243,9 @@ void prepare_bending(PlanBuilder& b)
         {
             for (std::uint32_t* v : {&e.edge0, &e.edge1, &e.wing0, &e.wing1})
                 *v = b.vertex(body, *v);
-            if (b.inverse_mass[e.edge0] + b.inverse_mass[e.edge1] + b.inverse_mass[e.wing0] + b.inverse_mass[e.wing1] == 0)
+            if (b.inverse_mass[e.edge0] + b.inverse_mass[e.edge1] + b.inverse_mass[e.wing0] +
+                    b.inverse_mass[e.wing1] ==
+                0)
                 continue;
             elements.push_back(e);
             for (const std::uint32_t v : {e.edge0, e.edge1, e.wing0, e.wing1})

@@ -21,7 +21,8 @@ namespace {
 
 bool has_bodies(const Scene& scene)
 {
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.mesh.positions.empty(); });
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [](const Body& b) { return !b.mesh.positions.empty(); });
 }
 
 bool has_collider(const Scene& scene, ColliderKind kind)
@@ -61,7 +62,8 @@ void prepare_motion(PlanBuilder& b)
         for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
             for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
                 if (b.inverse_mass[b.plan_index[v]] > 0)
-                    velocity[b.plan_index[v]] = Vec(glm::vec<3, Real>(b.scene.bodies[body].velocity), Real(0));
+                    velocity[b.plan_index[v]] =
+                        Vec(glm::vec<3, Real>(b.scene.bodies[body].velocity), Real(0));
         b.plan.position = b.add_buffer<Vec>("motion", "position", position);
         b.plan.low = b.add_buffer<Vec>("motion", "low", low);
         b.plan.velocity = b.add_buffer<Vec>("motion", "velocity", velocity);
@@ -76,17 +78,21 @@ void prepare_motion(PlanBuilder& b)
 
 void record_predict(PlanBuilder& b, const Moment&)
 {
-    std::vector<Use> uses = {{b.plan.position}, {b.plan.low}, {b.plan.velocity}, {b.plan.delta}, {b.plan.step_values, 0}, {b.plan.events, 0}};
+    std::vector<Use> uses = {{b.plan.position},       {b.plan.low},      {b.plan.velocity}, {b.plan.delta},
+                             {b.plan.step_values, 0}, {b.plan.events, 0}};
     const bool keep = b.plan.predicted != kNoBuffer;
     if (keep)
         uses.push_back({b.plan.predicted});
-    b.dispatch("motion", "predict", keep ? "kept" : "", uses, kernels::predict::Params{b.plan.vertex_count}, b.plan.vertex_count);
+    b.dispatch("motion", "predict", keep ? "kept" : "", uses, kernels::predict::Params{b.plan.vertex_count},
+               b.plan.vertex_count);
 }
 
 void record_finish(PlanBuilder& b, const Moment&)
 {
-    const Use uses[] = {{b.plan.position}, {b.plan.low}, {b.plan.velocity}, {b.plan.delta}, {b.plan.step_values, 0}, {b.plan.events, 0}};
-    b.dispatch("motion", "finish", "", uses, kernels::finish::Params{b.plan.vertex_count}, b.plan.vertex_count);
+    const Use uses[] = {{b.plan.position},       {b.plan.low},      {b.plan.velocity}, {b.plan.delta},
+                        {b.plan.step_values, 0}, {b.plan.events, 0}};
+    b.dispatch("motion", "finish", "", uses, kernels::finish::Params{b.plan.vertex_count},
+               b.plan.vertex_count);
 }
 
 // ---------------------------------------------------------------- forces
@@ -94,7 +100,8 @@ void record_finish(PlanBuilder& b, const Moment&)
 void record_damping(PlanBuilder& b, const Moment&)
 {
     const Use uses[] = {{b.plan.velocity}, {b.plan.step_values, 0}};
-    b.dispatch("damping", "damping", "", uses, kernels::damping::Params{b.plan.vertex_count}, b.plan.vertex_count);
+    b.dispatch("damping", "damping", "", uses, kernels::damping::Params{b.plan.vertex_count},
+               b.plan.vertex_count);
 }
 
 void prepare_external_force(PlanBuilder& b)
@@ -105,8 +112,8 @@ void prepare_external_force(PlanBuilder& b)
 void record_external_force(PlanBuilder& b, const Moment&)
 {
     const Use uses[] = {{b.plan.position}, {b.plan.force}, {b.plan.velocity}, {b.plan.step_values, 0}};
-    b.dispatch("external_force", "external_force", "", uses, kernels::external_force::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
+    b.dispatch("external_force", "external_force", "", uses,
+               kernels::external_force::Params{b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 // ---------------------------------------------------------------- held vertices that move
@@ -145,7 +152,8 @@ void record_pin_motion(PlanBuilder& b, const Moment& moment)
 {
     const auto count = static_cast<std::uint32_t>(b.plan.moving_pins.size());
     const Use uses[] = {{b.pin_vertices}, {b.plan.pin_targets, 2}, {b.plan.position}, {b.plan.delta}};
-    b.dispatch("pin_motion", "pin_motion", "", uses, kernels::pin_motion::Params{count, moment.substep, b.plan.substeps}, count);
+    b.dispatch("pin_motion", "pin_motion", "", uses,
+               kernels::pin_motion::Params{count, moment.substep, b.plan.substeps}, count);
 }
 
 // ---------------------------------------------------------------- colliders
@@ -177,24 +185,27 @@ void prepare_friction(PlanBuilder& b)
         const auto shape = static_cast<std::size_t>(kind);
         b.friction[shape] = has_friction(b.scene, kind);
         if (b.friction[shape] && b.plan.iterations > 1)
-            b.friction_taken[shape] =
-                b.add_buffer("friction", kind == ColliderKind::plane ? "plane friction" : "sphere friction",
-                             std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
+            b.friction_taken[shape] = b.add_buffer(
+                "friction", kind == ColliderKind::plane ? "plane friction" : "sphere friction",
+                std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
     }
 }
 
 template <typename Params>
-void record_contact(PlanBuilder& b, const Moment& moment, std::string_view shape, ColliderKind kind, std::uint32_t buffer)
+void record_contact(PlanBuilder& b, const Moment& moment, std::string_view shape, ColliderKind kind,
+                    std::uint32_t buffer)
 {
     const std::uint32_t colliders = collider_count(b.scene, kind);
-    std::vector<Use> uses = {{b.plan.position}, {b.plan.delta}, {buffer, 0}, {b.plan.step_values, 0}, {b.plan.events, 0}};
+    std::vector<Use> uses = {
+        {b.plan.position}, {b.plan.delta}, {buffer, 0}, {b.plan.step_values, 0}, {b.plan.events, 0}};
     const auto row = static_cast<std::size_t>(kind);
     const bool kept = b.friction_taken[row] != kNoBuffer;
     const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";
     if (kept)
         uses.push_back({b.friction_taken[row], colliders});
     b.dispatch(shape, shape, variant, uses,
-               Params{b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
+               Params{b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0,
+                      moment.last},
                b.plan.vertex_count);
 }
 
@@ -210,7 +221,8 @@ void record_sphere(PlanBuilder& b, const Moment& moment)
 
 bool wants_friction(const Scene& scene)
 {
-    return has_bodies(scene) && (has_friction(scene, ColliderKind::plane) || has_friction(scene, ColliderKind::sphere));
+    return has_bodies(scene) &&
+           (has_friction(scene, ColliderKind::plane) || has_friction(scene, ColliderKind::sphere));
 }
 
 bool any_stretch(const Scene& scene)
@@ -227,7 +239,8 @@ bool any_bending(const Scene& scene)
 }
 
 constexpr Effect kEffects[] = {
-    {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr, record_damping},
+    {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr,
+     record_damping},
     {"external_force", Stage::force, [](const Scene& s) { return has_bodies(s) && s.external_forces; },
      prepare_external_force, record_external_force},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
@@ -235,8 +248,10 @@ constexpr Effect kEffects[] = {
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance},
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
-    {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); }, prepare_plane, record_plane},
-    {"sphere", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::sphere); }, prepare_sphere, record_sphere},
+    {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
+     prepare_plane, record_plane},
+    {"sphere", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::sphere); },
+     prepare_sphere, record_sphere},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
 };
 

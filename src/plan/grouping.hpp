@@ -60,7 +60,8 @@ bool pays_alone(const PlanBuilder& b, const Colours<Element>& colours)
 }
 
 template <typename Element>
-void add_body(const PlanBuilder& b, Coloured<Element>& out, const std::vector<Element>& elements, const Colouring& colouring)
+void add_body(const PlanBuilder& b, Coloured<Element>& out, const std::vector<Element>& elements,
+              const Colouring& colouring)
 {
     Colours<Element> own = by_colour(elements, colouring);
     if (elements.empty())
@@ -138,7 +139,8 @@ inline std::vector<Run> runs_of(const PlanBuilder& b, const ConstraintSet& set)
     for (std::uint32_t c = 0; c < set.colour_count();)
     {
         std::uint32_t end = c, trips = 0;
-        while (end < set.colour_count() && size(end) <= limit && trips + size(end) / kGroupSize + 2 < kMaxLoopTrips)
+        while (end < set.colour_count() && size(end) <= limit &&
+               trips + size(end) / kGroupSize + 2 < kMaxLoopTrips)
             trips += size(end++) / kGroupSize + 2;
         runs.push_back({c, std::max(end, c + 1)});
         c = runs.back().end;
@@ -147,6 +149,9 @@ inline std::vector<Run> runs_of(const PlanBuilder& b, const ConstraintSet& set)
 }
 
 /// The ranges of grouped runs, two words each in order, after the small bodies' ones.
-inline std::uint32_t first_run_range(const ConstraintSet& set) { return set.small_range + 2 * set.small_bodies; }
+inline std::uint32_t first_run_range(const ConstraintSet& set)
+{
+    return set.small_range + 2 * set.small_bodies;
+}
 
 } // namespace taut

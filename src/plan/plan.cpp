@@ -22,14 +22,15 @@ constexpr double kMinSubstep = 1e-15;
 void check_settings(const Scene& scene, const DeviceTraits& traits)
 {
     if (scene.method.type != "xpbd")
-        throw Error(ErrorCode::unsupported, "method.type \"" + scene.method.type + "\" is not there; there is \"xpbd\"");
+        throw Error(ErrorCode::unsupported,
+                    "method.type \"" + scene.method.type + "\" is not there; there is \"xpbd\"");
     check_timestep(scene.timestep, scene.method.substeps);
     for (const SceneIssue& issue : check_resolved(scene))
         if (issue.error)
             throw Error(issue.code, issue.field + " " + issue.text);
     if (scene.method.precision == "double" && !traits.float64)
-        throw Error(ErrorCode::unsupported,
-                    "method.precision is \"double\", but the device has no 64-bit floats; use \"float\" or another device");
+        throw Error(ErrorCode::unsupported, "method.precision is \"double\", but the device has no 64-bit "
+                                            "floats; use \"float\" or another device");
 }
 
 /// Single precision where it cannot show what happens: positions carry two floats, but a substep's fall must
@@ -51,12 +52,16 @@ void warn_of_precision(const Scene& scene, PlanBuilder& builder)
     const double last_digit = kUnit * kUnit * far;
     std::vector<PlanWarning>& warnings = builder.plan.warnings;
     if (fall > 0 && last_digit > 0.25 * fall)
-        warnings.push_back({"precision", 1, "a substep falls " + shown(fall, 3) + " m, the last digit of a position is " +
-                           shown(last_digit, 3) + " m; use double, longer substeps or places nearer the origin"});
+        warnings.push_back({"precision", 1,
+                            "a substep falls " + shown(fall, 3) + " m, the last digit of a position is " +
+                                shown(last_digit, 3) +
+                                " m; use double, longer substeps or places nearer the origin"});
     const bool placed = !scene.colliders.empty() || !builder.plan.moving_pins.empty();
-    if (placed && !builder.start.empty() && kUnit * far > 1e-4 * glm::length(high - low))
-        warnings.push_back({"precision", 1, "colliders and led vertices are placed to " + shown(kUnit * far, 3) +
-                           " m; use double or places nearer the origin"});
+    const double extent = builder.start.empty() ? 0 : glm::length(high - low);
+    if (placed && extent > 0 && kUnit * far > 1e-4 * extent)
+        warnings.push_back({"precision", 1,
+                            "colliders and led vertices are placed to " + shown(kUnit * far, 3) +
+                                " m; use double or places nearer the origin"});
 }
 
 /// The rows of the table that this scene calls for.
@@ -66,14 +71,16 @@ std::vector<const Effect*> wanted_effects(const Scene& scene, const PlanOptions&
     std::vector<const Effect*> rows;
     for (const Effect& effect : effect_table())
     {
-        const bool available = names.empty() || std::find(names.begin(), names.end(), effect.name) != names.end();
+        const bool available =
+            names.empty() || std::find(names.begin(), names.end(), effect.name) != names.end();
         if (available && effect.wanted(scene))
             rows.push_back(&effect);
     }
     return rows;
 }
 
-void record_stage(PlanBuilder& builder, const std::vector<const Effect*>& rows, Stage stage, const Moment& moment)
+void record_stage(PlanBuilder& builder, const std::vector<const Effect*>& rows, Stage stage,
+                  const Moment& moment)
 {
     for (const Effect* row : rows)
         if (row->stage == stage && row->record != nullptr)
@@ -107,9 +114,9 @@ void record_step(PlanBuilder& builder, const std::vector<const Effect*>& rows)
 void check_timestep(double timestep, std::uint32_t substeps)
 {
     if (!(timestep > 0) || timestep > 1 || timestep / substeps < kMinSubstep)
-        throw Error(ErrorCode::bad_timestep, "timestep is " + shown(timestep) + " s in " +
-                                                 std::to_string(substeps) +
-                                                 " substeps; it must lie in (0, 1] s, a substep at least 1e-15 s");
+        throw Error(ErrorCode::bad_timestep,
+                    "timestep is " + shown(timestep) + " s in " + std::to_string(substeps) +
+                        " substeps; it must lie in (0, 1] s, a substep at least 1e-15 s");
 }
 
 Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOptions& options)

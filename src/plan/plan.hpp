@@ -66,7 +66,10 @@ struct ConstraintSet
     /// After the hubs, small bodies of one group each: their number, first range in the table, constraints.
     std::uint32_t small_bodies = 0, small_range = 0, small_constraints = 0;
     std::uint32_t small_colours = 0;         ///< most colours of one small body
-    std::uint32_t colour_count() const { return colour_start.empty() ? 0 : static_cast<std::uint32_t>(colour_start.size() - 1); }
+    std::uint32_t colour_count() const
+    {
+        return colour_start.empty() ? 0 : static_cast<std::uint32_t>(colour_start.size() - 1);
+    }
 };
 
 /// A pinned vertex that moves.
@@ -99,7 +102,7 @@ struct Plan
     std::vector<EffectCost> effects; ///< only those that the scene calls for, in order of the step
 
     std::uint32_t vertex_count = 0;
-    std::vector<std::uint32_t> original;    ///< scene-wide vertex (bodies one after another) of each plan vertex
+    std::vector<std::uint32_t> original; ///< scene-wide vertex (bodies one after another) of each plan vertex
     std::vector<std::uint32_t> body_start;  ///< first scene-wide vertex of each body, and the total
     std::vector<ConstraintSet> constraints;
     std::vector<MovingPin> moving_pins;
@@ -107,7 +110,7 @@ struct Plan
 
     // Buffers the world writes and reads, kNoBuffer where the scene does not need them.
     std::uint32_t position = kNoBuffer;     ///< rvec4: xyz m, w = inverse mass 1/kg
-    std::uint32_t low = kNoBuffer;          ///< rvec4: what position lost to rounding; w = gap kept from colliders, m
+    std::uint32_t low = kNoBuffer; ///< rvec4: what position lost to rounding; w = gap kept from colliders, m
     std::uint32_t velocity = kNoBuffer;     ///< rvec4: m/s
     std::uint32_t delta = kNoBuffer;        ///< rvec4: displacement of the last substep, m
     std::uint32_t predicted = kNoBuffer;   ///< rvec4: inertial guess of `delta`; only with residuals

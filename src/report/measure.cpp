@@ -23,7 +23,10 @@ namespace {
 using DistanceRecord = layout::DistanceConstraint<double>;
 using BendingRecord = layout::BendingConstraint<double>;
 
-DistanceRecord widen(const layout::DistanceConstraint<float>& c) { return {c.a, c.b, c.rest_length, c.compliance}; }
+DistanceRecord widen(const layout::DistanceConstraint<float>& c)
+{
+    return {c.a, c.b, c.rest_length, c.compliance};
+}
 BendingRecord widen(const layout::BendingConstraint<float>& c)
 {
     return {c.edge0, c.edge1, c.wing0, c.wing1, c.rest_angle, c.compliance};
@@ -52,7 +55,8 @@ std::vector<Record<double>> records(const Plan& plan, std::string_view kind)
         if (set.kind == kind)
         {
             const auto& bytes = plan.buffers[set.buffer].initial;
-            return plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes) : decode_as<Record<float>>(bytes);
+            return plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
+                                                        : decode_as<Record<float>>(bytes);
         }
     return {};
 }
@@ -120,14 +124,17 @@ void measure_energy(const View& view, StepReport& out)
             out.potential_energy += 0.5 * std::pow(view.length(c) - c.rest_length, 2) / c.compliance;
     for (const BendingRecord& c : view.bending)
         if (c.compliance > 0)
-            out.potential_energy += 0.5 * std::pow(reference::angle_difference(view.angle(c).angle, c.rest_angle), 2) / c.compliance;
+            out.potential_energy +=
+                0.5 * std::pow(reference::angle_difference(view.angle(c).angle, c.rest_angle), 2) /
+                c.compliance;
 }
 
 /// Signed distance of a point to a collider's surface at a time, m.
 double surface_gap(const Collider& c, double time, const glm::dvec3& x)
 {
     const glm::dvec3 place = pose(c.motion, time, c.point);
-    return c.kind == ColliderKind::plane ? glm::dot(glm::normalize(c.normal), x - place) : glm::length(x - place) - c.radius;
+    return c.kind == ColliderKind::plane ? glm::dot(glm::normalize(c.normal), x - place)
+                                         : glm::length(x - place) - c.radius;
 }
 
 void measure_penetration(const View& view, StepReport& out)
@@ -143,7 +150,8 @@ void measure_momentum(const View& view, StepReport& out)
 {
     const Scene& scene = view.world.scene();
     out.momentum_error = -1;
-    const bool pins = std::any_of(view.model.pinned.begin(), view.model.pinned.end(), [](bool p) { return p; });
+    const bool pins =
+        std::any_of(view.model.pinned.begin(), view.model.pinned.end(), [](bool p) { return p; });
     if (pins || !scene.colliders.empty() || scene.damping > 0 || scene.external_forces || view.x.empty())
         return;
     glm::dvec3 now(0), before(0);
@@ -155,8 +163,10 @@ void measure_momentum(const View& view, StepReport& out)
         mass += view.model.mass[i];
     }
     const glm::dvec3 expected = before + mass * view.world.gravity_impulse();
-    const double speed = std::max(glm::length(now) / mass, std::sqrt(glm::length(scene.gravity) * view.model.diameter));
-    out.momentum_error = speed > 0 ? glm::length(now - expected) / (mass * speed) : glm::length(now - expected) / mass;
+    const double speed =
+        std::max(glm::length(now) / mass, std::sqrt(glm::length(scene.gravity) * view.model.diameter));
+    out.momentum_error =
+        speed > 0 ? glm::length(now - expected) / (mass * speed) : glm::length(now - expected) / mass;
 }
 
 bool touches(const View& view, std::size_t i)
@@ -182,7 +192,8 @@ double distance_residual(const View& view, double h, std::vector<glm::dvec3>& im
         impulse[view.scene_vertex(c.a)] += n * lambda[k];
         impulse[view.scene_vertex(c.b)] -= n * lambda[k];
         if (c.rest_length > 0)
-            worst = std::max(worst, std::abs(length - c.rest_length + c.compliance / (h * h) * lambda[k]) / c.rest_length);
+            worst = std::max(worst, std::abs(length - c.rest_length + c.compliance / (h * h) * lambda[k]) /
+                                        c.rest_length);
     }
     return worst;
 }
@@ -253,8 +264,8 @@ void judge(const View& view, StepReport& out)
     double extent = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
-        finite = finite && std::isfinite(view.x[i].x) && std::isfinite(view.x[i].y) && std::isfinite(view.x[i].z) &&
-                 std::isfinite(glm::length(view.v[i]));
+        finite = finite && std::isfinite(view.x[i].x) && std::isfinite(view.x[i].y) &&
+                 std::isfinite(view.x[i].z) && std::isfinite(glm::length(view.v[i]));
         extent = std::max(extent, glm::length(view.x[i]));
     }
     if (!finite || events.non_finite > 0)

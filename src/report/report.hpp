@@ -38,7 +38,8 @@ struct StepReport
     double penetration = 0;      ///< deepest vertex below a collider's surface, m
     double kinetic_energy = 0;
     double potential_energy = 0; ///< gravity + elastic, zero of gravity at the origin
-    double momentum_error = 0;   ///< |P - P0 - impulse| / (M v_ref); NaN is never used: -1 when pins or contacts make it undefined
+    double momentum_error =
+        0; ///< |P - P0 - impulse| / (M v_ref); NaN is never used: -1 when pins or contacts make it undefined
     double primal_residual = 0;  ///< methods: ||M(x - x~) - J^T lambda|| / (m g h^2); -1 without multipliers
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
     double max_speed = 0;        ///< m/s

@@ -48,7 +48,8 @@ InputWrite planes(const Scene& scene, const Plan& plan, double time)
         if (c.kind != ColliderKind::plane)
             continue;
         const glm::dvec3 n = glm::normalize(c.normal);
-        const glm::dvec3 from = pose(c.motion, time, c.point), to = pose(c.motion, time + scene.timestep, c.point);
+        const glm::dvec3 from = pose(c.motion, time, c.point),
+                         to = pose(c.motion, time + scene.timestep, c.point);
         layout::PlaneCollider<Real> p{};
         p.normal_x = static_cast<Real>(n.x);
         p.normal_y = static_cast<Real>(n.y);
@@ -72,7 +73,8 @@ InputWrite spheres(const Scene& scene, const Plan& plan, double time)
     {
         if (c.kind != ColliderKind::sphere)
             continue;
-        const glm::dvec3 from = pose(c.motion, time, c.point), to = pose(c.motion, time + scene.timestep, c.point);
+        const glm::dvec3 from = pose(c.motion, time, c.point),
+                         to = pose(c.motion, time + scene.timestep, c.point);
         layout::SphereCollider<Real> s{};
         s.start_x = static_cast<Real>(from.x);
         s.start_y = static_cast<Real>(from.y);
@@ -125,7 +127,8 @@ bool inputs_move(const Scene& scene, const Plan& plan)
 
 std::vector<InputWrite> step_inputs(const Scene& scene, const Plan& plan, double time)
 {
-    return plan.precision == Precision::float64 ? inputs<double>(scene, plan, time) : inputs<float>(scene, plan, time);
+    return plan.precision == Precision::float64 ? inputs<double>(scene, plan, time)
+                                                : inputs<float>(scene, plan, time);
 }
 
 } // namespace taut

@@ -59,12 +59,18 @@ public:
         return best(*recorder.finish());
     }
 
-    enum Range : std::uint32_t { kOneColour = kPhases + 3, kManyColours = kPhases + 5, kLargeColour = kPhases + 7 };
+    enum Range : std::uint32_t
+    {
+        kOneColour = kPhases + 3,
+        kManyColours = kPhases + 5,
+        kLargeColour = kPhases + 7
+    };
 
     double time_tail(Range range)
     {
         Recorder recorder(device_.shared_from_this());
-        recorder.dispatch(kernels::distance::info("tail"), {constraint_, position_, delta_, step_, events_, table_},
+        recorder.dispatch(kernels::distance::info("tail"),
+                          {constraint_, position_, delta_, step_, events_, table_},
                           kernels::distance::Params{range, 1, 1, 0}, 1);
         return best(*recorder.finish());
     }
@@ -103,12 +109,13 @@ void measure_costs(Device& device, DeviceTraits& traits)
     Probe probe(device);
     const double few = probe.time_dispatches(8, 1), many = probe.time_dispatches(72, 1);
     traits.dispatch_ns = std::max((many - few) / 64, 1.0);
-    const double short_tail = probe.time_tail(Probe::kOneColour), long_tail = probe.time_tail(Probe::kManyColours);
+    const double short_tail = probe.time_tail(Probe::kOneColour),
+                 long_tail = probe.time_tail(Probe::kManyColours);
     traits.group_barrier_ns = std::max((long_tail - short_tail) / (Probe::kPhases - 1), 1.0);
     const double all = probe.time_dispatches(1, Probe::kSprings), one = probe.time_dispatches(1, 1);
     traits.element_ns = std::max((all - one) / Probe::kSprings, 1e-3);
-    traits.lane_element_ns =
-        std::max((probe.time_tail(Probe::kLargeColour) - short_tail) / Probe::kLaneSprings, traits.element_ns);
+    traits.lane_element_ns = std::max(
+        (probe.time_tail(Probe::kLargeColour) - short_tail) / Probe::kLaneSprings, traits.element_ns);
 }
 
 } // namespace

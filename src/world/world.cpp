@@ -42,8 +42,8 @@ void World::Impl::create_buffers()
 {
     for (const PlanBuffer& buffer : plan.buffers)
     {
-        buffers.push_back(device->make_buffer(buffer.bytes, buffer.name,
-                                              buffer.host_written ? BufferUse::host_written : BufferUse::device));
+        buffers.push_back(device->make_buffer(
+            buffer.bytes, buffer.name, buffer.host_written ? BufferUse::host_written : BufferUse::device));
         if (!buffer.initial.empty())
             device->write(buffers.back(), 0, buffer.initial);
     }
@@ -95,7 +95,8 @@ std::vector<glm::dvec3> World::Impl::vectors(std::uint32_t buffer, std::uint32_t
 {
     if (buffer == kNoBuffer)
         return {};
-    return plan.precision == Precision::float64 ? read_vectors<double>(buffer, added) : read_vectors<float>(buffer, added);
+    return plan.precision == Precision::float64 ? read_vectors<double>(buffer, added)
+                                                : read_vectors<float>(buffer, added);
 }
 
 std::vector<std::byte> World::Impl::raw(std::uint32_t buffer) const
@@ -132,7 +133,8 @@ World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOpti
     impl_->scene = resolved(scene);
     impl_->device = std::move(device);
     // Costs only decide how constraints are grouped: without any, no probe runs.
-    const DeviceTraits traits = has_constraints(impl_->scene) ? measure_traits(*impl_->device) : limits_as_traits(*impl_->device);
+    const DeviceTraits traits =
+        has_constraints(impl_->scene) ? measure_traits(*impl_->device) : limits_as_traits(*impl_->device);
     impl_->plan = make_plan(impl_->scene, traits, options.plan);
     impl_->moves = inputs_move(impl_->scene, impl_->plan);
     impl_->restart_clock({});
@@ -180,7 +182,10 @@ const Plan& World::plan() const { return impl_->plan; }
 const Scene& World::scene() const { return impl_->scene; }
 Device& World::device() const { return *impl_->device; }
 
-std::vector<glm::dvec3> World::positions() const { return impl_->vectors(impl_->plan.position, impl_->plan.low); }
+std::vector<glm::dvec3> World::positions() const
+{
+    return impl_->vectors(impl_->plan.position, impl_->plan.low);
+}
 std::vector<glm::dvec3> World::velocities() const { return impl_->vectors(impl_->plan.velocity); }
 std::vector<glm::dvec3> World::displacements() const { return impl_->vectors(impl_->plan.delta); }
 std::vector<glm::dvec3> World::predictions() const { return impl_->vectors(impl_->plan.predicted); }
@@ -204,7 +209,8 @@ Events World::events() const
 {
     if (impl_->plan.events == kNoBuffer)
         return {};
-    const auto counts = impl_->device->read<std::uint32_t>(impl_->buffers[impl_->plan.events], TAUT_EVENT_COUNT);
+    const auto counts =
+        impl_->device->read<std::uint32_t>(impl_->buffers[impl_->plan.events], TAUT_EVENT_COUNT);
     return {counts[TAUT_EVENT_NON_FINITE], counts[TAUT_EVENT_SPEED_CLAMP], counts[TAUT_EVENT_DEGENERATE],
             counts[TAUT_EVENT_CONFLICT]};
 }
@@ -259,17 +265,20 @@ void World::restore(const WorldState& state)
         const std::uint64_t expected = parts[i].first == kNoBuffer ? 0 : plan.buffers[parts[i].first].bytes;
         if (parts[i].second->size() != expected)
             throw Error(ErrorCode::bad_input, std::string("restore: ") + names[i] + " holds " +
-                                                  std::to_string(parts[i].second->size()) + " bytes, this plan needs " +
-                                                  std::to_string(expected) + ": the state is of another scene or precision");
+                                                  std::to_string(parts[i].second->size()) +
+                                                  " bytes, this plan needs " + std::to_string(expected) +
+                                                  ": the state is of another scene or precision");
         const bool finite = plan.precision == Precision::float64 ? all_finite<double>(*parts[i].second)
                                                                  : all_finite<float>(*parts[i].second);
         if (!finite)
-            throw Error(ErrorCode::bad_input, std::string("restore: ") + names[i] + " holds a value that is not finite");
+            throw Error(ErrorCode::bad_input,
+                        std::string("restore: ") + names[i] + " holds a value that is not finite");
     }
     const Clock& clock = state.clock;
     const double sum = clock.time + clock.timestep + glm::length(clock.gravity) + glm::length(clock.fall);
     if (!std::isfinite(sum) || clock.timestep < 0 || clock.step > state.step)
-        throw Error(ErrorCode::bad_input, "restore: the clock is not that of step " + std::to_string(state.step) +
+        throw Error(ErrorCode::bad_input, "restore: the clock is not that of step " +
+                                              std::to_string(state.step) +
                                               ": it must be finite and begin at that step or before");
     for (const auto& [buffer, bytes] : parts)
         if (buffer != kNoBuffer)
@@ -303,17 +312,21 @@ void World::set_force(std::uint32_t vertex, const glm::dvec3& force)
 {
     const Plan& plan = impl_->plan;
     if (plan.force == kNoBuffer)
-        throw Error(ErrorCode::unsupported, "set_force: the scene does not call for external forces; set external_forces to true");
+        throw Error(ErrorCode::unsupported,
+                    "set_force: the scene does not call for external forces; set external_forces to true");
     if (vertex >= plan.vertex_count)
-        throw Error(ErrorCode::bad_input, "set_force: vertex " + std::to_string(vertex) + " of " + std::to_string(plan.vertex_count));
+        throw Error(ErrorCode::bad_input, "set_force: vertex " + std::to_string(vertex) + " of " +
+                                              std::to_string(plan.vertex_count));
     if (!std::isfinite(force.x) || !std::isfinite(force.y) || !std::isfinite(force.z))
-        throw Error(ErrorCode::bad_input, "set_force: the force on vertex " + std::to_string(vertex) + " is not finite");
+        throw Error(ErrorCode::bad_input,
+                    "set_force: the force on vertex " + std::to_string(vertex) + " is not finite");
     std::uint32_t index = 0;
     while (plan.original[index] != vertex)
         ++index;
     const auto put = [&]<typename Real>(Real) {
         const glm::vec<4, Real> value(glm::vec<3, Real>(force), Real(0));
-        impl_->device->write(impl_->buffers[plan.force], index * sizeof(value), std::as_bytes(std::span(&value, 1)));
+        impl_->device->write(impl_->buffers[plan.force], index * sizeof(value),
+                             std::as_bytes(std::span(&value, 1)));
     };
     if (plan.precision == Precision::float64)
         put(double{});

@@ -22,7 +22,8 @@ constexpr double kHardwareTolerance = 0.01;
 std::filesystem::path data_folder()
 {
     const char* named = std::getenv("TAUT_DATA");
-    return named != nullptr ? std::filesystem::path(named) : std::filesystem::path(TAUT_SOURCE_DIR) / "../shared/data";
+    return named != nullptr ? std::filesystem::path(named)
+                            : std::filesystem::path(TAUT_SOURCE_DIR) / "../shared/data";
 }
 
 std::vector<glm::dvec3> after_thirty_frames(Scene scene, const std::string& device)

@@ -215,3 +215,17 @@ TEST_CASE("constraints stay within their body and colours of bodies are merged")
     CHECK(b.passes.size() == a.passes.size());
     CHECK(b.constraint_counts().at("distance") == 2 * a.constraint_counts().at("distance"));
 }
+
+TEST_CASE("a time step that is refused is shown as it is, however small")
+{
+    try
+    {
+        check_timestep(1e-20, 1);
+        FAIL("1e-20 s was taken");
+    }
+    catch (const Error& error)
+    {
+        CHECK(error.code() == ErrorCode::bad_timestep);
+        CHECK(std::string(error.what()).find("1e-20 s") != std::string::npos);
+    }
+}
