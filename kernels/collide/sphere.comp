@@ -52,7 +52,7 @@ KERNEL(count)
         real discriminant = along * along - square * outside;
         real root = sqrt(max(discriminant, real(0)));
         real entry = square > real(0) ? max((-along - root) / square, real(0)) : real(2);
-        // A vertex that rests on the surface lies a rounding inside as often as outside; both came from there.
+        // A vertex at rest on the surface lies a rounding inside as often as outside; both came from there.
         bool came_from_outside = outside >= REAL(-1e-3) * r * r && along < real(0);
         bool enters = came_from_outside && discriminant > real(0) && entry <= real(1);
         bool far_side = enters && !(dot(a, e) > real(0) && dot(e, e) < r * r);

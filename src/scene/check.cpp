@@ -280,6 +280,32 @@ void check_world(const Scene& scene, const Checker& out)
 
 } // namespace
 
+namespace {
+
+/// Meshes that resolve() made are sound; one filled by hand may point anywhere.
+void check_mesh(const Mesh& mesh, const Checker& out)
+{
+    const std::size_t count = mesh.positions.size();
+    for (std::size_t v = 0; v < count; ++v)
+        out.at("mesh.positions", v).finite("", mesh.positions[v], "m");
+    const auto corners = [&](std::string_view list, std::size_t index, const auto& vertices) {
+        for (const std::uint32_t vertex : vertices)
+            if (vertex >= count)
+                out.at(list, index)
+                    .error("", "names vertex " + std::to_string(vertex) + "; the mesh has " +
+                                   std::to_string(count) + ", numbered from 0");
+    };
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        corners("mesh.triangles", t, mesh.triangles[t]);
+    for (std::size_t k = 0; k < mesh.links.size(); ++k)
+        corners("mesh.links", k, mesh.links[k]);
+    if (mesh.grid_columns != 0 && std::size_t(mesh.grid_columns) * mesh.grid_rows != count)
+        out.error("mesh", "says " + std::to_string(mesh.grid_columns) + " x " +
+                              std::to_string(mesh.grid_rows) + " vertices and has " + std::to_string(count));
+}
+
+} // namespace
+
 std::vector<SceneIssue> check_resolved(const Scene& scene)
 {
     std::vector<SceneIssue> issues;
@@ -290,8 +316,7 @@ std::vector<SceneIssue> check_resolved(const Scene& scene)
         const Checker at = out.at("bodies", i);
         check_body_values(scene.bodies[i], at);
         scene_file::check_counts(scene.bodies[i], scene.bodies[i].mesh.positions.size(), at);
-        for (std::size_t v = 0; v < scene.bodies[i].mesh.positions.size(); ++v)
-            at.at("mesh.positions", v).finite("", scene.bodies[i].mesh.positions[v], "m");
+        check_mesh(scene.bodies[i].mesh, at);
     }
     return issues;
 }
