@@ -1,5 +1,6 @@
 // Vertices against half-spaces. One invocation per vertex; loops over the planes.
 // The functions and their sources: shared/contact.glsl.
+// Bytes per element: 32 read, 16 written (float); friction_kept 16 more each way per collider.
 //! variant friction FRICTION=1
 //! variant friction_kept FRICTION=1 KEPT=1
 #include "shared/portable.glsl"

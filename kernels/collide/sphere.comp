@@ -4,6 +4,7 @@
 // In the frame of the ball the vertex moves on the segment from `a` to `e`. If `e` lies inside on the side
 // where the vertex came from, the nearest surface point decides; if the segment enters and ends on the
 // other side or outside again, the point of entry does.
+// Bytes per element: 32 read, 16 written (float); friction_kept 16 more each way per collider.
 //! variant friction FRICTION=1
 //! variant friction_kept FRICTION=1 KEPT=1
 #include "shared/portable.glsl"

@@ -5,6 +5,7 @@
 //   SIGGRAPH 2012: each constraint sees the hub with 1/n of its mass; the copies are then averaged.
 //   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 18 at `dlambda`.
 // Departures: none. The sum over the constraints is a fixed tree, so the result does not vary.
+// Bytes per constraint: 16 + 32 read, 16 written (float), besides the hub itself.
 //! variant lambda LAMBDA=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
