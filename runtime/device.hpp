@@ -207,6 +207,13 @@ public:
         return add(kernel, std::move(bindings), {}, count, {}, label);
     }
 
+    /// The same with the parameters as bytes.
+    Recorder& dispatch(const KernelInfo& kernel, std::vector<Binding> bindings,
+                       std::span<const std::byte> params, std::uint32_t count, std::string_view label = {})
+    {
+        return add(kernel, std::move(bindings), params, count, {}, label);
+    }
+
     /// Group counts come from 12 bytes of a buffer when the dispatch starts; zero groups cost nothing.
     Recorder& dispatch_indirect(const KernelInfo& kernel, std::vector<Binding> bindings,
                                 std::span<const std::byte> params, Binding group_counts,

@@ -61,6 +61,39 @@ LAYOUT_STRUCT(StepValues)
     real depenetration;    // m, largest way out of an initial penetration per substep
 };
 
+/// Where a conjugate-gradient solve stands (linear/cg.hpp). Two copies hand it round the iteration: one is
+/// written by `cg_direction`, the other by `cg_step` and `cg_restart`, so no pass reads what it writes.
+/// Products are of vectors scaled as the solver scales them; "rr" is r.r, "rz" is r.z with z = M^-1 r.
+LAYOUT_STRUCT(CgState)
+{
+    real tolerance_squared;   // of |r| / |b|
+    real replacement_squared; // rr below this share of `peak`: form the residual anew
+    real growth_squared;      // rr above this multiple of max(bb, first rr): the iteration runs away
+    real epsilon;             // rounding unit of the vectors
+    real bb;         // b.b
+    real rz;         // of the direction in hand
+    real rr;         // recursive, of the residual in hand
+    real step;       // alpha of the direction in hand, not yet added to x; 0 = none
+    real pmp;        // p.Mp of the direction in hand, by recurrence
+    real curvature;  // p.Ap of the direction in hand
+    real steepest;   // largest p.Ap / p.Mp so far
+    real peak;       // largest rr since the residual was formed anew
+    real lowest;     // smallest recursive rr so far
+    real best;       // smallest rr of a residual formed anew
+    uint iteration;
+    uint iteration_limit;
+    uint patience;   // iterations without a new `lowest` after which the residual is formed anew
+    uint waited;     // iterations since `lowest`
+    uint status;     // TAUT_CG_*
+    uint begun;      // 0: bb is not known yet
+    uint fresh;      // 1: the residual was just formed anew
+    uint direction;  // in hand: TAUT_DIRECTION_*
+    uint exhausted;  // 1: p.Ap was below what rounding lets one tell from zero
+    uint suspect;    // 1: the residual in hand was formed anew to check the recurrence, not by routine
+    uint stalls;     // checks in a row that found no progress
+    uint replacements;
+};
+
 #ifdef TAUT_HOST
 #undef LAYOUT_STRUCT
 } // namespace taut::layout
@@ -72,5 +105,29 @@ LAYOUT_STRUCT(StepValues)
 #define TAUT_EVENT_DEGENERATE 2
 #define TAUT_EVENT_CONFLICT 3
 #define TAUT_EVENT_COUNT 4
+
+/// CgState::status. Where words of docs/statuses.md have more than one cause there is one number a cause.
+#define TAUT_CG_RUNNING 0
+#define TAUT_CG_CONVERGED 1
+#define TAUT_CG_ITERATION_LIMIT 2
+#define TAUT_CG_INDEFINITE_MATRIX 3
+#define TAUT_CG_INDEFINITE_PRECONDITIONER 4
+#define TAUT_CG_NON_FINITE 5
+#define TAUT_CG_STALLED 6   // checks found no progress
+#define TAUT_CG_EXHAUSTED 7 // no direction with a curvature above rounding
+#define TAUT_CG_RAN_AWAY 8  // the residual grew beyond growth_squared
+#define TAUT_CG_ZERO_RIGHT_HAND_SIDE 9
+
+/// CgState::direction.
+#define TAUT_DIRECTION_NONE 0      // the next one is z alone
+#define TAUT_DIRECTION_STEEPEST 1  // z alone, of a residual just formed
+#define TAUT_DIRECTION_CONJUGATE 2
+
+/// Lanes of a work group of the linear kernels, and the words of their control buffer: group counts of the
+/// passes of an iteration, of the passes that form the residual anew, then the history (float bits of |r|/|b|).
+#define TAUT_LINEAR_GROUP 128
+#define TAUT_CONTROL_ITERATE 0
+#define TAUT_CONTROL_REPLACE 4
+#define TAUT_CONTROL_HISTORY 8
 
 #endif

@@ -10,6 +10,10 @@
 //                                      across phases
 //   KERNEL(count) { ... i ... }        one invocation per element
 //   GROUP_KERNEL(size) { ... group ... PHASE_BEGIN ... lane ... PHASE_END ... }
+//   LANES_BEGIN(n) ... lane ... LANES_END   a phase of the first n lanes only
+//   EACH_BEGIN(first, end) ... i, lane ... EACH_END   a phase in which the lanes share the elements
+//                                      first..end-1, element `first + k` going to lane k % size, each
+//                                      lane in ascending order; on the CPU in the order of the elements
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
@@ -82,11 +86,33 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #define PHASE_BEGIN               \
     {                             \
         uint lane = gl_LocalInvocationID.x;
-#define PHASE_END            \
-    }                        \
+#define TAUT_PHASE_BARRIER   \
     memoryBarrierBuffer();   \
     memoryBarrierShared();   \
     barrier();
+#define PHASE_END            \
+    }                        \
+    TAUT_PHASE_BARRIER
+
+#define LANES_BEGIN(n)                           \
+    {                                            \
+        uint lane = gl_LocalInvocationID.x;      \
+        if (lane < uint(n))                      \
+        {
+#define LANES_END            \
+        }                    \
+    }                        \
+    TAUT_PHASE_BARRIER
+
+#define EACH_BEGIN(first, end)                                                             \
+    {                                                                                      \
+        uint lane = gl_LocalInvocationID.x;                                                \
+        for (uint i = uint(first) + lane; i < uint(end); i += uint(gl_WorkGroupSize.x))    \
+        {
+#define EACH_END             \
+        }                    \
+    }                        \
+    TAUT_PHASE_BARRIER
 
 #endif
 #endif

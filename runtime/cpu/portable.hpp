@@ -118,3 +118,16 @@ inline void count_event(std::uint32_t& counter)
 
 #define PHASE_BEGIN for (uint lane = 0; lane < taut_group_size; ++lane) {
 #define PHASE_END }
+
+#define LANES_BEGIN(n) for (uint lane = 0; lane < uint(n); ++lane) {
+#define LANES_END }
+
+// Tiles of one group's size: lane k of a tile is its k-th element, as on a device.
+#define EACH_BEGIN(first, end)                                                                              \
+    for (uint taut_tile = uint(first); taut_tile < uint(end); taut_tile += taut_group_size)                 \
+    {                                                                                                       \
+        const uint taut_lanes = uint(end) - taut_tile < taut_group_size ? uint(end) - taut_tile : taut_group_size; \
+        for (uint lane = 0; lane < taut_lanes; ++lane)                                                      \
+        {                                                                                                   \
+            const uint i = taut_tile + lane;
+#define EACH_END }}

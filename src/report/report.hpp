@@ -1,6 +1,7 @@
 #pragma once
 // How a run went, as values: statuses, errors of measure, energies, residuals.
 
+#include "taut/runtime/base/status.hpp"
 #include "taut/world/world.hpp"
 
 #include <map>
@@ -9,18 +10,6 @@
 #include <vector>
 
 namespace taut {
-
-/// The closed list of how a run or a solve can end (docs/statuses.md). Later methods use the same words.
-enum class Status
-{
-    completed,       ///< the run reached its end with finite state
-    interrupted,     ///< the user stopped it; what is done is sound
-    diverged,        ///< the state grew beyond bounds
-    non_finite,      ///< a value that is not finite appeared; the last finite state is kept
-    converged, iteration_limit, stagnated, indefinite_matrix, indefinite_preconditioner,
-    zero_right_hand_side,
-};
-std::string_view to_string(Status status);
 
 /// Warnings: something a user should know though the run is sound. With their count.
 enum class Warning { degenerate, speed_clamp, conflict, precision };

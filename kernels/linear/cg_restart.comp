@@ -1,0 +1,119 @@
+// Conjugate gradients after the residual was formed anew, and at the very start: partial sums of it, held
+// rows cleared, and the iteration set going again.
+//
+// Based on: shared/cg_state.glsl.
+// Departures: none.
+// Bytes per row (float): 4 read and written, at the start 4 more for b.
+//! variant diagonal DIAGONAL=1
+//! variant block BLOCK=1
+//! variant stored STORED=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/reduce.glsl"
+#include "shared/cg_state.glsl"
+
+PARAMS
+{
+    uint count; // rows; with BLOCK block rows
+    uint chunk;
+    uint groups;
+    uint begin_solve; // 1: `before` holds the settings, and b.b is wanted
+    uint b_stride;    // words from one entry of b to the next: 2 where b is pairs
+};
+
+UPDATE(0, real, residual);
+READ(1, real, b);         // where begin_solve is 0 anything
+WRITE(2, real, partials); // groups of each: r.z, r.r, b.b
+READ_ONE(3, CgState, before);
+WRITE(4, CgState, after);
+WRITE(5, uint, control);
+#if DIAGONAL || BLOCK
+READ(6, real, inverse); // as in cg_direction
+#endif
+
+SHARED(real, sum_rz, TAUT_LINEAR_GROUP);
+SHARED(real, sum_rr, TAUT_LINEAR_GROUP);
+SHARED(real, sum_bb, TAUT_LINEAR_GROUP);
+
+GROUP_KERNEL(TAUT_LINEAR_GROUP)
+{
+    CLEAR_LANES(sum_rz)
+    CLEAR_LANES(sum_rr)
+    CLEAR_LANES(sum_bb)
+    uint begin = min(group * chunk, count);
+    uint end = min(begin + chunk, count);
+    EACH_BEGIN(begin, end)
+#if BLOCK
+    real m00 = inverse[6u * i];
+    real m11 = inverse[6u * i + 3u];
+    real m22 = inverse[6u * i + 5u];
+    real r0 = m00 > real(0) ? residual[3u * i] : real(0);
+    real r1 = m11 > real(0) ? residual[3u * i + 1u] : real(0);
+    real r2 = m22 > real(0) ? residual[3u * i + 2u] : real(0);
+    residual[3u * i] = r0;
+    residual[3u * i + 1u] = r1;
+    residual[3u * i + 2u] = r2;
+    real xy = inverse[6u * i + 1u];
+    real xz = inverse[6u * i + 2u];
+    real yz = inverse[6u * i + 4u];
+    real z0 = (m00 * r0 + xy * r1) + xz * r2;
+    real z1 = (xy * r0 + m11 * r1) + yz * r2;
+    real z2 = (xz * r0 + yz * r1) + m22 * r2;
+    sum_rz[lane] += (r0 * z0 + r1 * z1) + r2 * z2;
+    sum_rr[lane] += (r0 * r0 + r1 * r1) + r2 * r2;
+    if (begin_solve != 0u)
+    {
+        real b0 = m00 > real(0) ? b[3u * i * b_stride] : real(0);
+        real b1 = m11 > real(0) ? b[(3u * i + 1u) * b_stride] : real(0);
+        real b2 = m22 > real(0) ? b[(3u * i + 2u) * b_stride] : real(0);
+        sum_bb[lane] += (b0 * b0 + b1 * b1) + b2 * b2;
+    }
+#else
+    real r = residual[i];
+    real keep = real(1);
+#if DIAGONAL
+    real m = inverse[i];
+    keep = m > real(0) ? real(1) : real(0);
+    r = m > real(0) ? r : real(0);
+    residual[i] = r;
+    sum_rz[lane] += r * (m * r);
+#endif
+    sum_rr[lane] += r * r;
+    if (begin_solve != 0u)
+    {
+        real value = keep * b[i * b_stride];
+        sum_bb[lane] += value * value;
+    }
+#endif
+    EACH_END
+    SUM_LANES_2(sum_rz, sum_rr)
+    SUM_LANES(sum_bb)
+    CgState s = before[0];
+    s.fresh = 1u;
+    s.step = real(0);
+    s.exhausted = 0u;
+    s.replacements += begin_solve == 0u ? 1u : 0u;
+    LANES_BEGIN(1)
+    if (group < groups)
+    {
+        partials[groups + group] = sum_rr[0];
+#if DIAGONAL || BLOCK
+        partials[group] = sum_rz[0];
+#elif !STORED
+        partials[group] = sum_rr[0];
+#endif
+        if (begin_solve != 0u)
+            partials[2u * groups + group] = sum_bb[0];
+    }
+    if (group == 0u)
+    {
+        after[0] = s;
+        control[TAUT_CONTROL_ITERATE] = groups;
+        control[TAUT_CONTROL_ITERATE + 1] = 1u;
+        control[TAUT_CONTROL_ITERATE + 2] = 1u;
+        control[TAUT_CONTROL_REPLACE] = 0u;
+        control[TAUT_CONTROL_REPLACE + 1] = 1u;
+        control[TAUT_CONTROL_REPLACE + 2] = 1u;
+    }
+    LANES_END
+}

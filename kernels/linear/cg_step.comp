@@ -1,0 +1,90 @@
+// Conjugate gradients, last pass of an iteration: alpha from p.Ap, r -= alpha q, and the partial sums of the
+// new residual.
+//
+// Based on: shared/cg_state.glsl.
+// Departures: the step along x is left to cg_direction.
+// Bytes per row (float): 8 read (12 with a diagonal), 4 written.
+//! variant diagonal DIAGONAL=1
+//! variant block BLOCK=1
+//! variant stored STORED=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/reduce.glsl"
+#include "shared/cg_state.glsl"
+
+PARAMS
+{
+    uint count; // rows; with BLOCK block rows
+    uint chunk;
+    uint groups;
+};
+
+UPDATE(0, real, residual);
+READ(1, real, product);    // q = A p
+READ(2, real, curvatures); // one a group: p.q
+WRITE(3, real, partials);  // groups of each: r.z, r.r
+READ_ONE(4, CgState, before);
+WRITE(5, CgState, after);
+#if DIAGONAL || BLOCK
+READ(6, real, inverse); // as in cg_direction
+#endif
+
+SHARED(real, sum, TAUT_LINEAR_GROUP);
+SHARED(real, sum_rz, TAUT_LINEAR_GROUP);
+
+GROUP_KERNEL(TAUT_LINEAR_GROUP)
+{
+    SUM_PARTIALS(sum, curvatures, 0u, groups)
+    CgState s = cg_measure(before[0], sum[0]);
+    real step = s.step;
+    PHASE_BEGIN // the sum was read by all lanes
+    PHASE_END
+    CLEAR_LANES(sum)
+    CLEAR_LANES(sum_rz)
+    uint begin = min(group * chunk, count);
+    uint end = min(begin + chunk, count);
+    EACH_BEGIN(begin, end)
+#if BLOCK
+    real m00 = inverse[6u * i];
+    real m11 = inverse[6u * i + 3u];
+    real m22 = inverse[6u * i + 5u];
+    real r0 = m00 > real(0) ? residual[3u * i] - step * product[3u * i] : real(0);
+    real r1 = m11 > real(0) ? residual[3u * i + 1u] - step * product[3u * i + 1u] : real(0);
+    real r2 = m22 > real(0) ? residual[3u * i + 2u] - step * product[3u * i + 2u] : real(0);
+    residual[3u * i] = r0;
+    residual[3u * i + 1u] = r1;
+    residual[3u * i + 2u] = r2;
+    real xy = inverse[6u * i + 1u];
+    real xz = inverse[6u * i + 2u];
+    real yz = inverse[6u * i + 4u];
+    real z0 = (m00 * r0 + xy * r1) + xz * r2;
+    real z1 = (xy * r0 + m11 * r1) + yz * r2;
+    real z2 = (xz * r0 + yz * r1) + m22 * r2;
+    sum_rz[lane] += (r0 * z0 + r1 * z1) + r2 * z2;
+    sum[lane] += (r0 * r0 + r1 * r1) + r2 * r2;
+#else
+    real r = residual[i] - step * product[i];
+#if DIAGONAL
+    real m = inverse[i];
+    r = m > real(0) ? r : real(0);
+    sum_rz[lane] += r * (m * r);
+#endif
+    residual[i] = r;
+    sum[lane] += r * r;
+#endif
+    EACH_END
+    SUM_LANES_2(sum, sum_rz)
+    LANES_BEGIN(1)
+    if (group < groups)
+    {
+        partials[groups + group] = sum[0];
+#if DIAGONAL || BLOCK
+        partials[group] = sum_rz[0];
+#elif !STORED
+        partials[group] = sum[0]; // z = r
+#endif
+    }
+    if (group == 0u)
+        after[0] = s;
+    LANES_END
+}

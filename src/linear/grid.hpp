@@ -1,0 +1,46 @@
+#pragma once
+// How the kernels of a solve share rows among work groups, and when they run.
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+#undef TAUT_HOST
+
+#include "taut/runtime/device.hpp"
+
+namespace taut::linear {
+
+/// `count` units (rows, block rows, entries) among `groups` work groups of TAUT_LINEAR_GROUP lanes: group g
+/// takes units g*chunk up to (g+1)*chunk. Trailing groups may be empty.
+struct Grid
+{
+    std::uint32_t count = 0;
+    std::uint32_t groups = 1;
+    std::uint32_t chunk = 0; ///< a multiple of `multiple`
+};
+
+/// Groups of every pass over a system of `rows` rows: one for each TAUT_LINEAR_GROUP rows, at most 256 (1,024
+/// on a hardware GPU). Fixed by these two alone: sums then come in one order on all software executors.
+std::uint32_t group_count_for(std::uint32_t rows, const DeviceInfo&);
+
+Grid make_grid(std::uint32_t count, std::uint32_t groups, std::uint32_t multiple = TAUT_LINEAR_GROUP);
+
+/// When a pass runs: always, or with as many groups as a word of the solver's control buffer says (0: not at all).
+struct Gate
+{
+    std::uint32_t groups = 1;
+    BufferPtr control;        ///< null: always
+    std::uint64_t offset = 0; ///< bytes; three words
+};
+
+/// Adds one dispatch of a GROUP_KERNEL over gate.groups groups.
+void launch(Recorder&, const Gate&, const KernelInfo&, std::vector<Recorder::Binding>,
+            std::span<const std::byte> params, std::string_view label);
+
+template <typename Params>
+void launch(Recorder& recorder, const Gate& gate, const KernelInfo& kernel,
+            std::vector<Recorder::Binding> bindings, const Params& params, std::string_view label)
+{
+    launch(recorder, gate, kernel, std::move(bindings), std::as_bytes(std::span(&params, 1)), label);
+}
+
+} // namespace taut::linear

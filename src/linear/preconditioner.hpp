@@ -1,0 +1,61 @@
+#pragma once
+// Approximate inverses that are cheap to apply on every device: no triangular solves.
+
+#include "taut/linear/operator.hpp"
+#include "taut/linear/sparse.hpp"
+
+#include <memory>
+#include <string_view>
+
+namespace taut::linear {
+
+enum class Preconditioner : std::uint8_t
+{
+    none,
+    jacobi,       ///< 1 / a_ii
+    block_jacobi, ///< inverse of each 3 x 3 block on the diagonal; rows must be a multiple of 3
+    chebyshev,    ///< polynomial in D^-1 A, no dot products
+    spai0,        ///< diagonal m that minimises |I - diag(m) A|_F: a_ii / sum_j a_ij^2
+};
+std::string_view to_string(Preconditioner);
+/// Throws Error{bad_input} listing the words ("none", "jacobi", "block_jacobi", "chebyshev", "spai0").
+Preconditioner preconditioner_from(std::string_view word);
+
+/// One value a row; 0 for rows of `held`, whose entry of x then never changes. A zero row gets 1.
+std::vector<double> jacobi_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
+/// Broeker, Grote. Sparse approximate inverse smoothers for geometric and algebraic multigrid. 2002 (SPAI-0).
+std::vector<double> spai0_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
+/// Six values a block row: xx xy xz yy yz zz; a held row's are 0 and the others' block is inverted without it.
+/// Throws Error{bad_input} when rows is no multiple of 3 or a block is not positive definite, naming it.
+std::vector<double> block_jacobi_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
+
+/// Interval that holds the eigenvalues of D^-1 A that a polynomial should treat.
+struct Interval
+{
+    double lowest = 0;
+    double highest = 0;
+};
+/// Upper end: 15 steps of Lanczos on the host from a fixed start, times 1.05, at most Gershgorin's bound.
+/// Lower end: the upper one / `spread`.
+Interval chebyshev_interval(const SparseMatrix&, std::span<const double> inverse_diagonal, double spread = 30);
+
+/// z = q(D^-1 A) D^-1 r with q of degree `degree` - 1: degree - 1 products and no dot product but the last.
+/// Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. 2003, algorithm 12.1.
+class Chebyshev
+{
+public:
+    /// `inverse` holds rows() reals, 1 / d_ii. degree in 1..16.
+    Chebyshev(std::shared_ptr<Device>, std::shared_ptr<const Operator>, BufferPtr inverse, Interval, int degree);
+
+    /// z from r; partials[g] = sum of r_i z_i over the rows of group g of make_grid(rows, gate.groups).
+    void record(Recorder&, const Gate&, Operator::Binding r, Operator::Binding z,
+                Operator::Binding partials) const;
+
+private:
+    std::shared_ptr<const Operator> operator_;
+    BufferPtr inverse_, direction_, product_, rest_;
+    Interval interval_;
+    int degree_ = 4;
+};
+
+} // namespace taut::linear
