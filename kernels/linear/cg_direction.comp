@@ -56,6 +56,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     s.step = real(0);
     if (turning)
         beta = cg_turn(s, sum_rz[0]);
+    bool conjugate = beta != real(0); // without: what is left in p from another solve may be anything
 
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);
@@ -76,7 +77,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         real at = x[3u * i + k];
         real z = k == 0u ? z0 : (k == 1u ? z1 : z2);
         x[3u * i + k] = stepping ? at + step * p : at;
-        direction[3u * i + k] = turning ? z + beta * p : p;
+        direction[3u * i + k] = turning ? z + (conjugate ? beta * p : real(0)) : p;
     }
 #else
 #if DIAGONAL
@@ -87,7 +88,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     real p = direction[i];
     real at = x[i];
     x[i] = stepping ? at + step * p : at;
-    direction[i] = turning ? z + beta * p : p;
+    direction[i] = turning ? z + (conjugate ? beta * p : real(0)) : p;
 #endif
     EACH_END
 

@@ -58,10 +58,11 @@ public:
 
     /// r = b - A x, b.b, and the state of a new solve.
     void record_begin(Recorder&);
-    /// Room for `count` iterations: three dispatches each, and four for forming the residual anew after every
-    /// eighth. Iterations that are not needed run zero groups.
+    /// Room for `count` iterations: three dispatches each (COO and Chebyshev more), and after every eighth those
+    /// that form the residual anew. What is not needed runs zero groups.
     void record_iterations(Recorder&, std::uint32_t count);
-    /// x += what the last iterations gained.
+    /// Takes the last step, checks the true residual where that is still open, x += what was gained. After it
+    /// outcome() is final: with an iteration_limit of the count recorded it is not `running`.
     void record_end(Recorder&);
 
     /// Reads the state; waits for the device.
@@ -73,7 +74,13 @@ public:
     std::uint64_t bytes() const; ///< of all vectors and tables of the solver
 
 private:
-    void record_replacement(Recorder&, const Gate&);
+    void record_direction(Recorder&);
+    void record_iteration(Recorder&);
+    void record_replacement(Recorder&);
+    void record_residual(Recorder&, const Gate&);
+    void record_restart(Recorder&, const Gate&, bool begin);
+    void record_preconditioner(Recorder&, const Gate&);
+    void record_collect(Recorder&, const Gate&, bool add);
 
     std::shared_ptr<Device> device_;
     std::shared_ptr<const Operator> operator_;

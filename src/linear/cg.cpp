@@ -1,0 +1,226 @@
+// Based on: kernels/shared/cg_state.glsl (what is decided), kernels/linear/cg_*.comp (what is done).
+// Departures: none beyond those named there.
+
+#include "taut/linear/cg.hpp"
+#include "taut/linear/cg_state.hpp"
+
+#include "taut/kernels/cg_collect.hpp"
+#include "taut/kernels/cg_direction.hpp"
+#include "taut/kernels/cg_restart.hpp"
+#include "taut/kernels/cg_step.hpp"
+
+#include <bit>
+
+namespace taut::linear {
+namespace {
+
+constexpr std::uint32_t kReplacementEvery = 8; ///< iterations between two places where the residual may be formed
+constexpr const char* kLabel = "cg";
+
+bool is_diagonal(Preconditioner kind)
+{
+    return kind == Preconditioner::jacobi || kind == Preconditioner::spai0;
+}
+
+std::string_view variant_of(Preconditioner kind)
+{
+    if (is_diagonal(kind))
+        return "diagonal";
+    if (kind == Preconditioner::block_jacobi)
+        return "block";
+    return kind == Preconditioner::chebyshev ? "stored" : "";
+}
+
+std::uint32_t word_bytes(std::uint32_t word)
+{
+    return word * 4;
+}
+
+} // namespace
+
+ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared_ptr<const Operator> op,
+                                     Preconditioning preconditioning, bool pairs)
+    : device_(std::move(device)),
+      operator_(std::move(op)),
+      preconditioning_(std::move(preconditioning)),
+      pairs_(pairs),
+      precision_(operator_->precision()),
+      groups_(group_count_for(operator_->rows(), device_->info()))
+{
+    if (pairs_ && precision_ != Precision::float32)
+        throw Error(ErrorCode::bad_input, "pairs are made of floats: take an operator in float");
+    if (preconditioning_.kind == Preconditioner::block_jacobi && operator_->rows() % 3 != 0)
+        throw Error(ErrorCode::bad_input, "block_jacobi needs a multiple of 3 rows, but there are " +
+                                              std::to_string(operator_->rows()) + ": take jacobi");
+    if (operator_->recomputes() && preconditioning_.kind != Preconditioner::none)
+        throw Error(ErrorCode::unsupported, "an operator that recomputes its product takes no preconditioner");
+    const std::uint64_t real = real_bytes(precision_);
+    const std::uint64_t rows = operator_->rows();
+    const std::uint64_t state = real == 4 ? sizeof(layout::CgState<float>) : sizeof(layout::CgState<double>);
+    const auto vector = [&](std::string_view label) { return device_->make_buffer(rows * real, label); };
+    b_ = device_->make_buffer(rows * real * (pairs_ ? 2 : 1), "cg b");
+    base_ = device_->make_buffer(rows * real * (pairs_ ? 2 : 1), "cg solution");
+    x_ = vector("cg x");
+    r_ = vector("cg r");
+    p_ = vector("cg p");
+    if (!operator_->recomputes())
+        q_ = vector("cg q");
+    if (preconditioning_.kind == Preconditioner::chebyshev)
+        z_ = vector("cg z");
+    partials_ = device_->make_buffer(3 * groups_ * real, "cg partials");
+    curvatures_ = device_->make_buffer(groups_ * real, "cg curvatures");
+    settings_ = device_->make_buffer(state, "cg settings", BufferUse::host_written);
+    decided_ = device_->make_buffer(state, "cg decided");
+    measured_ = device_->make_buffer(state, "cg measured");
+    control_ = device_->make_buffer(word_bytes(TAUT_CONTROL_HISTORY + kHistory), "cg control");
+    set({});
+}
+
+void ConjugateGradient::set(const CgSettings& settings)
+{
+    if (!(settings.tolerance > 0) || !(settings.replacement > 0 && settings.replacement < 1) ||
+        !(settings.growth > 1))
+        throw Error(ErrorCode::bad_input, "a tolerance above 0, a replacement in (0, 1) and a growth above 1 are "
+                                          "wanted for conjugate gradients");
+    if (precision_ == Precision::float32)
+        device_->write<layout::CgState<float>>(settings_, std::vector{first_state<float>(settings)});
+    else
+        device_->write<layout::CgState<double>>(settings_, std::vector{first_state<double>(settings)});
+}
+
+/// Rows, or block rows, as the passes of conjugate gradients share them.
+static Grid grid_of(const Operator& op, Preconditioner kind, std::uint32_t groups)
+{
+    return make_grid(kind == Preconditioner::block_jacobi ? op.rows() / 3 : op.rows(), groups);
+}
+
+void ConjugateGradient::record_restart(Recorder& recorder, const Gate& gate, bool begin)
+{
+    const auto& kernel = kernels::cg_restart::info(variant_of(preconditioning_.kind), precision_);
+    const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
+    std::vector<Recorder::Binding> bindings = {r_, begin ? b_ : r_, partials_, begin ? settings_ : decided_,
+                                               measured_, control_};
+    if (preconditioning_.inverse)
+        bindings.push_back(preconditioning_.inverse);
+    launch(recorder, gate, kernel, std::move(bindings),
+           kernels::cg_restart::Params{grid.count, grid.chunk, groups_, begin ? 1u : 0u,
+                                       pairs_ ? 2u : 1u},
+           kLabel);
+    record_preconditioner(recorder, gate);
+}
+
+void ConjugateGradient::record_residual(Recorder& recorder, const Gate& gate)
+{
+    if (pairs_)
+        operator_->record_residual_pairs(recorder, gate, base_, b_, r_);
+    else
+        operator_->record_residual(recorder, gate, base_, b_, r_);
+}
+
+void ConjugateGradient::record_preconditioner(Recorder& recorder, const Gate& gate)
+{
+    if (preconditioning_.kind == Preconditioner::chebyshev)
+        preconditioning_.chebyshev->record(recorder, gate, r_, z_, {partials_, 0, groups_ * real_bytes(precision_)});
+}
+
+void ConjugateGradient::record_begin(Recorder& recorder)
+{
+    const Gate always{groups_, nullptr, 0};
+    record_collect(recorder, always, false);
+    record_residual(recorder, always);
+    record_restart(recorder, always, true);
+}
+
+void ConjugateGradient::record_iterations(Recorder& recorder, std::uint32_t count)
+{
+    for (std::uint32_t k = 0; k < count; ++k)
+    {
+        record_iteration(recorder);
+        if ((k + 1) % kReplacementEvery == 0 || k + 1 == count)
+            record_replacement(recorder);
+    }
+}
+
+void ConjugateGradient::record_direction(Recorder& recorder)
+{
+    const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
+    const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
+    const bool stored = preconditioning_.kind == Preconditioner::chebyshev;
+    std::vector<Recorder::Binding> bindings = {stored ? z_ : r_, p_, x_, partials_, measured_, decided_,
+                                               control_};
+    if (preconditioning_.inverse)
+        bindings.push_back(preconditioning_.inverse);
+    launch(recorder, gate, kernels::cg_direction::info(variant_of(preconditioning_.kind), precision_),
+           std::move(bindings), kernels::cg_direction::Params{grid.count, grid.chunk, groups_, kHistory}, kLabel);
+}
+
+void ConjugateGradient::record_iteration(Recorder& recorder)
+{
+    record_direction(recorder);
+    const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
+    const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
+    if (operator_->recomputes())
+    {
+        operator_->record_product(recorder, gate, p_, Recorder::Binding(nullptr), curvatures_);
+        operator_->record_step(recorder, gate, {p_, r_, curvatures_, partials_, decided_, measured_});
+        return;
+    }
+    operator_->record_product(recorder, gate, p_, q_, curvatures_);
+    std::vector<Recorder::Binding> bindings = {r_, q_, curvatures_, partials_, decided_, measured_};
+    if (preconditioning_.inverse)
+        bindings.push_back(preconditioning_.inverse);
+    launch(recorder, gate, kernels::cg_step::info(variant_of(preconditioning_.kind), precision_), std::move(bindings),
+           kernels::cg_step::Params{grid.count, grid.chunk, groups_}, kLabel);
+    record_preconditioner(recorder, gate);
+}
+
+void ConjugateGradient::record_replacement(Recorder& recorder)
+{
+    const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_REPLACE)};
+    record_collect(recorder, gate, true);
+    record_residual(recorder, gate);
+    record_restart(recorder, gate, false);
+}
+
+void ConjugateGradient::record_end(Recorder& recorder)
+{
+    record_direction(recorder); // takes the last step, and may ask for the residual
+    record_replacement(recorder);
+    record_direction(recorder); // says how it ended
+    record_collect(recorder, {groups_, nullptr, 0}, true);
+}
+
+/// base += x where `add`, and x = 0.
+void ConjugateGradient::record_collect(Recorder& recorder, const Gate& gate, bool add)
+{
+    const Grid grid = make_grid(operator_->rows(), groups_);
+    launch(recorder, gate, kernels::cg_collect::info(pairs_ ? "pair" : "", precision_), {base_, x_},
+           kernels::cg_collect::Params{grid.count, grid.chunk, add ? 1u : 0u}, kLabel);
+}
+
+CgOutcome ConjugateGradient::outcome()
+{
+    if (precision_ == Precision::float32)
+        return outcome_of(device_->read<layout::CgState<float>>(decided_, 1).front());
+    return outcome_of(device_->read<layout::CgState<double>>(decided_, 1).front());
+}
+
+std::vector<float> ConjugateGradient::history(std::uint32_t first, std::uint32_t last)
+{
+    const auto words = device_->read<std::uint32_t>(control_, kHistory, word_bytes(TAUT_CONTROL_HISTORY));
+    std::vector<float> out;
+    for (std::uint32_t k = first; k <= last; ++k)
+        out.push_back(std::bit_cast<float>(words[k % kHistory]));
+    return out;
+}
+
+std::uint64_t ConjugateGradient::bytes() const
+{
+    std::uint64_t sum = preconditioning_.inverse ? preconditioning_.inverse->bytes() : 0;
+    for (const BufferPtr* buffer : {&b_, &base_, &x_, &r_, &p_, &q_, &z_, &partials_, &curvatures_, &settings_,
+                                    &decided_, &measured_, &control_})
+        sum += *buffer ? (*buffer)->bytes() : 0;
+    return sum;
+}
+
+} // namespace taut::linear
