@@ -1,0 +1,138 @@
+#include "taut/linear/device_formats.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::linear {
+namespace {
+
+/// values[slots[k]] = value k times 2^exponent, in `Real`; low words likewise where wanted.
+template <typename Real>
+struct Packed
+{
+    std::vector<Real> values, low;
+    bool needs_low = false;
+};
+
+[[noreturn]] void throw_too_large(const SparseMatrix& matrix, std::size_t entry, int exponent)
+{
+    const auto after = std::upper_bound(matrix.row_start.begin(), matrix.row_start.end(),
+                                        static_cast<std::uint32_t>(entry));
+    throw Error(ErrorCode::bad_input,
+                "the value " + std::to_string(matrix.value[entry]) + " of row " +
+                    std::to_string(after - matrix.row_start.begin() - 1) + " column " +
+                    std::to_string(matrix.column[entry]) + " (from 0) times 2^" + std::to_string(exponent) +
+                    " does not fit a float: take the exponent of DeviceMatrix::scale_exponent, or double");
+}
+
+template <typename Real>
+Packed<Real> pack(const SparseMatrix& matrix, std::span<const std::uint32_t> slots, std::uint64_t count,
+                  int exponent, bool pairs)
+{
+    Packed<Real> packed;
+    packed.values.assign(count, Real(0));
+    if (pairs)
+        packed.low.assign(count, Real(0));
+    for (std::size_t k = 0; k < matrix.value.size(); ++k)
+    {
+        const double value = std::ldexp(matrix.value[k], exponent);
+        const Real high = static_cast<Real>(value);
+        if (std::isinf(high) && !std::isinf(matrix.value[k]))
+            throw_too_large(matrix, k, exponent);
+        packed.values[slots[k]] = high;
+        if (!pairs)
+            continue;
+        const Real low = static_cast<Real>(value - static_cast<double>(high));
+        packed.low[slots[k]] = low;
+        packed.needs_low = packed.needs_low || low != Real(0);
+    }
+    return packed;
+}
+
+} // namespace
+
+PackedMatrix::PackedMatrix(const std::shared_ptr<Device>& device, const SparseMatrix& matrix,
+                           const UploadOptions& options)
+    : device_(device),
+      rows_(matrix.rows),
+      precision_(options.precision),
+      format_(options.format),
+      pairs_(options.pairs),
+      exponent_(options.exponent)
+{
+}
+
+void PackedMatrix::record_product(Recorder& recorder, const Gate& gate, Binding x, Binding y,
+                                  Binding partials) const
+{
+    const std::string_view variant = partials.buffer ? "dot" : "";
+    record(recorder, gate, {variant, std::move(x), std::move(y), std::move(partials)});
+}
+
+void PackedMatrix::record_residual(Recorder& recorder, const Gate& gate, Binding x, Binding b, Binding r) const
+{
+    record(recorder, gate, {"residual", std::move(x), std::move(r), std::move(b)});
+}
+
+void PackedMatrix::record_residual_pairs(Recorder& recorder, const Gate& gate, Binding x, Binding b,
+                                         Binding r) const
+{
+    record(recorder, gate, {"residual_pairs", std::move(x), std::move(r), std::move(b)});
+}
+
+void PackedMatrix::check_bytes(std::uint64_t wanted, std::string_view what) const
+{
+    const std::uint64_t most = device_->limits().max_buffer_bytes;
+    if (wanted > most)
+        throw Error(ErrorCode::limit, "format " + std::string(to_string(format_)) + " needs " +
+                                          std::to_string(wanted) + " bytes for " + std::string(what) + ", but " +
+                                          device_->info().selector + " allows " + std::to_string(most) +
+                                          " in one buffer: take a sparser format, float, or another device");
+}
+
+BufferPtr PackedMatrix::upload_table(std::span<const std::uint32_t> table, std::string_view what)
+{
+    const std::uint64_t wanted = std::max<std::uint64_t>(table.size_bytes(), 4);
+    check_bytes(wanted, what);
+    BufferPtr buffer = device_->make_buffer(wanted, what);
+    if (!table.empty())
+        device_->write<std::uint32_t>(buffer, table);
+    bytes_ += table.size_bytes();
+    return buffer;
+}
+
+void PackedMatrix::upload_values(const SparseMatrix& matrix, std::span<const std::uint32_t> slots,
+                                 std::uint64_t count)
+{
+    check_bytes(count * real_bytes(precision_), "values");
+    const auto send = [this](const auto& values, std::string_view label) {
+        using Real = typename std::decay_t<decltype(values)>::value_type;
+        BufferPtr buffer = device_->make_buffer(std::max<std::uint64_t>(values.size(), 1) * sizeof(Real), label);
+        if (!values.empty())
+            device_->write<Real>(buffer, values);
+        bytes_ += values.size() * sizeof(Real);
+        return buffer;
+    };
+    if (precision_ == Precision::float64)
+    {
+        values_ = send(pack<double>(matrix, slots, count, exponent_, false).values, "matrix values");
+        return;
+    }
+    const Packed<float> packed = pack<float>(matrix, slots, count, exponent_, pairs_);
+    values_ = send(packed.values, "matrix values");
+    if (packed.needs_low)
+        low_ = send(packed.low, "matrix low words");
+}
+
+std::vector<Operator::Binding> PackedMatrix::bindings(std::vector<BufferPtr> tables, const Pass& pass) const
+{
+    std::vector<Binding> out(tables.begin(), tables.end());
+    out.insert(out.end(), {Binding(values_), pass.x, pass.result});
+    if (pass.variant != "")
+        out.push_back(pass.other);
+    if (pass.variant == "residual_pairs")
+        out.emplace_back(low_ ? low_ : values_);
+    return out;
+}
+
+} // namespace taut::linear

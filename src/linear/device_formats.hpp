@@ -1,0 +1,83 @@
+#pragma once
+// Inside of DeviceMatrix: one maker for each format, and what the formats share. Not installed.
+
+#include "taut/linear/device_matrix.hpp"
+
+#include <string>
+
+namespace taut::linear {
+
+/// What every format is: tables that stay, values, and a kernel with the variants "" (y = A x), "dot" (partials
+/// too), "residual" (r = b - A x) and "residual_pairs" (the same in two floats).
+///
+/// Every kernel binds, in this order: tables of the pattern, values, x, the result (y or r), and then for
+/// "dot" the partials, for "residual" b, for "residual_pairs" b and the low words of the values.
+class PackedMatrix : public DeviceMatrix
+{
+public:
+    std::uint32_t rows() const final { return rows_; }
+    Precision precision() const final { return precision_; }
+    Format format() const final { return format_; }
+    BufferPtr values() const final { return values_; }
+    std::uint64_t bytes() const final { return bytes_; }
+
+    void record_product(Recorder&, const Gate&, Binding x, Binding y, Binding partials) const final;
+    void record_residual(Recorder&, const Gate&, Binding x, Binding b, Binding r) const final;
+    void record_residual_pairs(Recorder&, const Gate&, Binding x, Binding b, Binding r) const final;
+
+protected:
+    /// `format` as upload was asked for. The matrix is square (upload checked it).
+    PackedMatrix(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+
+    /// One pass. `other` is partials, b, or empty.
+    struct Pass
+    {
+        std::string_view variant;
+        Binding x, result, other;
+    };
+    virtual void record(Recorder&, const Gate&, const Pass&) const = 0;
+
+    /// A table of the pattern on the device (at least one word); counted in bytes(). Throws Error{limit} naming
+    /// format, what it is and its bytes where it is larger than the device's buffers may be.
+    BufferPtr upload_table(std::span<const std::uint32_t> table, std::string_view what);
+
+    /// values() of `count` entries, zero but for value k of the matrix times 2^exponent at slots[k]; low words where
+    /// options ask for pairs and any value needs one. Throws Error{limit} as above, and Error{bad_input} for a value
+    /// that float cannot hold.
+    void upload_values(const SparseMatrix&, std::span<const std::uint32_t> slots, std::uint64_t count);
+
+    /// tables, values, x, result, and what the variant asks for behind it: the bindings of a pass.
+    std::vector<Binding> bindings(std::vector<BufferPtr> tables, const Pass&) const;
+
+    /// Whether values have low words: the parameter `low_words` of "residual_pairs". Without, `bindings` binds the
+    /// values again in that slot and the kernel must not read it.
+    bool has_low_words() const { return low_ != nullptr; }
+
+    /// Throws Error{limit} where a buffer of `wanted` bytes is more than the device allows.
+    void check_bytes(std::uint64_t wanted, std::string_view what) const;
+
+    const std::shared_ptr<Device> device_;
+
+private:
+    const std::uint32_t rows_;
+    const Precision precision_;
+    const Format format_;
+    const bool pairs_;
+    const int exponent_;
+    BufferPtr values_, low_;
+    std::uint64_t bytes_ = 0;
+};
+
+/// Trips of loops that one invocation may make in one dispatch: lavapipe stops silently at 65,535 in all.
+inline constexpr std::uint64_t kMostTrips = 32000;
+
+/// Called by DeviceMatrix::upload, which has checked what does not depend on the format (square, at least one
+/// row, precision of the device, pairs with float only).
+std::shared_ptr<DeviceMatrix> make_dense(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_coo(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_csr(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_ell(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_sell(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_bcsr3(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+
+} // namespace taut::linear

@@ -1,0 +1,56 @@
+#include "taut/linear/device_matrix.hpp"
+
+#include "taut/linear/device_formats.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::linear {
+namespace {
+
+void check(const Device& device, const SparseMatrix& matrix, const UploadOptions& options)
+{
+    if (matrix.rows != matrix.columns)
+        throw Error(ErrorCode::bad_input, "the matrix has " + std::to_string(matrix.rows) + " rows and " +
+                                              std::to_string(matrix.columns) +
+                                              " columns: only square ones go to a device");
+    if (matrix.rows == 0)
+        throw Error(ErrorCode::bad_input, "the matrix has no rows: nothing to put on a device");
+    if (options.precision == Precision::float64 && !device.limits().float64)
+        throw Error(ErrorCode::unsupported, device.info().selector + " has no 64-bit floats: take float, or "
+                                            "mixed for more digits");
+    if (options.pairs && options.precision != Precision::float32)
+        throw Error(ErrorCode::bad_input, "low words are kept of floats only: take pairs with float");
+}
+
+} // namespace
+
+int DeviceMatrix::scale_exponent(const SparseMatrix& matrix)
+{
+    double largest = 0;
+    for (const double value : matrix.value)
+        if (std::isfinite(value))
+            largest = std::max(largest, std::abs(value));
+    return largest > 0 ? -std::ilogb(largest) : 0;
+}
+
+std::shared_ptr<DeviceMatrix> DeviceMatrix::upload(const std::shared_ptr<Device>& device,
+                                                   const SparseMatrix& matrix, const UploadOptions& options)
+{
+    check(*device, matrix, options);
+    switch (options.format)
+    {
+    case Format::automatic: break;
+    case Format::dense:
+    case Format::coo:
+    case Format::csr:
+    case Format::ell:
+    case Format::sell:
+    case Format::bcsr3:
+        throw Error(ErrorCode::unsupported,
+                    "format " + std::string(to_string(options.format)) + " cannot be put on a device yet");
+    }
+    throw Error(ErrorCode::bad_input, "a format is wanted, not \"auto\": ask choose_format first");
+}
+
+} // namespace taut::linear
