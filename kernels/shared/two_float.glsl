@@ -23,11 +23,15 @@ TwoFloat two_float(real high, real low)
     return pair;
 }
 
+/// Splits the digits of a number in two halves: 2^27 + 1 or 2^12 + 1.
+real two_float_splitter()
+{
 #if TAUT_REAL_DOUBLE
-#define TAUT_SPLIT real(134217729) // 2^27 + 1
+    return real(134217729);
 #else
-#define TAUT_SPLIT real(4097) // 2^12 + 1
+    return real(4097);
 #endif
+}
 
 TwoFloat two_sum(real a, real b)
 {
@@ -48,8 +52,8 @@ TwoFloat two_sum_ordered(real a, real b)
 TwoFloat two_product(real a, real b)
 {
     PRECISE real product = a * b;
-    PRECISE real ta = TAUT_SPLIT * a;
-    PRECISE real tb = TAUT_SPLIT * b;
+    PRECISE real ta = two_float_splitter() * a;
+    PRECISE real tb = two_float_splitter() * b;
     PRECISE real ah = ta - (ta - a);
     PRECISE real bh = tb - (tb - b);
     PRECISE real al = a - ah;

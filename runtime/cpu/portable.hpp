@@ -15,6 +15,7 @@
 #include <glm/vec4.hpp>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -119,15 +120,30 @@ inline void count_event(std::uint32_t& counter)
 #define PHASE_BEGIN for (uint lane = 0; lane < taut_group_size; ++lane) {
 #define PHASE_END }
 
-#define LANES_BEGIN(n) for (uint lane = 0; lane < uint(n); ++lane) {
+// Lanes of one phase never read what another writes, so the compiler may run several at once.
+#if defined(__clang__)
+#define TAUT_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define TAUT_INDEPENDENT _Pragma("GCC ivdep")
+#else
+#define TAUT_INDEPENDENT
+#endif
+
+#define LANES_BEGIN(n)                             \
+    TAUT_INDEPENDENT                               \
+    for (uint lane = 0; lane < uint(n); ++lane)    \
+    {
 #define LANES_END }
 
-// Tiles of one group's size: lane k of a tile is its k-th element, as on a device.
+// Tiles of one group's size: lane k of a tile is its k-th element, as on a device. `i` is wider than uint so
+// that the compiler sees neighbours: a sum of two uints might wrap.
 #define EACH_BEGIN(first, end)                                                                              \
-    for (uint taut_tile = uint(first); taut_tile < uint(end); taut_tile += taut_group_size)                 \
+    for (std::size_t taut_tile = uint(first); taut_tile < uint(end); taut_tile += taut_group_size)          \
     {                                                                                                       \
-        const uint taut_lanes = uint(end) - taut_tile < taut_group_size ? uint(end) - taut_tile : taut_group_size; \
+        const std::size_t taut_rest = uint(end) - taut_tile;                                                \
+        const uint taut_lanes = taut_rest < taut_group_size ? uint(taut_rest) : taut_group_size;            \
+        TAUT_INDEPENDENT                                                                                    \
         for (uint lane = 0; lane < taut_lanes; ++lane)                                                      \
         {                                                                                                   \
-            const uint i = taut_tile + lane;
+            const std::size_t i = taut_tile + lane;
 #define EACH_END }}

@@ -52,6 +52,8 @@ public:
     /// Right-hand side and solution (start value before begin, result after end): rows reals, or rows pairs.
     const BufferPtr& b() const { return b_; }
     const BufferPtr& x() const { return base_; }
+    /// What the iterations since the residual was last formed have added to x: rows reals.
+    const BufferPtr& gain() const { return x_; }
 
     /// Written by the host before a replay; the recording stays.
     void set(const CgSettings&);

@@ -44,6 +44,7 @@ struct SolveOptions
     std::vector<std::uint32_t> held; ///< rows whose x stays exactly at its start (b there is ignored)
     bool one_group = true;   ///< systems of at most kSmallRows rows: the whole solve in one work group
     bool keep_history = false;
+    bool measure_product = false; ///< time a product by itself, for SolveReport::spmv_gb_per_s
     double asymmetry = 1e-6; ///< CheckOptions::asymmetry
 };
 
@@ -60,7 +61,7 @@ struct SolveReport
     double seconds = 0;               ///< iterations only, wall time with all waits
     double setup_seconds = 0;         ///< checks, packing, preconditioner
     double ms_per_iteration = 0;
-    double spmv_gb_per_s = 0;         ///< of one product timed by itself, bytes by the model of docs/linear.md
+    double spmv_gb_per_s = 0; ///< of one product timed by itself, bytes as product_bytes counts; 0: not measured
     std::uint64_t bytes = 0;          ///< device bytes of the matrix
     Format format = Format::csr;      ///< the one taken
     std::string format_reason;
@@ -83,6 +84,9 @@ struct Solution
 /// it. n = 0 gives an empty x with status zero_right_hand_side.
 Solution solve(const std::shared_ptr<Device>&, const SparseMatrix&, std::span<const double> b,
                const SolveOptions& = {}, std::span<const double> x0 = {});
+
+/// Bytes that a product must move at least: the matrix, x once and y once.
+std::uint64_t product_bytes(std::uint64_t matrix_bytes, std::uint32_t rows, Precision);
 
 /// |x - exact| / |exact| in the 2-norm.
 double forward_error(std::span<const double> x, std::span<const double> exact);

@@ -1,0 +1,50 @@
+#include "taut/linear/solve_reason.hpp"
+
+#include "taut/runtime/base/shown.hpp"
+
+namespace taut::linear {
+namespace {
+
+std::string stagnation(const SolveReport& report, const CgOutcome& outcome, const std::string& where)
+{
+    const std::string precision(to_string(report.precision));
+    if (outcome.cause == TAUT_CG_EXHAUSTED)
+        return "the steepest descent from " + where + " has a curvature of " +
+               shown(outcome.curvature_ratio, 3) + " of the largest, which " + precision +
+               " cannot tell from zero: A is singular, or too ill-conditioned for this precision";
+    if (outcome.cause == TAUT_CG_RAN_AWAY)
+        return "the residual grew to " + shown(outcome.residual, 3) + " |b|: the best iterate has " + where;
+    if (outcome.cause == TAUT_CG_CONVERGED)
+        return "the device's residual of " + shown(outcome.residual, 3) + " is below the tolerance, but " + where +
+               " is not: " + precision + " holds no better x, take \"mixed\" or \"double\"";
+    return "three checks of the true residual in a row found it not halved: it stays at " + where +
+           (report.precision == SolvePrecision::float32 ? "; \"mixed\" or \"double\" go further" : "");
+}
+
+} // namespace
+
+std::string reason_of(const SolveReport& report, const CgOutcome& outcome, const SolveOptions& options)
+{
+    const std::string where = "a true residual of " + shown(report.relative_residual, 3);
+    const std::string after = " after " + std::to_string(report.iterations) + " iterations";
+    switch (report.status)
+    {
+    case Status::converged:
+        return where + " is within the tolerance of " + shown(options.tolerance, 3) + after;
+    case Status::indefinite_matrix:
+        return "a direction p with p.Ap = " + shown(outcome.curvature, 3) + " (scaled), " +
+               shown(-outcome.curvature_ratio, 3) + " of the largest curvature, was met" + after +
+               ": A is not positive definite";
+    case Status::indefinite_preconditioner:
+        return "r.M^-1 r = " + shown(outcome.rz, 3) + " is not positive" + after + ": the preconditioner is not";
+    case Status::non_finite:
+        return "a value that is not finite appeared" + after + "; the last finite iterate has " + where;
+    case Status::stagnated: return stagnation(report, outcome, where) + after;
+    case Status::zero_right_hand_side: return "b is zero, so x is zero";
+    default:
+        return std::to_string(report.iterations) + " iterations were allowed and " + where +
+               " is above the tolerance of " + shown(options.tolerance, 3);
+    }
+}
+
+} // namespace taut::linear

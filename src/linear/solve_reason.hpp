@@ -1,0 +1,14 @@
+#pragma once
+// The sentence that goes with a status.
+
+#include "taut/linear/cg.hpp"
+#include "taut/linear/solve.hpp"
+
+#include <string>
+
+namespace taut::linear {
+
+/// One sentence with the numbers that led to report.status.
+std::string reason_of(const SolveReport&, const CgOutcome&, const SolveOptions&);
+
+} // namespace taut::linear

@@ -1,0 +1,342 @@
+// Based on: linear/cg.hpp. Scaling by powers of two changes no digit (Higham. Accuracy and Stability of
+//   Numerical Algorithms, 2nd ed. 2002, 27.5).
+// Departures: an answer that the device holds for converged and the host's residual does not is solved on,
+//   with a smaller tolerance, from where it is.
+
+#include "taut/linear/system_solver.hpp"
+
+#include "taut/linear/solve_reason.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace taut::linear {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t kChunk = 64; ///< iterations of a replay
+constexpr int kRounds = 4;           ///< times that a tolerance is made smaller
+constexpr int kProductTurns = 5;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Exponent that brings the largest entry to [1, 2): 0 where all are zero.
+int vector_exponent(std::span<const double> v)
+{
+    double largest = 0;
+    for (const double entry : v)
+        largest = std::max(largest, std::abs(entry));
+    return largest > 0 ? -std::ilogb(largest) : 0;
+}
+
+void write_reals(Device& device, const BufferPtr& buffer, std::span<const double> values, Precision precision)
+{
+    if (precision == Precision::float64)
+        return device.write<double>(buffer, values);
+    std::vector<float> rounded(values.begin(), values.end());
+    device.write<float>(buffer, rounded);
+}
+
+std::vector<double> as_pairs(std::span<const double> values)
+{
+    std::vector<double> pairs;
+    pairs.reserve(2 * values.size());
+    for (const double value : values)
+    {
+        const auto high = static_cast<double>(static_cast<float>(value));
+        pairs.push_back(high);
+        pairs.push_back(value - high);
+    }
+    return pairs;
+}
+
+} // namespace
+
+SystemSolver::SystemSolver(std::shared_ptr<Device> device, const SparseMatrix& a, std::span<const double> b,
+             std::span<const double> x0, const SolveOptions& options, SolveReport& report)
+    : device_(std::move(device)),
+      a_(a),
+      b_(b),
+      x_(x0.begin(), x0.end()),
+      options_(options),
+      report_(report),
+      precision_(report.precision == SolvePrecision::float64 ? Precision::float64 : Precision::float32),
+      pairs_(report.precision == SolvePrecision::mixed),
+      matrix_exponent_(DeviceMatrix::scale_exponent(a)),
+      vector_exponent_(vector_exponent(b))
+{
+    settings_.tolerance = options.tolerance;
+    settings_.iteration_limit = report_limit();
+    settings_.patience = std::clamp(a.rows, 500u, 5000u);
+}
+
+std::vector<double> SystemSolver::run()
+{
+    const Clock::time_point start = Clock::now();
+    report_.relative_residual = relative_residual(a_, x_, b_, options_.held);
+    prepare();
+    report_.setup_seconds += seconds_since(start);
+    for (int round = 0; round < kRounds; ++round)
+    {
+        const CgOutcome outcome = solve_once();
+        if (settle(outcome))
+            break;
+    }
+    report_.ms_per_iteration =
+        report_.iterations > 0 ? report_.seconds * 1e3 / report_.iterations : 0;
+    if (options_.measure_product)
+        measure_product();
+    return std::move(x_);
+}
+
+std::uint32_t SystemSolver::report_limit() const
+{
+    if (options_.max_iterations > 0)
+        return options_.max_iterations;
+    return std::max(1000u, static_cast<std::uint32_t>(std::min<std::uint64_t>(10ull * a_.rows, 1u << 30)));
+}
+
+bool SystemSolver::small() const
+{
+    const Preconditioner kind = options_.preconditioner;
+    return options_.one_group && options_.format == Format::automatic && a_.rows <= kSmallRows &&
+           kind != Preconditioner::block_jacobi && kind != Preconditioner::chebyshev;
+}
+
+std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
+{
+    std::vector<double> inverse;
+    if (kind == Preconditioner::spai0)
+        inverse = spai0_inverse(a_, options_.held);
+    else if (kind == Preconditioner::block_jacobi)
+        inverse = block_jacobi_inverse(a_, options_.held);
+    else if (kind == Preconditioner::none)
+    {
+        inverse.assign(a_.rows, 1.0);
+        for (const std::uint32_t row : options_.held)
+            inverse[row] = 0;
+        return inverse;
+    }
+    else
+        inverse = jacobi_inverse(a_, options_.held);
+    for (double& value : inverse)
+        value = std::ldexp(value, -matrix_exponent_);
+    return inverse;
+}
+
+BufferPtr SystemSolver::upload(std::span<const double> values, std::string_view label) const
+{
+    BufferPtr buffer = device_->make_buffer(values.size() * real_bytes(precision_), label);
+    write_reals(*device_, buffer, values, precision_);
+    return buffer;
+}
+
+Preconditioning SystemSolver::make_preconditioning() const
+{
+    Preconditioning out;
+    out.kind = options_.preconditioner;
+    // Held rows are an inverse of zero, which plain conjugate gradients do not read.
+    if (out.kind == Preconditioner::none && !options_.held.empty())
+    {
+        out.inverse = upload(inverse_diagonal(Preconditioner::none), "cg inverse");
+        out.kind = Preconditioner::jacobi;
+    }
+    else if (out.kind == Preconditioner::chebyshev)
+    {
+        const std::vector<double> inverse = inverse_diagonal(Preconditioner::jacobi);
+        const Interval interval = chebyshev_interval(a_, jacobi_inverse(a_, options_.held));
+        out.chebyshev = std::make_shared<Chebyshev>(device_, matrix_, upload(inverse, "chebyshev inverse"),
+                                                    interval, options_.chebyshev_degree);
+    }
+    else if (out.kind != Preconditioner::none)
+        out.inverse = upload(inverse_diagonal(out.kind), "cg inverse");
+    return out;
+}
+
+void SystemSolver::prepare()
+{
+    if (small())
+    {
+        const std::vector<double> inverse = inverse_diagonal(options_.preconditioner);
+        batch_ = std::make_unique<SmallBatch>(device_, std::span(&a_, 1), std::span(&matrix_exponent_, 1),
+                                              std::span(&inverse, 1), precision_, pairs_);
+        report_.one_group = true;
+        report_.bytes = matrix_bytes(Format::csr, a_, precision_, pairs_);
+        report_.format = Format::csr;
+        report_.format_reason = "csr, because " + std::to_string(a_.rows) +
+                                " rows are solved by one work group, which reads compressed rows";
+        return;
+    }
+    matrix_ = DeviceMatrix::upload(device_, a_, {report_.format, precision_, pairs_, matrix_exponent_});
+    report_.bytes = matrix_->bytes();
+    cg_ = std::make_unique<ConjugateGradient>(device_, matrix_, make_preconditioning(), pairs_);
+    Recorder recorder(device_);
+    cg_->record_begin(recorder);
+    begin_ = recorder.finish();
+    cg_->record_iterations(recorder, kChunk);
+    chunk_ = recorder.finish();
+}
+
+std::vector<double> SystemSolver::scaled(std::span<const double> v, int exponent) const
+{
+    std::vector<double> out(v.begin(), v.end());
+    for (double& entry : out)
+        entry = std::ldexp(entry, exponent);
+    const double largest = precision_ == Precision::float64 ? std::numeric_limits<double>::max()
+                                                            : std::numeric_limits<float>::max();
+    for (const double entry : out)
+        if (!(std::abs(entry) <= largest))
+            throw Error(ErrorCode::bad_input, "the start x0 is too far from the size of b for the precision " +
+                                                  std::string(to_string(report_.precision)) +
+                                                  ": leave it out or take double");
+    return out;
+}
+
+CgOutcome SystemSolver::solve_once()
+{
+    const std::vector<double> b = scaled(b_, vector_exponent_);
+    const std::vector<double> x = scaled(x_, vector_exponent_ - matrix_exponent_);
+    return batch_ ? solve_small(b, x) : solve_large(b, x);
+}
+
+CgOutcome SystemSolver::solve_small(std::span<const double> b, std::span<const double> x)
+{
+    batch_->set(settings_);
+    batch_->start(b, x);
+    const Clock::time_point start = Clock::now();
+    batch_->run();
+    report_.seconds += seconds_since(start);
+    const CgOutcome outcome = batch_->outcome(0);
+    if (options_.keep_history)
+        append(batch_->history(0));
+    take(unscaled(batch_->x(0)));
+    return outcome;
+}
+
+CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const double> x)
+{
+    write_reals(*device_, cg_->b(), pairs_ ? as_pairs(b) : std::vector(b.begin(), b.end()), precision_);
+    write_reals(*device_, cg_->x(), pairs_ ? as_pairs(x) : std::vector(x.begin(), x.end()), precision_);
+    cg_->set(settings_);
+    const Clock::time_point start = Clock::now();
+    begin_->replay();
+    CgOutcome outcome;
+    std::uint32_t told = 0;
+    do
+    {
+        chunk_->replay();
+        outcome = cg_->outcome();
+        if (options_.keep_history)
+        {
+            append(cg_->history(told, outcome.iterations));
+            told = outcome.iterations + 1;
+        }
+    } while (outcome.running);
+    report_.seconds += seconds_since(start);
+    const std::vector<double> base = read(cg_->x());
+    const std::vector<double> gained = device_reals(cg_->gain(), a_.rows);
+    std::vector<double> sum = base;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += gained[i];
+    take(unscaled(base));
+    take(unscaled(sum));
+    return outcome;
+}
+
+void SystemSolver::append(const std::vector<float>& part)
+{
+    report_.history.insert(report_.history.end(), part.begin(), part.end());
+}
+
+std::vector<double> SystemSolver::device_reals(const BufferPtr& buffer, std::size_t count) const
+{
+    if (precision_ == Precision::float64)
+        return device_->read<double>(buffer, count);
+    const std::vector<float> values = device_->read<float>(buffer, count);
+    return {values.begin(), values.end()};
+}
+
+std::vector<double> SystemSolver::read(const BufferPtr& buffer) const
+{
+    if (!pairs_)
+        return device_reals(buffer, a_.rows);
+    const std::vector<double> words = device_reals(buffer, 2 * std::size_t{a_.rows});
+    std::vector<double> values(a_.rows);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = words[2 * i] + words[2 * i + 1];
+    return values;
+}
+
+std::vector<double> SystemSolver::unscaled(std::vector<double> x) const
+{
+    for (double& entry : x)
+        entry = std::ldexp(entry, matrix_exponent_ - vector_exponent_);
+    return x;
+}
+
+/// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since where
+/// the iteration ran along a null space a larger x is no better one.
+void SystemSolver::take(std::vector<double> candidate)
+{
+    const double now = relative_residual(a_, candidate, b_, options_.held);
+    if (!(now < 0.99 * report_.relative_residual) || !std::isfinite(norm(candidate)))
+        return;
+    report_.relative_residual = now;
+    x_ = std::move(candidate);
+}
+
+/// Says how it ended; false: go on with a smaller tolerance.
+bool SystemSolver::settle(const CgOutcome& outcome)
+{
+    report_.iterations += outcome.iterations;
+    report_.replacements += outcome.replacements;
+    report_.recursive_residual = outcome.residual;
+    report_.status = outcome.status;
+    const bool good = report_.relative_residual <= options_.tolerance;
+    if (good && outcome.status != Status::zero_right_hand_side)
+        report_.status = Status::converged;
+    if (!good && outcome.status == Status::converged)
+    {
+        report_.status = Status::stagnated;
+        const double overshoot = report_.relative_residual / options_.tolerance;
+        const bool again = overshoot < last_overshoot_ * 0.99 && report_.iterations < report_limit();
+        last_overshoot_ = overshoot;
+        settings_.tolerance *= 0.5 / std::max(overshoot, 1.0);
+        settings_.iteration_limit = report_limit() - std::min(report_limit(), report_.iterations);
+        if (again && settings_.tolerance > 1e-18)
+            return false;
+    }
+    report_.reason = reason_of(report_, outcome, options_);
+    return true;
+}
+
+void SystemSolver::measure_product()
+{
+    if (!matrix_)
+        return;
+    Recorder recorder(device_);
+    const Gate always{group_count_for(a_.rows, device_->info()), nullptr, 0};
+    BufferPtr y = device_->make_buffer(a_.rows * std::uint64_t{real_bytes(precision_)}, "product y");
+    BufferPtr x = device_->make_buffer(a_.rows * std::uint64_t{real_bytes(precision_)}, "product x");
+    write_reals(*device_, x, std::vector<double>(a_.rows, 1.0), precision_);
+    matrix_->record_product(recorder, always, x, y, Recorder::Binding(nullptr));
+    const auto product = recorder.finish();
+    double best = std::numeric_limits<double>::max();
+    for (int turn = 0; turn < kProductTurns; ++turn)
+    {
+        const Clock::time_point start = Clock::now();
+        product->replay();
+        device_->wait();
+        best = std::min(best, seconds_since(start));
+    }
+    report_.spmv_gb_per_s =
+        static_cast<double>(product_bytes(matrix_->bytes(), a_.rows, precision_)) / best * 1e-9;
+}
+
+} // namespace taut::linear

@@ -1,0 +1,63 @@
+#pragma once
+// One system on one device: what `solve` does after its checks.
+
+#include "taut/linear/cg.hpp"
+#include "taut/linear/device_matrix.hpp"
+#include "taut/linear/small.hpp"
+#include "taut/linear/solve.hpp"
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace taut::linear {
+
+/// Refers to matrix, b, options and report, which must outlive it.
+class SystemSolver
+{
+public:
+    SystemSolver(std::shared_ptr<Device> device, const SparseMatrix& a, std::span<const double> b,
+                 std::span<const double> x0, const SolveOptions& options, SolveReport& report);
+    std::vector<double> run();
+
+private:
+    std::uint32_t report_limit() const;
+    bool small() const;
+    std::vector<double> inverse_diagonal(Preconditioner kind) const;
+    BufferPtr upload(std::span<const double> values, std::string_view label) const;
+    Preconditioning make_preconditioning() const;
+    void prepare();
+    std::vector<double> scaled(std::span<const double> v, int exponent) const;
+    CgOutcome solve_once();
+    CgOutcome solve_small(std::span<const double> b, std::span<const double> x);
+    CgOutcome solve_large(std::span<const double> b, std::span<const double> x);
+    void append(const std::vector<float>& part);
+    std::vector<double> device_reals(const BufferPtr& buffer, std::size_t count) const;
+    std::vector<double> read(const BufferPtr& buffer) const;
+    std::vector<double> unscaled(std::vector<double> x) const;
+    /// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since where
+    /// the iteration ran along a null space a larger x is no better one.
+    void take(std::vector<double> candidate);
+    /// Says how it ended; false: go on with a smaller tolerance.
+    bool settle(const CgOutcome& outcome);
+    void measure_product();
+
+    std::shared_ptr<Device> device_;
+    const SparseMatrix& a_;
+    std::span<const double> b_;
+    std::vector<double> x_;
+    const SolveOptions& options_;
+    SolveReport& report_;
+    Precision precision_;
+    bool pairs_;
+    int matrix_exponent_;
+    int vector_exponent_;
+    double last_overshoot_ = std::numeric_limits<double>::infinity();
+    CgSettings settings_;
+    std::shared_ptr<DeviceMatrix> matrix_;
+    std::unique_ptr<ConjugateGradient> cg_;
+    std::unique_ptr<SmallBatch> batch_;
+    std::unique_ptr<Recording> begin_, chunk_;
+};
+
+} // namespace taut::linear
