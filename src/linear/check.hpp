@@ -12,17 +12,19 @@ struct CheckOptions
     double asymmetry = 1e-6; ///< largest |a_ij - a_ji| / sqrt(|a_ii a_jj|) that counts as rounding
     double consistency = 1e-10; ///< largest |1.b| / (|1| |b|) of a system that A maps constants to zero
     bool project_constants = false; ///< the caller takes the constants out of b
-    std::span<const std::uint32_t> held; ///< rows that are kept at their start: their diagonal may be anything
+    std::span<const std::uint32_t> held = {}; ///< rows that are kept at their start: their diagonal may be anything
 };
 
-/// Throws Error{bad_input} that names row, column and values for: a matrix that is not square or has no fitting
-/// b or x0, entries that are not finite, an entry without an equal mirror, a diagonal that is zero (unless
-/// the row is empty or zero and b is 0 there) or negative, an empty row with b != 0 there (no solution), and a
-/// matrix that maps constants to zero with a b that is not orthogonal to them (no solution).
+/// Throws Error{bad_input} that names row and column, counted from 0, and values for: a matrix that is not
+/// square or has no fitting b or x0, entries that are not finite, an entry without an equal mirror (the worst
+/// one), a diagonal that is zero (unless the row is empty or zero and b is 0 there) or negative, an empty row
+/// with b != 0 there (no solution), and a matrix that maps constants to zero with a b that is not orthogonal
+/// to them (no solution). Rows of `held`: only their entries of A and x0 must be finite.
 void check_system(const SparseMatrix&, std::span<const double> b, std::span<const double> x0,
                   const CheckOptions&);
 
-/// max |A 1| <= 1e-12 |A|_inf: constants are in the null space.
+/// Constants are in the null space: |sum_j a_ij| <= 1e-12 sum_j |a_ij| in every row. Judged row by row, so that a
+/// small row that holds the others in place is not lost beside large ones. False for a matrix of no rows.
 bool maps_constants_to_zero(const SparseMatrix&);
 
 } // namespace taut::linear
