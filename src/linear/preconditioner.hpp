@@ -21,13 +21,20 @@ std::string_view to_string(Preconditioner);
 /// Throws Error{bad_input} listing the words ("none", "jacobi", "block_jacobi", "chebyshev", "spai0").
 Preconditioner preconditioner_from(std::string_view word);
 
+// Each of these works on the system of the rows that are not held. Held rows out of range, and a diagonal that
+// is not finite and positive (but in a held or a zero row), are Error{bad_input} that names the row.
+
 /// One value a row; 0 for rows of `held`, whose entry of x then never changes. A zero row gets 1.
 std::vector<double> jacobi_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
 /// Broeker, Grote. Sparse approximate inverse smoothers for geometric and algebraic multigrid. 2002 (SPAI-0).
 std::vector<double> spai0_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
 /// Six values a block row: xx xy xz yy yz zz; a held row's are 0 and the others' block is inverted without it.
+/// `rounding` is the rounding unit of the reals that will hold them: a block too near to singular for it (scaled
+/// to a unit diagonal, an eigenvalue below some 64 units) is shifted that far, so that the rounded inverse is
+/// positive definite too.
 /// Throws Error{bad_input} when rows is no multiple of 3 or a block is not positive definite, naming it.
-std::vector<double> block_jacobi_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
+std::vector<double> block_jacobi_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {},
+                                         double rounding = 0x1p-53);
 
 /// Interval that holds the eigenvalues of D^-1 A that a polynomial should treat.
 struct Interval
