@@ -17,6 +17,9 @@
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
+//   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
+//                                      it can hold phases; the native build never inlines it, which leaves
+//                                      a hot loop the registers
 //   REAL(0.1)                          a constant of type real with all its digits; GLSL cannot paste a
 //                                      suffix to a number, so flattening writes 0.1f or 0.1lf instead
 // `real`, `rvec3`, `rvec4` are float or double, chosen when the kernel is compiled
@@ -47,6 +50,8 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 
 #define INOUT(T) inout T
 #define PRECISE precise
+#define DECLARE(prototype) prototype;
+#define APART
 #define LAYOUT_STRUCT(name) struct name
 
 #ifdef VULKAN

@@ -96,6 +96,8 @@ inline void count_event(std::uint32_t& counter)
 
 #define INOUT(T) T&
 #define PRECISE
+#define DECLARE(prototype)
+#define APART [[gnu::noinline]]
 #define LAYOUT_STRUCT(name) struct name
 #define REAL(x) real(x)
 

@@ -41,9 +41,9 @@ std::shared_ptr<DeviceMatrix> DeviceMatrix::upload(const std::shared_ptr<Device>
     switch (options.format)
     {
     case Format::automatic: break;
+    case Format::csr: return make_csr(device, matrix, options);
     case Format::dense:
     case Format::coo:
-    case Format::csr:
     case Format::ell:
     case Format::sell:
     case Format::bcsr3:

@@ -36,6 +36,8 @@ inline constexpr Tolerance kTolerances[] = {
     {"hub", 6, "as distance, and a tree of 64 partial sums of up to 16 terms each"},
     {"plane", 3, "two dot products, a push, a slide and its removal, for each collider in turn"},
     {"sphere", 4, "as plane, and a root of a quadratic for the way in"},
+    {"spmv_csr", 4, "a product and a sum an entry; the scale is the sum of all terms' sizes"},
+    {"spmv_csr_long", 4, "as spmv_csr, in 128 sums and a tree"},
 };
 
 inline double tolerance_of(std::string_view kernel)
