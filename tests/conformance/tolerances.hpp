@@ -35,6 +35,7 @@ inline constexpr Tolerance kTolerances[] = {
      "cross products of cross products: each gradient passes some ten roundings, the angle six"},
     {"hub", 6, "as distance, and a tree of 64 partial sums of up to 16 terms each"},
     {"plane", 3, "two dot products, a push, a slide and its removal, for each collider in turn"},
+    {"dot", 2, "a product, and a tree of 128 partial sums of a few terms each, against the sum of sizes"},
     {"sphere", 4, "as plane, and a root of a quadratic for the way in"},
     {"spmv_csr", 4, "a product and a sum an entry; the scale is the sum of all terms' sizes"},
     {"spmv_csr_long", 4, "as spmv_csr, in 128 sums and a tree"},
