@@ -51,16 +51,21 @@ Interval chebyshev_interval(const SparseMatrix&, std::span<const double> inverse
 class Chebyshev
 {
 public:
-    /// `inverse` holds rows() reals, 1 / d_ii. degree in 1..16.
+    /// `inverse` holds rows() reals, 1 / d_ii, and 0 in held rows, where z is then 0. degree in 1..16. With an
+    /// interval whose `highest` is above the eigenvalues of D^-1 A the preconditioner is symmetric positive
+    /// definite (chebyshev.cpp says why). Throws Error{bad_input}.
     Chebyshev(std::shared_ptr<Device>, std::shared_ptr<const Operator>, BufferPtr inverse, Interval, int degree);
 
     /// z from r; partials[g] = sum of r_i z_i over the rows of group g of make_grid(rows, gate.groups).
     void record(Recorder&, const Gate&, Operator::Binding r, Operator::Binding z,
                 Operator::Binding partials) const;
 
+    const BufferPtr& inverse() const { return inverse_; }
+    std::uint64_t bytes() const; ///< of the vectors it holds
+
 private:
     std::shared_ptr<const Operator> operator_;
-    BufferPtr inverse_, direction_, product_, rest_;
+    BufferPtr inverse_, other_, product_;
     Interval interval_;
     int degree_ = 4;
 };

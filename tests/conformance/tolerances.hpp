@@ -36,6 +36,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"hub", 6, "as distance, and a tree of 64 partial sums of up to 16 terms each"},
     {"plane", 3, "two dot products, a push, a slide and its removal, for each collider in turn"},
     {"dot", 2, "a product, and a tree of 128 partial sums of a few terms each, against the sum of sizes"},
+    {"chebyshev", 16, "six for an iterate; a sum adds up to 23 terms a lane and a tree of 7, few of them one-sided"},
     {"sphere", 4, "as plane, and a root of a quadratic for the way in"},
     {"spmv_csr", 4, "a product and a sum an entry; the scale is the sum of all terms' sizes"},
     {"spmv_csr_long", 4, "as spmv_csr, in 128 sums and a tree"},

@@ -1,0 +1,97 @@
+#pragma once
+// What the tests of kernels/linear share: how rows are dealt to groups, partial sums in fp64, and a look at
+// buffers that are no plain reals.
+
+#include "support/expect.hpp"
+#include "support/random.hpp"
+
+#include <functional>
+
+namespace taut::conformance {
+
+/// `count` rows dealt to `groups` groups in chunks that are multiples of the group size.
+struct Dealt
+{
+    std::uint32_t count = 0;
+    std::uint32_t groups = 1;
+    std::uint32_t spare = 0; ///< groups dispatched beyond those
+    std::uint32_t chunk() const
+    {
+        const std::uint32_t share = (count + groups - 1) / groups;
+        return (share + TAUT_LINEAR_GROUP - 1) / TAUT_LINEAR_GROUP * TAUT_LINEAR_GROUP;
+    }
+    std::uint32_t group_of(std::uint32_t row) const { return row / chunk(); }
+    std::uint32_t dispatched() const { return groups + spare; }
+};
+
+/// Around one group and several; more groups than rows ask for, fewer, and groups in excess.
+inline std::vector<Dealt> deals()
+{
+    return {{1, 1, 0},   {63, 1, 1},  {64, 1, 0},   {65, 1, 2},    {127, 1, 0}, {128, 1, 0},  {129, 2, 0},
+            {129, 1, 0}, {300, 5, 1}, {1000, 8, 3}, {1000, 3, 0}, {1000, 8, 0}, {20000, 7, 1}};
+}
+
+/// One sum a group with the size of its terms, over values a row.
+class GroupSums
+{
+public:
+    explicit GroupSums(const Dealt& dealt) : dealt_(dealt), value_(dealt.groups, 0.0), scale_(dealt.groups, 0.0) {}
+    void add(std::uint32_t row, double term) { add(row, term, std::abs(term)); }
+    void add(std::uint32_t row, double term, double size)
+    {
+        value_[dealt_.group_of(row)] += term;
+        scale_[dealt_.group_of(row)] += size;
+    }
+    void put(Field& field) const
+    {
+        for (std::size_t g = 0; g < value_.size(); ++g)
+            field.add(value_[g], scale_[g]);
+    }
+
+private:
+    Dealt dealt_;
+    std::vector<double> value_, scale_;
+};
+
+/// Values that must come out as they went in.
+template <typename Real>
+void add_unchanged(Field& field, const std::vector<Real>& values, std::size_t from = 0)
+{
+    for (std::size_t i = from; i < values.size(); ++i)
+        field.add(static_cast<double>(values[i]), 0);
+}
+
+template <typename Real>
+std::vector<Real> random_reals(Random& random, std::size_t n, double low = -1, double high = 1)
+{
+    std::vector<Real> values;
+    for (std::size_t i = 0; i < n; ++i)
+        values.push_back(random.uniform<Real>(low, high));
+    return values;
+}
+
+/// As check_on_every_device, and `look` sees what each executor left. `bitwise`: false where NaN may come out,
+/// whose bits nobody promises.
+inline void look_on_every_device(const Case& c, const std::function<void(const Buffers&)>& look,
+                                 bool bitwise = true)
+{
+    const Buffers serial = run(*test_device("cpu:serial"), c.launches, c.in);
+    for (const std::string& selector : test_devices())
+    {
+        const auto device = test_device(selector);
+        if (!can_run(*device, c.precision))
+            continue;
+        const KernelInfo& kernel = *c.launches.front().kernel;
+        INFO(selector << ": " << kernel.name << " \"" << kernel.variant << "\" "
+                      << to_string(kernel.precision));
+        const Buffers out = run(*device, c.launches, c.in);
+        check_against_reference(c, out);
+        if (look)
+            look(out);
+        if (bitwise && bitwise_equal_expected(device->info()))
+            CHECK(differing_buffers(serial, out) == "");
+        CHECK(device->counters().validation_messages == 0);
+    }
+}
+
+} // namespace taut::conformance
