@@ -73,7 +73,7 @@ public:
     CsrMatrix(const std::shared_ptr<Device>& device, const SparseMatrix& matrix, const UploadOptions& options)
         : PackedMatrix(device, matrix, options),
           // On the CPU straight from memory, elsewhere through shared memory: the same bits.
-          stream_(!device->info().executor.starts_with("cpu"))
+          stream_(!is_native())
     {
         if (matrix.nonzeros() + matrix.rows >= std::uint64_t{1} << 31)
             throw Error(ErrorCode::limit, "format csr numbers entries below 2^31, but there are " +
@@ -101,30 +101,15 @@ private:
     std::vector<std::uint32_t> cuts_; ///< dispatches of spmv_csr_long: rows cuts_[k] up to cuts_[k + 1]
 };
 
-/// The trips of the busiest group's lanes, were one lane to get the longest row each time.
+/// A window of 128 rows passes through shared memory in pieces; the longest row of it is the busiest lane's.
 void CsrMatrix::check_short_rows(const Layout& layout) const
 {
-    if (!stream_)
-        return; // a CPU's loops may run as long as they like
-    const Grid grid = make_grid(rows(), group_count_for(rows(), device_->info()));
-    for (std::uint32_t begin = 0; begin < rows(); begin += grid.chunk)
-    {
-        std::uint64_t trips = 0;
-        const std::uint32_t end = std::min(rows() - begin, grid.chunk) + begin;
-        for (std::uint32_t base = begin; base < end; base += TAUT_LINEAR_GROUP)
-        {
-            const std::uint32_t last = std::min(end - base, std::uint32_t{TAUT_LINEAR_GROUP}) + base;
-            std::uint32_t longest = 0;
-            for (std::uint32_t row = base; row < last; ++row)
-                longest = std::max(longest, layout.row_start[row + 1] - layout.row_start[row]);
-            trips += (layout.row_start[last] - layout.row_start[base]) / 64 + longest + 4;
-        }
-        if (trips > kMostTrips)
-            throw Error(ErrorCode::limit, "format csr would make " + std::to_string(trips) +
-                                              " loop trips in rows " + std::to_string(begin) + " to " +
-                                              std::to_string(end) + ", and " + std::to_string(kMostTrips) +
-                                              " are safe: take coo, or another device");
-    }
+    check_trips(rows(), [&](std::uint32_t begin, std::uint32_t end) {
+        std::uint32_t longest = 0;
+        for (std::uint32_t row = begin; row < end; ++row)
+            longest = std::max(longest, layout.row_start[row + 1] - layout.row_start[row]);
+        return (layout.row_start[end] - layout.row_start[begin]) / 64 + longest + 4;
+    });
 }
 
 /// Long rows go round among the groups; as many dispatches as keep every group below the trips there may be.

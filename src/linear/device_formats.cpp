@@ -90,6 +90,29 @@ void PackedMatrix::check_bytes(std::uint64_t wanted, std::string_view what) cons
                                           " in one buffer: take a sparser format, float, or another device");
 }
 
+void PackedMatrix::check_trips(std::uint32_t units,
+                               const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& trips) const
+{
+    if (is_native())
+        return;
+    const Grid grid = make_grid(units, group_count_for(rows_, device_->info()));
+    for (std::uint64_t begin = 0; begin < units; begin += grid.chunk)
+    {
+        std::uint64_t sum = 0;
+        const std::uint64_t end = std::min<std::uint64_t>(begin + grid.chunk, units);
+        for (std::uint64_t tile = begin; tile < end; tile += TAUT_LINEAR_GROUP)
+            sum += 1 + trips(static_cast<std::uint32_t>(tile),
+                             static_cast<std::uint32_t>(std::min<std::uint64_t>(tile + TAUT_LINEAR_GROUP, end)));
+        if (sum > kMostTrips)
+            throw Error(ErrorCode::limit, "format " + std::string(to_string(format_)) + " would loop " +
+                                              std::to_string(sum) + " times in one of the rows " +
+                                              std::to_string(begin) + " to " + std::to_string(end - 1) +
+                                              " (from 0), and " + std::to_string(kMostTrips) +
+                                              " times are safe on " + device_->info().selector +
+                                              ": take csr, coo or the device cpu");
+    }
+}
+
 BufferPtr PackedMatrix::upload_table(std::span<const std::uint32_t> table, std::string_view what)
 {
     const std::uint64_t wanted = std::max<std::uint64_t>(table.size_bytes(), 4);

@@ -3,6 +3,7 @@
 
 #include "taut/linear/device_matrix.hpp"
 
+#include <functional>
 #include <string>
 
 namespace taut::linear {
@@ -56,6 +57,14 @@ protected:
     /// Throws Error{limit} where a buffer of `wanted` bytes is more than the device allows.
     void check_bytes(std::uint64_t wanted, std::string_view what) const;
 
+    /// Throws Error{limit} where a lane of group g, which loops `trips(begin, end)` times for 128 rows (units) from
+    /// `begin` on, would loop more often than kMostTrips in one dispatch. Native code loops as long as it likes.
+    void check_trips(std::uint32_t units,
+                     const std::function<std::uint64_t(std::uint32_t begin, std::uint32_t end)>& trips) const;
+
+    /// Straight loops over memory are best: no shared memory, no limit of trips.
+    bool is_native() const { return device_->info().executor.starts_with("cpu"); }
+
     const std::shared_ptr<Device> device_;
 
 private:
@@ -70,6 +79,17 @@ private:
 
 /// Trips of loops that one invocation may make in one dispatch: lavapipe stops silently at 65,535 in all.
 inline constexpr std::uint64_t kMostTrips = 32000;
+
+/// Where SELL-32-256 puts rows and entries.
+struct SellLayout
+{
+    static constexpr std::uint32_t kSlice = 32;
+    static constexpr std::uint32_t kWindow = 256;
+    std::vector<std::uint32_t> order;       ///< the row at each place
+    std::vector<std::uint64_t> slice_start; ///< slices + 1, in entries
+    std::uint64_t entries() const { return slice_start.back(); }
+};
+SellLayout sell_layout(const SparseMatrix&);
 
 /// Called by DeviceMatrix::upload, which has checked what does not depend on the format (square, at least one
 /// row, precision of the device, pairs with float only).

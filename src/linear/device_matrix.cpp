@@ -42,10 +42,10 @@ std::shared_ptr<DeviceMatrix> DeviceMatrix::upload(const std::shared_ptr<Device>
     {
     case Format::automatic: break;
     case Format::csr: return make_csr(device, matrix, options);
+    case Format::ell: return make_ell(device, matrix, options);
+    case Format::sell: return make_sell(device, matrix, options);
     case Format::dense:
     case Format::coo:
-    case Format::ell:
-    case Format::sell:
     case Format::bcsr3:
         throw Error(ErrorCode::unsupported,
                     "format " + std::string(to_string(options.format)) + " cannot be put on a device yet");

@@ -40,6 +40,8 @@ inline constexpr Tolerance kTolerances[] = {
     {"sphere", 4, "as plane, and a root of a quadratic for the way in"},
     {"spmv_csr", 4, "a product and a sum an entry; the scale is the sum of all terms' sizes"},
     {"spmv_csr_long", 4, "as spmv_csr, in 128 sums and a tree"},
+    {"spmv_ell", 4, "as spmv_csr"},
+    {"spmv_sell", 4, "as spmv_csr"},
 };
 
 inline double tolerance_of(std::string_view kernel)

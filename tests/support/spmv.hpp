@@ -123,10 +123,11 @@ inline Grid grid_of(std::uint32_t count, std::uint32_t groups)
 using Writes = std::function<bool(std::uint32_t row)>;
 
 /// Vectors in and out for one variant; a test adds tables and launches. `slots` place the values among `stored`.
+/// `order`: the row at each place, where groups share places; empty: rows are their own places.
 template <typename Real>
 Case product_case(const Rows<Real>& rows, std::string_view variant, bool low, const Grid& grid,
                   const std::vector<std::uint32_t>& slots, std::size_t stored,
-                  const Writes& writes = [](std::uint32_t) { return true; })
+                  const Writes& writes = {}, const std::vector<std::uint32_t>& order = {})
 {
     const bool pairs = variant.ends_with("pairs"), dot = variant.ends_with("dot");
     const bool residual = variant.find("residual") != variant.npos;
@@ -150,13 +151,17 @@ Case product_case(const Rows<Real>& rows, std::string_view variant, bool low, co
         double scale = static_cast<double>(sum.scale + (residual ? std::abs(b) : 0));
         if (pairs) // one rounding of the result, and the terms in two words (the reference itself has 64 bits)
             scale = std::abs(value) + (sizeof(Real) == 4 ? eps : 0x1p-10) * scale;
-        if (writes(i))
+        if (!writes || writes(i))
             y.add(value, scale);
         else
             y.add(static_cast<double>(rows.y[i]), 0);
-        sums[i / grid.chunk] += static_cast<double>(rows.x[i]) * y.value.back();
-        scales[i / grid.chunk] +=
-            std::abs(static_cast<double>(rows.x[i])) * std::max(scale, std::abs(y.value.back()));
+    }
+    for (std::uint32_t place = 0; place < rows.count; ++place)
+    {
+        const std::uint32_t i = order.empty() ? place : order[place];
+        const double x = static_cast<double>(rows.x[i]), row = y.value[i];
+        sums[place / grid.chunk] += x * row;
+        scales[place / grid.chunk] += std::abs(x) * std::max(y.scale[i], std::abs(row));
     }
     for (std::uint32_t g = 0; dot && g < grid.groups; ++g)
         c.expected["partials"].add(sums[g], scales[g]);
