@@ -19,6 +19,7 @@ PARAMS
     uint chunk;   // of them a group
     uint groups;
     uint history; // words of it in `control`
+    uint last;    // 1: no iteration follows, so this is the limit
 };
 
 READ(0, real, residual); // r; in the variant `stored` z
@@ -43,6 +44,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     SUM_PARTIALS(sum_rz, partials, 0u, groups)
     SUM_PARTIALS(sum_rr, partials, groups, groups)
     CgState s = before[0];
+    s.iteration_limit = last != 0u ? min(s.iteration_limit, s.iteration) : s.iteration_limit;
     uint unknown = s.begun == 0u ? groups : 0u;
     SUM_PARTIALS(sum_bb, partials, 2u * groups, unknown)
     bool replace = false;

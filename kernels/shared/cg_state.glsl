@@ -21,12 +21,15 @@ bool taut_is_finite(real value)
 }
 
 /// Before a direction is made: `s` is what cg_step or cg_restart left, rz and rr are of the residual in hand.
-/// On return s.status says whether to go on, and s.suspect or s.peak were set when the residual is wanted anew
-/// (`replace`). `keep` tells whether the step in hand may be added to x.
+/// On return s.status says whether to go on, `replace` whether the residual is wanted anew first, and `keep` whether
+/// the step in hand may be added to x.
 CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT(bool) keep)
 {
     replace = false;
     keep = true;
+    // A residual formed anew that is far above what the recurrence had: the directions belong to another one.
+    bool drifted = s.fresh != 0u && s.begun != 0u && rr > real(4) * s.rr;
+    bool checked = s.fresh != 0u && s.begun != 0u;
     if (s.begun == 0u)
     {
         s.begun = 1u;
@@ -39,7 +42,6 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
     s.rr = rr;
     if (s.status != uint(TAUT_CG_RUNNING))
         return s;
-    bool checked = s.fresh != 0u && s.suspect != 0u;
     if (!taut_is_finite(rr) || !taut_is_finite(rz) || !taut_is_finite(s.bb))
     {
         s.status = uint(TAUT_CG_NON_FINITE);
@@ -57,7 +59,6 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
         if (s.fresh != 0u)
             s.status = uint(TAUT_CG_CONVERGED);
         replace = s.fresh == 0u;
-        s.suspect = 1u;
     }
     else if (rz <= real(0))
         s.status = uint(TAUT_CG_INDEFINITE_PRECONDITIONER);
@@ -66,7 +67,6 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
         if (s.fresh != 0u)
             s.status = uint(TAUT_CG_ITERATION_LIMIT);
         replace = s.fresh == 0u;
-        s.suspect = 1u;
     }
     else if (s.exhausted != 0u)
     {
@@ -74,20 +74,17 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
             s.status = uint(TAUT_CG_EXHAUSTED);
         replace = s.status == uint(TAUT_CG_RUNNING);
         s.direction = uint(TAUT_DIRECTION_NONE);
-        s.suspect = 1u;
     }
     else if (checked)
     {
         s.stalls = rr < real(0.25) * s.best ? 0u : s.stalls + 1u;
         if (s.stalls >= TAUT_CG_STALLS)
             s.status = uint(TAUT_CG_STALLED);
-        s.suspect = 0u;
+        if (drifted)
+            s.direction = uint(TAUT_DIRECTION_NONE);
     }
-    else if (s.fresh == 0u && (rr < s.replacement_squared * s.peak || s.waited >= s.patience))
-    {
+    else if (rr < s.replacement_squared * s.peak || s.waited >= s.patience)
         replace = true;
-        s.suspect = s.waited >= s.patience ? 1u : 0u;
-    }
     if (s.fresh != 0u)
     {
         s.peak = rr;

@@ -89,9 +89,9 @@ LAYOUT_STRUCT(CgState)
     uint fresh;      // 1: the residual was just formed anew
     uint direction;  // in hand: TAUT_DIRECTION_*
     uint exhausted;  // 1: p.Ap was below what rounding lets one tell from zero
-    uint suspect;    // 1: the residual in hand was formed anew to check the recurrence, not by routine
-    uint stalls;     // checks in a row that found no progress
+    uint stalls;     // residuals formed anew in a row that were not half of the best before
     uint replacements;
+    uint unused;     // keeps the size a multiple of 8
 };
 
 #ifdef TAUT_HOST

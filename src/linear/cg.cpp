@@ -141,7 +141,7 @@ void ConjugateGradient::record_iterations(Recorder& recorder, std::uint32_t coun
     }
 }
 
-void ConjugateGradient::record_direction(Recorder& recorder)
+void ConjugateGradient::record_direction(Recorder& recorder, bool last)
 {
     const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
@@ -151,12 +151,13 @@ void ConjugateGradient::record_direction(Recorder& recorder)
     if (preconditioning_.inverse)
         bindings.push_back(preconditioning_.inverse);
     launch(recorder, gate, kernels::cg_direction::info(variant_of(preconditioning_.kind), precision_),
-           std::move(bindings), kernels::cg_direction::Params{grid.count, grid.chunk, groups_, kHistory}, kLabel);
+           std::move(bindings), kernels::cg_direction::Params{grid.count, grid.chunk, groups_, kHistory, last ? 1u : 0u},
+           kLabel);
 }
 
 void ConjugateGradient::record_iteration(Recorder& recorder)
 {
-    record_direction(recorder);
+    record_direction(recorder, false);
     const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
     if (operator_->recomputes())
@@ -184,9 +185,9 @@ void ConjugateGradient::record_replacement(Recorder& recorder)
 
 void ConjugateGradient::record_end(Recorder& recorder)
 {
-    record_direction(recorder); // takes the last step, and may ask for the residual
+    record_direction(recorder, true); // takes the last step, and may ask for the residual
     record_replacement(recorder);
-    record_direction(recorder); // says how it ended
+    record_direction(recorder, true); // says how it ended
     record_collect(recorder, {groups_, nullptr, 0}, true);
 }
 

@@ -64,7 +64,7 @@ public:
     /// that form the residual anew. What is not needed runs zero groups.
     void record_iterations(Recorder&, std::uint32_t count);
     /// Takes the last step, checks the true residual where that is still open, x += what was gained. After it
-    /// outcome() is final: with an iteration_limit of the count recorded it is not `running`.
+    /// outcome() is final: a solve that still went on has the status iteration_limit.
     void record_end(Recorder&);
 
     /// Reads the state; waits for the device.
@@ -76,7 +76,7 @@ public:
     std::uint64_t bytes() const; ///< of all vectors and tables of the solver
 
 private:
-    void record_direction(Recorder&);
+    void record_direction(Recorder&, bool last);
     void record_iteration(Recorder&);
     void record_replacement(Recorder&);
     void record_residual(Recorder&, const Gate&);

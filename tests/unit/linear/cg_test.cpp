@@ -120,7 +120,8 @@ TEST_CASE("recorded iterations that do not suffice end in iteration_limit with t
     const CgOutcome outcome = problem.cg->outcome();
     CHECK(outcome.status == Status::iteration_limit);
     CHECK_FALSE(outcome.running);
-    CHECK(outcome.iterations == count);
+    CHECK(outcome.iterations <= count); // fewer where a place was spent on the residual
+    CHECK(outcome.iterations + 8 > count);
     CHECK(outcome.residual == Approx(problem.true_residual()).epsilon(1e-9));
     if (count > 0)
         CHECK(outcome.residual < 1);
@@ -143,7 +144,7 @@ TEST_CASE("a start that is the solution, or near it, costs nothing", "[linear][c
 
 TEST_CASE("values rewritten on the device are solved with the same recording", "[linear][cg]")
 {
-    const Format format = GENERATE(Format::csr, Format::ell, Format::sell);
+    const Format format = GENERATE(Format::csr, Format::ell, Format::sell, Format::coo, Format::dense);
     CAPTURE(to_string(format));
     Problem problem("cpu:serial", 12, format);
     Recorder recorder(problem.device);
