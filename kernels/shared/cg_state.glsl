@@ -15,9 +15,11 @@
 // Checks without progress before a solve is given up.
 #define TAUT_CG_STALLS 3u
 
+/// PRECISE, because a compiler that may rearrange takes a difference of equals for zero, NaN or not (Mesa does).
 bool taut_is_finite(real value)
 {
-    return value - value == real(0);
+    PRECISE real difference = value - value;
+    return difference == real(0);
 }
 
 /// Before a direction is made: `s` is what cg_step or cg_restart left, rz and rr are of the residual in hand.
