@@ -234,8 +234,11 @@ CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const d
         outcome = cg_->outcome();
         if (options_.keep_history)
         {
-            append(cg_->history(told, outcome.iterations));
-            told = outcome.iterations + 1;
+            // While it runs, the last entry is written only when the next iteration begins.
+            const std::uint32_t upto = outcome.iterations + (outcome.running ? 0 : 1);
+            if (upto > told)
+                append(cg_->history(told, upto - 1));
+            told = upto;
         }
     } while (outcome.running);
     report_.seconds += seconds_since(start);
