@@ -14,6 +14,10 @@
 //   EACH_BEGIN(first, end) ... i, lane ... EACH_END   a phase in which the lanes share the elements
 //                                      first..end-1, element `first + k` going to lane k % size, each
 //                                      lane in ascending order; on the CPU in the order of the elements
+//   LINES_BEGIN(first, end, length) ... line ... LINE_BEGIN ... i, lane, line_first, line_last ...
+//   LINE_END LINES_END                 EACH over elements that lie in lines of `length` > 0: element i is in
+//                                      line i / length, the flags say whether it is at an end of it, and
+//                                      what is the same for a whole line stands before LINE_BEGIN
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
@@ -118,6 +122,16 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
         }                    \
     }                        \
     TAUT_PHASE_BARRIER
+
+#define LINES_BEGIN(first, end, length)     \
+    EACH_BEGIN(first, end)                  \
+    uint taut_length = uint(length);        \
+    uint line = i / taut_length;
+#define LINE_BEGIN                                                \
+    bool line_first = i == line * taut_length;                    \
+    bool line_last = i + 1u == (line + 1u) * taut_length;
+#define LINE_END
+#define LINES_END EACH_END
 
 #endif
 #endif

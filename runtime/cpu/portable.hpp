@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 namespace taut::native {
 
@@ -87,6 +88,75 @@ void run_groups(const void* params, void* const* buffers, std::uint32_t begin, s
     });
 }
 
+// Lanes of one phase never read what another writes, so the compiler may run several at once.
+#if defined(__clang__)
+#define TAUT_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define TAUT_INDEPENDENT _Pragma("GCC ivdep")
+#else
+#define TAUT_INDEPENDENT
+#endif
+
+/// LINES: elements first..end-1 in tiles of `group_size` (which make the lanes), each cut where a line ends.
+/// The body is made once for the ends of a line and once for what lies between, so that the long loop has no
+/// question in it; indices are as wide as pointers, so that it is seen to walk through memory.
+template <uint group_size>
+class Lines
+{
+public:
+    Lines(uint first, uint end, uint length)
+        : line(first / length),
+          length_(length),
+          end_(end),
+          i_(first),
+          tile_(first),
+          behind_((std::size_t{line} + 1) * length)
+    {
+    }
+
+    bool more() const { return i_ < end_; }
+
+    /// The rest of line and tile, whichever is shorter.
+    template <typename Body>
+    void each(Body body)
+    {
+        constexpr std::true_type yes;
+        constexpr std::false_type no;
+        const std::size_t tile_end = end_ - tile_ < group_size ? end_ : tile_ + group_size;
+        const std::size_t stop = tile_end < behind_ ? tile_end : behind_;
+        const std::size_t last = stop < behind_ ? stop : behind_ - 1; // of what is inside of the line
+        std::size_t i = i_;
+        if (length_ == 1)
+            body(i, i - tile_, yes, yes);
+        else
+        {
+            if (i + length_ == behind_)
+            {
+                body(i, i - tile_, yes, no);
+                ++i;
+            }
+            TAUT_INDEPENDENT
+            for (; i < last; ++i)
+                body(i, i - tile_, no, no);
+            if (i < stop)
+                body(i, i - tile_, no, yes);
+        }
+        i_ = stop;
+        tile_ = stop == tile_end ? stop : tile_;
+        if (stop == behind_)
+        {
+            ++line;
+            behind_ += length_;
+        }
+    }
+
+    uint line;
+
+private:
+    std::size_t length_, end_, i_, tile_;
+    std::size_t behind_; ///< the first element of the next line
+};
+
 inline void count_event(std::uint32_t& counter)
 {
     std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
@@ -122,15 +192,6 @@ inline void count_event(std::uint32_t& counter)
 #define PHASE_BEGIN for (uint lane = 0; lane < taut_group_size; ++lane) {
 #define PHASE_END }
 
-// Lanes of one phase never read what another writes, so the compiler may run several at once.
-#if defined(__clang__)
-#define TAUT_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#elif defined(__GNUC__)
-#define TAUT_INDEPENDENT _Pragma("GCC ivdep")
-#else
-#define TAUT_INDEPENDENT
-#endif
-
 #define LANES_BEGIN(n)                             \
     TAUT_INDEPENDENT                               \
     for (uint lane = 0; lane < uint(n); ++lane)    \
@@ -149,3 +210,13 @@ inline void count_event(std::uint32_t& counter)
         {                                                                                                   \
             const std::size_t i = taut_tile + lane;
 #define EACH_END }}
+
+#define LINES_BEGIN(first, end, length)                                                             \
+    for (taut::native::Lines<taut_group_size> taut_lines{first, end, length}; taut_lines.more();)    \
+    {                                                                                               \
+        const uint line = taut_lines.line;
+#define LINE_BEGIN                                                                 \
+    taut_lines.each([&](const std::size_t i, const std::size_t lane, const auto line_first, \
+                        const auto line_last) {
+#define LINE_END });
+#define LINES_END }
