@@ -22,13 +22,18 @@ bool is_diagonal(Preconditioner kind)
     return kind == Preconditioner::jacobi || kind == Preconditioner::spai0;
 }
 
+bool is_stored(Preconditioner kind)
+{
+    return kind == Preconditioner::chebyshev || kind == Preconditioner::multigrid;
+}
+
 std::string_view variant_of(Preconditioner kind)
 {
     if (is_diagonal(kind))
         return "diagonal";
     if (kind == Preconditioner::block_jacobi)
         return "block";
-    return kind == Preconditioner::chebyshev ? "stored" : "";
+    return is_stored(kind) ? "stored" : "";
 }
 
 std::uint32_t word_bytes(std::uint32_t word)
@@ -65,7 +70,7 @@ ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared
     p_ = vector("cg p");
     if (!operator_->recomputes())
         q_ = vector("cg q");
-    if (preconditioning_.kind == Preconditioner::chebyshev)
+    if (is_stored(preconditioning_.kind))
         z_ = vector("cg z");
     partials_ = device_->make_buffer(3 * groups_ * real, "cg partials");
     curvatures_ = device_->make_buffer(groups_ * real, "cg curvatures");
@@ -119,8 +124,8 @@ void ConjugateGradient::record_residual(Recorder& recorder, const Gate& gate)
 
 void ConjugateGradient::record_preconditioner(Recorder& recorder, const Gate& gate)
 {
-    if (preconditioning_.kind == Preconditioner::chebyshev)
-        preconditioning_.chebyshev->record(recorder, gate, r_, z_, {partials_, 0, groups_ * real_bytes(precision_)});
+    if (is_stored(preconditioning_.kind))
+        preconditioning_.stored->record(recorder, gate, r_, z_, {partials_, 0, groups_ * real_bytes(precision_)});
 }
 
 void ConjugateGradient::record_begin(Recorder& recorder)
@@ -145,7 +150,7 @@ void ConjugateGradient::record_direction(Recorder& recorder, bool last)
 {
     const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
-    const bool stored = preconditioning_.kind == Preconditioner::chebyshev;
+    const bool stored = is_stored(preconditioning_.kind);
     std::vector<Recorder::Binding> bindings = {stored ? z_ : r_, p_, x_, partials_, measured_, decided_,
                                                control_};
     if (preconditioning_.inverse)
@@ -218,6 +223,7 @@ std::vector<float> ConjugateGradient::history(std::uint32_t first, std::uint32_t
 std::uint64_t ConjugateGradient::bytes() const
 {
     std::uint64_t sum = preconditioning_.inverse ? preconditioning_.inverse->bytes() : 0;
+    sum += preconditioning_.stored ? preconditioning_.stored->bytes() : 0;
     for (const BufferPtr* buffer : {&b_, &base_, &x_, &r_, &p_, &q_, &z_, &partials_, &curvatures_, &settings_,
                                     &decided_, &measured_, &control_})
         sum += *buffer ? (*buffer)->bytes() : 0;

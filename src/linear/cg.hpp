@@ -24,8 +24,8 @@ struct CgSettings
 struct Preconditioning
 {
     Preconditioner kind = Preconditioner::none;
-    BufferPtr inverse;                          ///< jacobi, spai0, block_jacobi
-    std::shared_ptr<const Chebyshev> chebyshev; ///< chebyshev
+    BufferPtr inverse; ///< jacobi, spai0, block_jacobi
+    std::shared_ptr<const StoredPreconditioner> stored; ///< chebyshev, multigrid, or the caller's own
 };
 
 /// What the device says of a solve. Norms are of the vectors as they are on the device.

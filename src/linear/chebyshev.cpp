@@ -141,9 +141,8 @@ double lanczos(const SparseMatrix& a, std::span<const double> inverse)
     return largest_eigenvalue(t);
 }
 
-std::string_view variant_of(int step, int degree)
+std::string_view variant_of(int step, bool last)
 {
-    const bool last = step + 1 == degree;
     if (step == 0)
         return last ? "only" : "first";
     if (step == 1)
@@ -229,11 +228,12 @@ void Chebyshev::record(Recorder& recorder, const Gate& gate, Operator::Binding r
             bindings.push_back(at);
             bindings.push_back(product_);
         }
-        if (step + 1 == degree_)
+        const bool last = step + 1 == degree_ && partials.buffer;
+        if (last)
             bindings.push_back(partials);
         const kernels::chebyshev::Params params{grid.count, grid.chunk, gate.groups, static_cast<float>(momentum),
                                                 static_cast<float>(gain)};
-        launch(recorder, gate, kernels::chebyshev::info(variant_of(step, degree_), operator_->precision()),
+        launch(recorder, gate, kernels::chebyshev::info(variant_of(step, last), operator_->precision()),
                std::move(bindings), params, kLabel);
     }
 }

@@ -10,10 +10,11 @@ namespace {
 
 void check(const Device& device, const SparseMatrix& matrix, const UploadOptions& options)
 {
-    if (matrix.rows != matrix.columns)
+    const bool may_be_long = options.rectangular && options.format == Format::csr;
+    if (matrix.rows != matrix.columns && !may_be_long)
         throw Error(ErrorCode::bad_input, "the matrix has " + std::to_string(matrix.rows) + " rows and " +
                                               std::to_string(matrix.columns) +
-                                              " columns: only square ones go to a device");
+                                              " columns: only square ones go to a device, or rectangular ones in csr");
     if (matrix.rows == 0)
         throw Error(ErrorCode::bad_input, "the matrix has no rows: nothing to put on a device");
     if (options.precision == Precision::float64 && !device.limits().float64)

@@ -12,6 +12,7 @@ struct UploadOptions
     Precision precision = Precision::float64;
     bool pairs = false;  ///< float only: keep the low words of values that float cannot hold (for `mixed`)
     int exponent = 0;    ///< values are multiplied by 2^exponent (exact); the solver chooses it
+    bool rectangular = false; ///< csr only: products and residuals without partials; x has `columns` entries
 };
 
 /// Packed once; the pattern stays. Values may be rewritten on the device by kernels of the caller.

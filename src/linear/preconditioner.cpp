@@ -18,7 +18,7 @@ namespace taut::linear {
 namespace {
 
 constexpr std::array kWords = {Preconditioner::none, Preconditioner::jacobi, Preconditioner::block_jacobi,
-                               Preconditioner::chebyshev, Preconditioner::spai0};
+                               Preconditioner::chebyshev, Preconditioner::multigrid, Preconditioner::spai0};
 
 /// 1 for each row of `held`.
 std::vector<char> marks(const SparseMatrix& a, std::span<const std::uint32_t> held)
@@ -161,6 +161,7 @@ std::string_view to_string(Preconditioner kind)
     case Preconditioner::jacobi: return "jacobi";
     case Preconditioner::block_jacobi: return "block_jacobi";
     case Preconditioner::chebyshev: return "chebyshev";
+    case Preconditioner::multigrid: return "multigrid";
     case Preconditioner::spai0: return "spai0";
     }
     return "unknown";

@@ -15,10 +15,11 @@ enum class Preconditioner : std::uint8_t
     jacobi,       ///< 1 / a_ii
     block_jacobi, ///< inverse of each 3 x 3 block on the diagonal; rows must be a multiple of 3
     chebyshev,    ///< polynomial in D^-1 A, no dot products
+    multigrid,    ///< a V-cycle of smoothed aggregation (multigrid.hpp); no held rows
     spai0,        ///< diagonal m that minimises |I - diag(m) A|_F: a_ii / sum_j a_ij^2
 };
 std::string_view to_string(Preconditioner);
-/// Throws Error{bad_input} listing the words ("none", "jacobi", "block_jacobi", "chebyshev", "spai0").
+/// Throws Error{bad_input} listing the words ("none", "jacobi", "block_jacobi", "chebyshev", "multigrid", "spai0").
 Preconditioner preconditioner_from(std::string_view word);
 
 // Each of these works on the system of the rows that are not held. Held rows out of range, and a diagonal that
@@ -46,9 +47,23 @@ struct Interval
 /// Lower end: the upper one / `spread`.
 Interval chebyshev_interval(const SparseMatrix&, std::span<const double> inverse_diagonal, double spread = 30);
 
+/// A preconditioner whose z = M^-1 r takes passes of its own and is stored. A caller's own one derives from this; it
+/// must be symmetric, positive definite, and the same linear map every time.
+class StoredPreconditioner
+{
+public:
+    virtual ~StoredPreconditioner() = default;
+
+    /// z from r. Where `partials` is a buffer also partials[g] = sum of r_i z_i over the rows of group g of
+    /// make_grid(rows, gate.groups).
+    virtual void record(Recorder&, const Gate&, Operator::Binding r, Operator::Binding z,
+                        Operator::Binding partials) const = 0;
+    virtual std::uint64_t bytes() const = 0; ///< device bytes of matrices, tables and vectors it holds
+};
+
 /// z = q(D^-1 A) D^-1 r with q of degree `degree` - 1: degree - 1 products and no dot product but the last.
 /// Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. 2003, algorithm 12.1.
-class Chebyshev
+class Chebyshev : public StoredPreconditioner
 {
 public:
     /// `inverse` holds rows() reals, 1 / d_ii, and 0 in held rows, where z is then 0. degree in 1..16. With an
@@ -56,12 +71,11 @@ public:
     /// definite (chebyshev.cpp says why). Throws Error{bad_input}.
     Chebyshev(std::shared_ptr<Device>, std::shared_ptr<const Operator>, BufferPtr inverse, Interval, int degree);
 
-    /// z from r; partials[g] = sum of r_i z_i over the rows of group g of make_grid(rows, gate.groups).
     void record(Recorder&, const Gate&, Operator::Binding r, Operator::Binding z,
-                Operator::Binding partials) const;
+                Operator::Binding partials) const override;
+    std::uint64_t bytes() const override;
 
     const BufferPtr& inverse() const { return inverse_; }
-    std::uint64_t bytes() const; ///< of the vectors it holds
 
 private:
     std::shared_ptr<const Operator> operator_;

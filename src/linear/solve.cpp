@@ -28,6 +28,8 @@ void check_options(const SolveOptions& options, std::uint32_t rows)
     if (options.chebyshev_degree < 1 || options.chebyshev_degree > 16)
         throw Error(ErrorCode::bad_input, "the degree of the Chebyshev polynomial must be 1 to 16, not " +
                                               std::to_string(options.chebyshev_degree));
+    if (options.preconditioner == Preconditioner::multigrid && !options.held.empty())
+        throw Error(ErrorCode::unsupported, "multigrid takes no held rows: take jacobi, block_jacobi or chebyshev");
     for (const std::uint32_t row : options.held)
         if (row >= rows)
             throw Error(ErrorCode::bad_input, "held row " + std::to_string(row) + " is not there: rows count from 0 to " +

@@ -5,6 +5,8 @@
 
 #include "taut/linear/system_solver.hpp"
 
+#include "taut/linear/multigrid.hpp"
+#include "taut/linear/reals.hpp"
 #include "taut/linear/solve_reason.hpp"
 
 #include <algorithm>
@@ -33,27 +35,6 @@ int vector_exponent(std::span<const double> v)
     for (const double entry : v)
         largest = std::max(largest, std::abs(entry));
     return largest > 0 ? -std::ilogb(largest) : 0;
-}
-
-void write_reals(Device& device, const BufferPtr& buffer, std::span<const double> values, Precision precision)
-{
-    if (precision == Precision::float64)
-        return device.write<double>(buffer, values);
-    std::vector<float> rounded(values.begin(), values.end());
-    device.write<float>(buffer, rounded);
-}
-
-std::vector<double> as_pairs(std::span<const double> values)
-{
-    std::vector<double> pairs;
-    pairs.reserve(2 * values.size());
-    for (const double value : values)
-    {
-        const auto high = static_cast<double>(static_cast<float>(value));
-        pairs.push_back(high);
-        pairs.push_back(value - high);
-    }
-    return pairs;
 }
 
 } // namespace
@@ -106,7 +87,8 @@ bool SystemSolver::small() const
 {
     const Preconditioner kind = options_.preconditioner;
     return options_.one_group && options_.format == Format::automatic && a_.rows <= kSmallRows &&
-           kind != Preconditioner::block_jacobi && kind != Preconditioner::chebyshev;
+           kind != Preconditioner::block_jacobi && kind != Preconditioner::chebyshev &&
+           kind != Preconditioner::multigrid;
 }
 
 std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
@@ -151,9 +133,11 @@ Preconditioning SystemSolver::make_preconditioning() const
     {
         const std::vector<double> inverse = inverse_diagonal(Preconditioner::jacobi);
         const Interval interval = chebyshev_interval(a_, jacobi_inverse(a_, options_.held));
-        out.chebyshev = std::make_shared<Chebyshev>(device_, matrix_, upload(inverse, "chebyshev inverse"),
+        out.stored = std::make_shared<Chebyshev>(device_, matrix_, upload(inverse, "chebyshev inverse"),
                                                     interval, options_.chebyshev_degree);
     }
+    else if (out.kind == Preconditioner::multigrid)
+        out.stored = std::make_shared<Multigrid>(device_, aggregate(a_), matrix_, matrix_exponent_);
     else if (out.kind != Preconditioner::none)
         out.inverse = upload(inverse_diagonal(out.kind), "cg inverse");
     return out;
@@ -243,7 +227,7 @@ CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const d
     } while (outcome.running);
     report_.seconds += seconds_since(start);
     const std::vector<double> base = read(cg_->x());
-    const std::vector<double> gained = device_reals(cg_->gain(), a_.rows);
+    const std::vector<double> gained = read_reals(*device_, cg_->gain(), a_.rows, precision_);
     std::vector<double> sum = base;
     for (std::size_t i = 0; i < sum.size(); ++i)
         sum[i] += gained[i];
@@ -257,19 +241,11 @@ void SystemSolver::append(const std::vector<float>& part)
     report_.history.insert(report_.history.end(), part.begin(), part.end());
 }
 
-std::vector<double> SystemSolver::device_reals(const BufferPtr& buffer, std::size_t count) const
-{
-    if (precision_ == Precision::float64)
-        return device_->read<double>(buffer, count);
-    const std::vector<float> values = device_->read<float>(buffer, count);
-    return {values.begin(), values.end()};
-}
-
 std::vector<double> SystemSolver::read(const BufferPtr& buffer) const
 {
     if (!pairs_)
-        return device_reals(buffer, a_.rows);
-    const std::vector<double> words = device_reals(buffer, 2 * std::size_t{a_.rows});
+        return read_reals(*device_, buffer, a_.rows, precision_);
+    const std::vector<double> words = read_reals(*device_, buffer, 2 * std::size_t{a_.rows}, precision_);
     std::vector<double> values(a_.rows);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = words[2 * i] + words[2 * i + 1];

@@ -32,7 +32,6 @@ private:
     CgOutcome solve_small(std::span<const double> b, std::span<const double> x);
     CgOutcome solve_large(std::span<const double> b, std::span<const double> x);
     void append(const std::vector<float>& part);
-    std::vector<double> device_reals(const BufferPtr& buffer, std::size_t count) const;
     std::vector<double> read(const BufferPtr& buffer) const;
     std::vector<double> unscaled(std::vector<double> x) const;
     /// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since where
