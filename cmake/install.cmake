@@ -11,7 +11,8 @@ set(taut_public_headers
     scene/scene.hpp scene/mesh.hpp
     plan/plan.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp
-    linear/device_matrix.hpp linear/preconditioner.hpp linear/cg.hpp linear/small.hpp linear/solve.hpp
+    linear/device_matrix.hpp linear/stencil.hpp linear/preconditioner.hpp linear/aggregation.hpp linear/multigrid.hpp
+    linear/cg.hpp linear/small.hpp linear/solve.hpp
     world/world.hpp
     report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/svg_plot.hpp)
 foreach(header IN LISTS taut_public_headers)

@@ -1,6 +1,8 @@
 #pragma once
 // The one public include.
 
+#include "taut/linear/matrix_market.hpp"
+#include "taut/linear/solve.hpp"
 #include "taut/plan/plan.hpp"
 #include "taut/report/report.hpp"
 #include "taut/runtime/device.hpp"

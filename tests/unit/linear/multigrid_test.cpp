@@ -145,5 +145,5 @@ TEST_CASE("multigrid refuses held rows", "[linear][multigrid]")
     options.preconditioner = Preconditioner::multigrid;
     options.held = {3};
     const SparseMatrix a = poisson2d(5);
-    CHECK_THROWS_WITH(solve(test_device("cpu:serial"), a, waves(25, 1), options), Contains("no held rows"));
+    CHECK_THROWS_WITH(solve(test_device("cpu:serial"), a, waves(25, 1), options), Catch::Matchers::Contains("no held rows"));
 }
