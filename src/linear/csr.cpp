@@ -12,7 +12,6 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::uint32_t kLongRow = 512; ///< entries above which a whole group takes the row
 constexpr const char* kLabel = "spmv";
 
 struct Layout
@@ -122,10 +121,10 @@ void CsrMatrix::cut_long_rows(const Layout& layout)
     for (std::uint32_t k = 0; k < count; ++k)
     {
         const std::uint64_t length = layout.long_rows[3 * k + 2] - layout.long_rows[3 * k + 1];
-        if (long_trips(length) > kMostTrips)
+        if (length > kLongestCsrRow)
             throw Error(ErrorCode::limit, "row " + std::to_string(layout.long_rows[3 * k]) + " (from 0) holds " +
                                               std::to_string(length) + " entries, and a row of format csr may hold " +
-                                              std::to_string((kMostTrips - 10) * TAUT_LINEAR_GROUP) +
+                                              std::to_string(kLongestCsrRow) +
                                               ": take coo");
         std::uint64_t& sum = trips[(k - cuts_.back()) % groups];
         if (sum + long_trips(length) > kMostTrips)

@@ -80,6 +80,11 @@ private:
 /// Trips of loops that one invocation may make in one dispatch: lavapipe stops silently at 65,535 in all.
 inline constexpr std::uint64_t kMostTrips = 32000;
 
+/// Rows of csr with more entries are taken by a whole group each.
+inline constexpr std::uint32_t kLongRow = 512;
+/// Entries of a row of csr: a lane's share of them and a tree of sums within kMostTrips.
+inline constexpr std::uint32_t kLongestCsrRow = (kMostTrips - 10) * TAUT_LINEAR_GROUP;
+
 /// Where SELL-32-256 puts rows and entries.
 struct SellLayout
 {

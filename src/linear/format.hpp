@@ -46,6 +46,11 @@ std::uint64_t matrix_bytes(Format, const SparseMatrix&, Precision, bool pairs = 
 inline constexpr double kLargestEllWaste = 3;
 /// Largest block fill below which bcsr3 is refused by `automatic`.
 inline constexpr double kLeastBlockFill = 0.6;
+/// `automatic` takes dense from this share of all places on: there a value with a column number (12 bytes) costs
+/// as much as the values of all places.
+inline constexpr double kLeastDenseShare = 2.0 / 3;
+/// `automatic` takes sell, on a hardware GPU, from this fill on.
+inline constexpr double kLeastSellFill = 0.75;
 
 struct FormatChoice
 {
