@@ -24,6 +24,14 @@ Status status_of(std::uint32_t cause)
 
 } // namespace
 
+void check_settings(const CgSettings& settings)
+{
+    if (!(settings.tolerance > 0) || !(settings.replacement > 0 && settings.replacement < 1) ||
+        !(settings.growth > 1))
+        throw Error(ErrorCode::bad_input, "a tolerance above 0, a replacement in (0, 1) and a growth above 1 "
+                                          "are wanted for conjugate gradients");
+}
+
 template <typename Real>
 layout::CgState<Real> first_state(const CgSettings& settings)
 {

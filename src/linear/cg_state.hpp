@@ -9,6 +9,9 @@ namespace taut::linear {
 template <typename Real>
 layout::CgState<Real> first_state(const CgSettings&);
 
+/// Throws Error{bad_input} for settings with which no solve ends well.
+void check_settings(const CgSettings&);
+
 template <typename Real>
 CgOutcome outcome_of(const layout::CgState<Real>&);
 
