@@ -3,8 +3,8 @@
 // Nothing is summed but at the last step, which leaves the partial sums of r.z.
 //
 // Based on: Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. 2003, algorithm 12.1.
-// Departures: the direction is written as the difference of two iterates and the residual as r - A z_k, so that
-//   neither is stored; the first step takes z = gain D^-1 r, the second has no z_{k-1}.
+// Departures: the direction is written as the difference of two iterates and the residual as r - A z_k, so
+//   that neither is stored; the first step takes z = gain D^-1 r, the second has no z_{k-1}.
 // Bytes per row (float): 20 read, 4 written; 8 and 4 in the first, 16 and 4 in the second step.
 //! variant first FIRST=1
 //! variant only FIRST=1 LAST=1

@@ -1,19 +1,20 @@
 // Based on:
 //   Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. 2003, algorithm 12.1. (the recurrence)
 //   Lanczos. An iteration method for the solution of the eigenvalue problem. 1950. (the upper end)
-//   Barth, Martin, Wilkinson. Calculation of the eigenvalues of a symmetric tridiagonal matrix by the method of
-//   bisection. 1967.
+//   Barth, Martin, Wilkinson. Calculation of the eigenvalues of a symmetric tridiagonal matrix by the method
+//   of bisection. 1967.
 // Departures: Lanczos runs on D^-1/2 A D^-1/2 without making its vectors orthogonal again: copies of an
 //   eigenvalue do not move the largest one.
 //
 // Why the preconditioner is symmetric positive definite. It is q(D^-1 A) D^-1 = D^-1/2 q(S) D^-1/2 with
-// S = D^-1/2 A D^-1/2, on the rows that are not held, and q is one polynomial of degree m - 1, the same for every
-// r: so it is symmetric, and definite if q > 0 on the spectrum of S. With lo and hi the ends of the interval,
-// c their mean and d half of their distance, l q(l) = 1 - T_m((c - l) / d) / T_m(c / d). Within [lo, hi] the
-// upper T_m is at most 1 in magnitude and the lower one above 1; in (0, lo) the upper one is smaller than the
-// lower one because T_m grows beyond 1. So l q(l) > 0 up to hi. Above hi: with odd m the upper T_m is negative,
-// with even m it stays the smaller one up to hi + lo. An upper end that is too low by less than lo does no harm.
-// Coefficients are rounded to float: the margin, 1 - 1 / T_m(c / d), is far above that at spreads up to 10^4.
+// S = D^-1/2 A D^-1/2, on the rows that are not held, and q is one polynomial of degree m - 1, the same for
+// every r: so it is symmetric, and definite if q > 0 on the spectrum of S. With lo and hi the ends of the
+// interval, c their mean and d half of their distance, l q(l) = 1 - T_m((c - l) / d) / T_m(c / d). Within
+// [lo, hi] the upper T_m is at most 1 in magnitude and the lower one above 1; in (0, lo) the upper one is
+// smaller than the lower one because T_m grows beyond 1. So l q(l) > 0 up to hi. Above hi: with odd m the
+// upper T_m is negative, with even m it stays the smaller one up to hi + lo. An upper end that is too low by
+// less than lo does no harm. Coefficients are rounded to float: the margin, 1 - 1 / T_m(c / d), is far above
+// that at spreads up to 10^4.
 
 #include "taut/linear/preconditioner.hpp"
 
@@ -155,18 +156,20 @@ std::string_view variant_of(int step, bool last)
 Interval chebyshev_interval(const SparseMatrix& a, std::span<const double> inverse_diagonal, double spread)
 {
     if (a.rows != a.columns || inverse_diagonal.size() != a.rows)
-        throw Error(ErrorCode::bad_input, "an interval of eigenvalues needs a square matrix and one value a row, "
-                                          "but there are " + std::to_string(a.rows) + " rows, " +
-                                              std::to_string(a.columns) + " columns and " +
-                                              std::to_string(inverse_diagonal.size()) + " values");
+        throw Error(ErrorCode::bad_input,
+                    "an interval of eigenvalues needs a square matrix and one value a row, but there are " +
+                        std::to_string(a.rows) + " rows, " + std::to_string(a.columns) + " columns and " +
+                        std::to_string(inverse_diagonal.size()) + " values");
     if (!(spread > 1) || !std::isfinite(spread))
-        throw Error(ErrorCode::bad_input, "the spread of the interval of a Chebyshev polynomial must be above 1, "
-                                          "not " + shown(spread));
+        throw Error(ErrorCode::bad_input,
+                    "the spread of the interval of a Chebyshev polynomial must be above 1, not " +
+                        shown(spread));
     for (std::size_t i = 0; i < inverse_diagonal.size(); ++i)
         if (!(inverse_diagonal[i] >= 0))
             throw Error(ErrorCode::bad_input, "the inverse of the diagonal is " + shown(inverse_diagonal[i]) +
                                                   " in row " + std::to_string(i) +
-                                                  " (counted from 0): it must be positive, or 0 in a held row");
+                                                  " (counted from 0): it must be positive, or 0 where "
+                                                  "a row is held");
     const double bound = gershgorin(a, inverse_diagonal);
     double highest = a.rows > 0 ? std::min(kLanczosFactor * lanczos(a, inverse_diagonal), bound) : 0;
     if (!(highest > 0))
@@ -182,15 +185,16 @@ Chebyshev::Chebyshev(std::shared_ptr<Device> device, std::shared_ptr<const Opera
       degree_(degree)
 {
     if (degree < 1 || degree > kMostDegree)
-        throw Error(ErrorCode::bad_input, "the degree of a Chebyshev polynomial must be 1 to 16, not " +
-                                              std::to_string(degree));
+        throw Error(ErrorCode::bad_input,
+                    "the degree of a Chebyshev polynomial must be 1 to 16, not " + std::to_string(degree));
     if (!(interval.lowest > 0 && interval.highest > interval.lowest && std::isfinite(interval.highest)))
-        throw Error(ErrorCode::bad_input, "a Chebyshev polynomial needs an interval 0 < lowest < highest, not [" +
-                                              shown(interval.lowest) + ", " + shown(interval.highest) + "]");
+        throw Error(ErrorCode::bad_input,
+                    "a Chebyshev polynomial needs an interval 0 < lowest < highest, not [" +
+                        shown(interval.lowest) + ", " + shown(interval.highest) + "]");
     const std::uint64_t bytes = std::uint64_t{operator_->rows()} * real_bytes(operator_->precision());
     if (!inverse_ || inverse_->bytes() < bytes)
-        throw Error(ErrorCode::bad_input, "the inverse of the diagonal needs one value a row: " +
-                                              std::to_string(bytes) + " bytes");
+        throw Error(ErrorCode::bad_input,
+                    "the inverse of the diagonal needs one value a row: " + std::to_string(bytes) + " bytes");
     if (degree > 1)
     {
         other_ = device->make_buffer(bytes, "chebyshev z");
@@ -231,8 +235,8 @@ void Chebyshev::record(Recorder& recorder, const Gate& gate, Operator::Binding r
         const bool last = step + 1 == degree_ && partials.buffer;
         if (last)
             bindings.push_back(partials);
-        const kernels::chebyshev::Params params{grid.count, grid.chunk, gate.groups, static_cast<float>(momentum),
-                                                static_cast<float>(gain)};
+        const kernels::chebyshev::Params params{grid.count, grid.chunk, gate.groups,
+                                                static_cast<float>(momentum), static_cast<float>(gain)};
         launch(recorder, gate, kernels::chebyshev::info(variant_of(step, last), operator_->precision()),
                std::move(bindings), params, kLabel);
     }

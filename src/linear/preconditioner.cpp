@@ -1,5 +1,6 @@
 // Based on:
-//   Broeker, Grote. Sparse approximate inverse smoothers for geometric and algebraic multigrid. 2002. (SPAI-0)
+//   Broeker, Grote. Sparse approximate inverse smoothers for geometric and algebraic multigrid. 2002.
+//   (SPAI-0)
 //   Higham. Accuracy and Stability of Numerical Algorithms, 2nd ed. 2002, 10.1. (Cholesky of a scaled matrix)
 // Departures: rows and columns of held unknowns are left out of every sum, as if the system were written for
 //   the others only; a block that is nearly singular for the rounding it will meet gets a small shift.
@@ -28,8 +29,9 @@ std::vector<char> marks(const SparseMatrix& a, std::span<const std::uint32_t> he
     for (const std::uint32_t row : held)
     {
         if (row >= rows)
-            throw Error(ErrorCode::bad_input, "held row " + std::to_string(row) + " is outside of a matrix of " +
-                                                  std::to_string(rows) + " rows (counted from 0)");
+            throw Error(ErrorCode::bad_input, "held row " + std::to_string(row) +
+                                                  " is outside of a matrix of " + std::to_string(rows) +
+                                                  " rows (counted from 0)");
         is_held[row] = 1;
     }
     return is_held;
@@ -56,26 +58,23 @@ Row look_at(const SparseMatrix& a, std::uint32_t row, const std::vector<char>& i
 }
 
 /// What 1 / d may be: a smaller d would give infinity, which no later scaling could bring back.
-double inverse_of(double d)
-{
-    return std::min(1 / d, std::numeric_limits<double>::max());
-}
+double inverse_of(double d) { return std::min(1 / d, std::numeric_limits<double>::max()); }
 
 void refuse_diagonal(std::uint32_t row, double diagonal)
 {
     if (diagonal > 0 && std::isfinite(diagonal))
         return;
     throw Error(ErrorCode::bad_input, "row " + std::to_string(row) + " has " + shown(diagonal) +
-                                          " on its diagonal (counted from 0): a preconditioner that divides by "
-                                          "the diagonal needs it positive");
+                                          " on its diagonal (counted from 0): a preconditioner that "
+                                          "divides by the diagonal needs it positive");
 }
 
 /// A symmetric 3 x 3 block: xx xy xz yy yz zz.
 using Block = std::array<double, 6>;
 constexpr std::array kDiagonal = {0, 3, 5};
 
-/// The block on the diagonal at rows 3 * at and on, with 1 on the diagonal of held and of zero rows. The mean of
-/// mirrored entries is taken, since only a symmetric preconditioner serves.
+/// The block on the diagonal at rows 3 * at and on, with 1 on the diagonal of held and of zero rows. The mean
+/// of mirrored entries is taken, since only a symmetric preconditioner serves.
 Block block_of(const SparseMatrix& a, std::uint32_t at, const std::vector<char>& is_held)
 {
     static constexpr int kPlace[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
@@ -133,7 +132,8 @@ Block inverse_of(const Block& block, double rounding, std::uint32_t at)
         throw Error(ErrorCode::bad_input,
                     "the 3 x 3 block on the diagonal at block row " + std::to_string(at) + " (rows " +
                         std::to_string(3 * at) + " to " + std::to_string(3 * at + 2) +
-                        ", counted from 0) is not positive definite: block_jacobi cannot invert it, take jacobi");
+                        ", counted from 0) is not positive definite: block_jacobi cannot invert it, "
+                        "take jacobi");
     // The smallest eigenvalue is at least 4/9 of the determinant, because the three add up to 3. Below some
     // tens of rounding units the rounded inverse, or r.z with it, might come out negative.
     double diagonal = 1;

@@ -19,20 +19,21 @@ enum class Preconditioner : std::uint8_t
     spai0,        ///< diagonal m that minimises |I - diag(m) A|_F: a_ii / sum_j a_ij^2
 };
 std::string_view to_string(Preconditioner);
-/// Throws Error{bad_input} listing the words ("none", "jacobi", "block_jacobi", "chebyshev", "multigrid", "spai0").
+/// Throws Error{bad_input} listing the words ("none", "jacobi", "block_jacobi", "chebyshev", "multigrid",
+/// "spai0").
 Preconditioner preconditioner_from(std::string_view word);
 
-// Each of these works on the system of the rows that are not held. Held rows out of range, and a diagonal that
-// is not finite and positive (but in a held or a zero row), are Error{bad_input} that names the row.
+// Each of these works on the system of the rows that are not held. Held rows out of range, and a diagonal
+// that is not finite and positive (but in a held or a zero row), are Error{bad_input} that names the row.
 
 /// One value a row; 0 for rows of `held`, whose entry of x then never changes. A zero row gets 1.
 std::vector<double> jacobi_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
 /// Broeker, Grote. Sparse approximate inverse smoothers for geometric and algebraic multigrid. 2002 (SPAI-0).
 std::vector<double> spai0_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {});
-/// Six values a block row: xx xy xz yy yz zz; a held row's are 0 and the others' block is inverted without it.
-/// `rounding` is the rounding unit of the reals that will hold them: a block too near to singular for it (scaled
-/// to a unit diagonal, an eigenvalue below some 64 units) is shifted that far, so that the rounded inverse is
-/// positive definite too.
+/// Six values a block row: xx xy xz yy yz zz; a held row's are 0 and the others' block is inverted without
+/// it. `rounding` is the rounding unit of the reals that will hold them: a block too near to singular for it
+/// (scaled to a unit diagonal, an eigenvalue below some 64 units) is shifted that far, so that the rounded
+/// inverse is positive definite too.
 /// Throws Error{bad_input} when rows is no multiple of 3 or a block is not positive definite, naming it.
 std::vector<double> block_jacobi_inverse(const SparseMatrix&, std::span<const std::uint32_t> held = {},
                                          double rounding = 0x1p-53);
@@ -45,10 +46,11 @@ struct Interval
 };
 /// Upper end: 15 steps of Lanczos on the host from a fixed start, times 1.05, at most Gershgorin's bound.
 /// Lower end: the upper one / `spread`.
-Interval chebyshev_interval(const SparseMatrix&, std::span<const double> inverse_diagonal, double spread = 30);
+Interval chebyshev_interval(const SparseMatrix&, std::span<const double> inverse_diagonal,
+                            double spread = 30);
 
-/// A preconditioner whose z = M^-1 r takes passes of its own and is stored. A caller's own one derives from this; it
-/// must be symmetric, positive definite, and the same linear map every time.
+/// A preconditioner whose z = M^-1 r takes passes of its own and is stored. A caller's own one derives from
+/// this; it must be symmetric, positive definite, and the same linear map every time.
 class StoredPreconditioner
 {
 public:
@@ -66,10 +68,11 @@ public:
 class Chebyshev : public StoredPreconditioner
 {
 public:
-    /// `inverse` holds rows() reals, 1 / d_ii, and 0 in held rows, where z is then 0. degree in 1..16. With an
-    /// interval whose `highest` is above the eigenvalues of D^-1 A the preconditioner is symmetric positive
-    /// definite (chebyshev.cpp says why). Throws Error{bad_input}.
-    Chebyshev(std::shared_ptr<Device>, std::shared_ptr<const Operator>, BufferPtr inverse, Interval, int degree);
+    /// `inverse` holds rows() reals, 1 / d_ii, and 0 in held rows, where z is then 0. degree in 1..16. With
+    /// an interval whose `highest` is above the eigenvalues of D^-1 A the preconditioner is symmetric
+    /// positive definite (chebyshev.cpp says why). Throws Error{bad_input}.
+    Chebyshev(std::shared_ptr<Device>, std::shared_ptr<const Operator>, BufferPtr inverse, Interval,
+              int degree);
 
     void record(Recorder&, const Gate&, Operator::Binding r, Operator::Binding z,
                 Operator::Binding partials) const override;

@@ -39,7 +39,7 @@ Input<Real> make_input(const Dealt& dealt)
 
 } // namespace
 
-TEMPLATE_TEST_CASE("chebyshev makes the next iterate of the polynomial, and the last step sums r.z", "", float,
+TEMPLATE_TEST_CASE("chebyshev makes the next iterate of the polynomial; the last step sums r.z", "", float,
                    double)
 {
     using Real = TestType;
@@ -54,13 +54,15 @@ TEMPLATE_TEST_CASE("chebyshev makes the next iterate of the polynomial, and the 
         const Input<Real> in = make_input<Real>(dealt);
         Case c;
         c.precision = precision_of<Real>();
-        c.in = {{"residual", bytes_of(in.residual)}, {"inverse", bytes_of(in.inverse)},
-                {"z", bytes_of(in.z)},               {"at", bytes_of(in.at)},
-                {"product", bytes_of(in.product)},   {"partials", bytes_of(std::vector<Real>(dealt.groups, 9))}};
-        c.launches = {make_launch(kernels::chebyshev::info(variant, c.precision),
-                                  kernels::chebyshev::Params{dealt.count, dealt.chunk(), dealt.groups, momentum,
-                                                             gain},
-                                  dealt.dispatched())};
+        c.in = {{"residual", bytes_of(in.residual)},
+                {"inverse", bytes_of(in.inverse)},
+                {"z", bytes_of(in.z)},
+                {"at", bytes_of(in.at)},
+                {"product", bytes_of(in.product)},
+                {"partials", bytes_of(std::vector<Real>(dealt.groups, 9))}};
+        const kernels::chebyshev::Params params{dealt.count, dealt.chunk(), dealt.groups, momentum, gain};
+        c.launches = {
+            make_launch(kernels::chebyshev::info(variant, c.precision), params, dealt.dispatched())};
         Field& z = c.expected["z"];
         GroupSums sums(dealt);
         for (std::uint32_t i = 0; i < dealt.count; ++i)
