@@ -97,7 +97,8 @@ std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
     if (kind == Preconditioner::spai0)
         inverse = spai0_inverse(a_, options_.held);
     else if (kind == Preconditioner::block_jacobi)
-        inverse = block_jacobi_inverse(a_, options_.held);
+        inverse = block_jacobi_inverse(a_, options_.held,
+                                       precision_ == Precision::float64 ? 0x1p-53 : 0x1p-24);
     else if (kind == Preconditioner::none)
     {
         inverse.assign(a_.rows, 1.0);
