@@ -59,6 +59,9 @@ SHARED(Term, terms, PIECE);
 SHARED(Term, row_sum, TAUT_LINEAR_GROUP);
 #endif
 
+#undef AHEAD
+#define AHEAD 512u // entries
+
 #if !STREAM
 DECLARE(void add_rows(uint begin, uint end))
 #endif
@@ -121,6 +124,8 @@ APART void add_rows(uint begin, uint end)
     EACH_BEGIN(begin, end)
     uint first = row_start[i];
     uint after = row_start[i + 1u];
+    PREFETCH(values, first, after, AHEAD);
+    PREFETCH(column, first, after, AHEAD);
     if (first < after)
     {
         Term s = no_term();

@@ -157,6 +157,16 @@ private:
     std::size_t behind_; ///< the first element of the next line
 };
 
+/// Where a loop reads several streams, or short pieces of them, the processor's own guesses end with every page.
+template <typename T>
+void prefetch(const T* buffer, std::uint64_t first, std::uint64_t last)
+{
+    constexpr std::uintptr_t line = 64;
+    const auto begin = reinterpret_cast<std::uintptr_t>(buffer); // numbers: pointers past the end must not be made
+    for (std::uintptr_t at = begin + first * sizeof(T); at < begin + last * sizeof(T); at += line)
+        __builtin_prefetch(reinterpret_cast<const void*>(at));
+}
+
 inline void count_event(std::uint32_t& counter)
 {
     std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
@@ -180,6 +190,8 @@ inline void count_event(std::uint32_t& counter)
 #define COUNTERS(slot, name) std::uint32_t* __restrict name
 #define SHARED(T, name, n) T name[n]
 #define COUNT_EVENT(buffer, index) taut::native::count_event(buffer[index])
+#define PREFETCH(buffer, first, last, ahead) \
+    taut::native::prefetch(buffer, std::uint64_t(first) + (ahead), std::uint64_t(last) + (ahead))
 
 #define KERNEL(count)                                               \
     std::uint32_t element_count() const { return std::uint32_t(count); } \
