@@ -7,6 +7,7 @@
 //! variant diagonal DIAGONAL=1
 //! variant block BLOCK=1
 //! variant stored STORED=1
+//! variant stored_held STORED=1 HELD=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
@@ -27,8 +28,8 @@ WRITE(2, real, partials); // groups of each: r.z, r.r, b.b
 READ_ONE(3, CgState, before);
 WRITE(4, CgState, after);
 WRITE(5, uint, control);
-#if DIAGONAL || BLOCK
-READ(6, real, inverse); // as in cg_direction
+#if DIAGONAL || BLOCK || HELD
+READ(6, real, inverse); // as in cg_direction; with HELD only whether it is 0
 #endif
 
 SHARED(real, sum_rz, TAUT_LINEAR_GROUP);
@@ -71,11 +72,13 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
 #else
     real r = residual[i];
     real keep = real(1);
-#if DIAGONAL
+#if DIAGONAL || HELD
     real m = inverse[i];
     keep = m > real(0) ? real(1) : real(0);
     r = m > real(0) ? r : real(0);
     residual[i] = r;
+#endif
+#if DIAGONAL
     sum_rz[lane] += r * (m * r);
 #endif
     sum_rr[lane] += r * r;

@@ -7,6 +7,7 @@
 //! variant diagonal DIAGONAL=1
 //! variant block BLOCK=1
 //! variant stored STORED=1
+//! variant stored_held STORED=1 HELD=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
@@ -25,8 +26,8 @@ READ(2, real, curvatures); // one a group: p.q
 WRITE(3, real, partials);  // groups of each: r.z, r.r
 READ_ONE(4, CgState, before);
 WRITE(5, CgState, after);
-#if DIAGONAL || BLOCK
-READ(6, real, inverse); // as in cg_direction
+#if DIAGONAL || BLOCK || HELD
+READ(6, real, inverse); // as in cg_direction; with HELD only whether it is 0
 #endif
 
 SHARED(real, sum, TAUT_LINEAR_GROUP);
@@ -68,6 +69,9 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     real m = inverse[i];
     r = m > real(0) ? r : real(0);
     sum_rz[lane] += r * (m * r);
+#endif
+#if HELD
+    r = inverse[i] > real(0) ? r : real(0);
 #endif
     residual[i] = r;
     sum[lane] += r * r;

@@ -27,13 +27,16 @@ bool is_stored(Preconditioner kind)
     return kind == Preconditioner::chebyshev || kind == Preconditioner::multigrid;
 }
 
-std::string_view variant_of(Preconditioner kind)
+/// `masked`: z is stored, and an inverse of 0 marks the held rows.
+std::string_view variant_of(Preconditioner kind, bool masked = false)
 {
     if (is_diagonal(kind))
         return "diagonal";
     if (kind == Preconditioner::block_jacobi)
         return "block";
-    return is_stored(kind) ? "stored" : "";
+    if (is_stored(kind))
+        return masked ? "stored_held" : "stored";
+    return "";
 }
 
 std::uint32_t word_bytes(std::uint32_t word)
@@ -101,7 +104,8 @@ static Grid grid_of(const Operator& op, Preconditioner kind, std::uint32_t group
 
 void ConjugateGradient::record_restart(Recorder& recorder, const Gate& gate, bool begin)
 {
-    const auto& kernel = kernels::cg_restart::info(variant_of(preconditioning_.kind), precision_);
+    const auto& kernel = kernels::cg_restart::info(
+        variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_);
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
     std::vector<Recorder::Binding> bindings = {r_, begin ? b_ : r_, partials_, begin ? settings_ : decided_,
                                                measured_, control_};
@@ -153,7 +157,7 @@ void ConjugateGradient::record_direction(Recorder& recorder, bool last)
     const bool stored = is_stored(preconditioning_.kind);
     std::vector<Recorder::Binding> bindings = {stored ? z_ : r_, p_, x_, partials_, measured_, decided_,
                                                control_};
-    if (preconditioning_.inverse)
+    if (preconditioning_.inverse && !stored)
         bindings.push_back(preconditioning_.inverse);
     launch(recorder, gate, kernels::cg_direction::info(variant_of(preconditioning_.kind), precision_),
            std::move(bindings), kernels::cg_direction::Params{grid.count, grid.chunk, groups_, kHistory, last ? 1u : 0u},
@@ -175,7 +179,8 @@ void ConjugateGradient::record_iteration(Recorder& recorder)
     std::vector<Recorder::Binding> bindings = {r_, q_, curvatures_, partials_, decided_, measured_};
     if (preconditioning_.inverse)
         bindings.push_back(preconditioning_.inverse);
-    launch(recorder, gate, kernels::cg_step::info(variant_of(preconditioning_.kind), precision_), std::move(bindings),
+    const std::string_view variant = variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr);
+    launch(recorder, gate, kernels::cg_step::info(variant, precision_), std::move(bindings),
            kernels::cg_step::Params{grid.count, grid.chunk, groups_}, kLabel);
     record_preconditioner(recorder, gate);
 }

@@ -24,7 +24,7 @@ struct CgSettings
 struct Preconditioning
 {
     Preconditioner kind = Preconditioner::none;
-    BufferPtr inverse; ///< jacobi, spai0, block_jacobi
+    BufferPtr inverse; ///< jacobi, spai0, block_jacobi; of a stored one only where rows are held: 0 there
     std::shared_ptr<const StoredPreconditioner> stored; ///< chebyshev, multigrid, or the caller's own
 };
 

@@ -49,7 +49,7 @@ struct Preconditioned
         : variant(std::move(name)),
           rows(variant == "block" ? 3 * units : units)
     {
-        if (variant == "diagonal")
+        if (variant == "diagonal" || variant == "stored_held")
             inverse = random_reals<Real>(random, rows, 0.1, 2);
         else if (variant == "block")
             for (std::uint32_t i = 0; i < units; ++i)
@@ -95,7 +95,7 @@ private:
     void hold(std::uint32_t row)
     {
         static constexpr std::uint32_t kTouched[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-        if (variant == "diagonal")
+        if (variant != "block")
             inverse[row] = 0;
         else
             for (const std::uint32_t k : kTouched[row % 3])

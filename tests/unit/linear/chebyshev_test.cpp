@@ -1,3 +1,4 @@
+#include "taut/linear/cg.hpp"
 #include "taut/linear/device_matrix.hpp"
 #include "taut/linear/preconditioner.hpp"
 
@@ -341,4 +342,36 @@ TEST_CASE("a closed gate leaves z and the partial sums alone", "[linear][chebysh
     const Applied open = bench.apply(r, true);
     CHECK(open.z != closed.z);
     CHECK(bench.apply(random_vector(a.rows, 6), false).z == open.z);
+}
+
+TEST_CASE("conjugate gradients with a polynomial leave held rows out of the residual", "[linear][chebyshev]")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    CAPTURE(selector);
+    const auto device = test_device(selector);
+    const SparseMatrix a = poisson2d(12);
+    const std::vector<std::uint32_t> held = {5, 70};
+    const std::vector<double> inverse = jacobi_inverse(a, held);
+    const auto matrix = DeviceMatrix::upload(device, a, {Format::csr, Precision::float64, false, 0});
+    const BufferPtr buffer = upload<double>(*device, inverse);
+    Preconditioning with;
+    with.kind = Preconditioner::chebyshev;
+    with.inverse = buffer;
+    with.stored = std::make_shared<Chebyshev>(device, matrix, buffer, chebyshev_interval(a, inverse), 4);
+    ConjugateGradient cg(device, matrix, with, false);
+    cg.set({.tolerance = 1e-10, .iteration_limit = 60});
+    std::vector<double> b = random_vector(a.rows, 8), x(a.rows, 0);
+    x[5] = 3; // so the residual of these rows never is zero
+    x[70] = -2;
+    device->write<double>(cg.b(), b);
+    device->write<double>(cg.x(), x);
+    Recorder recorder(device);
+    cg.record_begin(recorder);
+    cg.record_iterations(recorder, 60);
+    cg.record_end(recorder);
+    recorder.finish()->replay();
+    CHECK(cg.outcome().status == Status::converged);
+    const std::vector<double> solution = device->read<double>(cg.x(), a.rows);
+    CHECK((solution[5] == 3 && solution[70] == -2));
+    CHECK(relative_residual(a, solution, b, held) <= 1e-10);
 }
