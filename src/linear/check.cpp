@@ -13,10 +13,7 @@ namespace {
 
 constexpr const char* kCounted = " (rows and columns are counted from 0)";
 
-[[noreturn]] void refuse(const std::string& sentence)
-{
-    throw Error(ErrorCode::bad_input, sentence);
-}
+[[noreturn]] void refuse(const std::string& sentence) { throw Error(ErrorCode::bad_input, sentence); }
 
 std::string place(std::uint32_t row, std::uint32_t column)
 {
@@ -35,8 +32,8 @@ void check_sizes(const SparseMatrix& a, std::span<const double> b, std::span<con
         refuse("the matrix is " + std::to_string(a.rows) + " x " + std::to_string(a.columns) +
                ": a system to solve has as many rows as columns");
     if (b.size() != a.rows)
-        refuse("b has " + std::to_string(b.size()) + " entries, but the matrix has " + std::to_string(a.rows) +
-               " rows: they must be equal");
+        refuse("b has " + std::to_string(b.size()) + " entries, but the matrix has " +
+               std::to_string(a.rows) + " rows: they must be equal");
     if (!x0.empty() && x0.size() != a.rows)
         refuse("x0 has " + std::to_string(x0.size()) + " entries, but the matrix has " +
                std::to_string(a.columns) + " columns: give as many, or none to start at zero");
@@ -90,12 +87,13 @@ void check_zero_diagonal(std::uint32_t i, const Row& row, double b)
                " while row " + std::to_string(i) + " has other entries" + kCounted +
                ": the diagonal of a positive definite matrix is positive");
     if (b != 0)
-        refuse("row " + std::to_string(i) + " of the matrix is zero, but b(" + std::to_string(i) + ") = " +
-               shown(b) + " is not" + kCounted + ": no x solves that; b must be 0 there");
+        refuse("row " + std::to_string(i) + " of the matrix is zero, but b(" + std::to_string(i) +
+               ") = " + shown(b) + " is not" + kCounted + ": no x solves that; b must be 0 there");
 }
 
 /// sqrt(a_ii), the scale by which a difference in row i is judged; 0 for rows that are zero.
-std::vector<double> check_diagonal(const SparseMatrix& a, std::span<const double> b, const std::vector<bool>& held)
+std::vector<double> check_diagonal(const SparseMatrix& a, std::span<const double> b,
+                                   const std::vector<bool>& held)
 {
     std::vector<double> scale(a.rows);
     std::uint32_t negative = 0, first = 0;
@@ -128,7 +126,10 @@ class SymmetryCheck
 {
 public:
     SymmetryCheck(const SparseMatrix& a, const std::vector<double>& scale, const std::vector<bool>& held)
-        : a_(a), scale_(scale), held_(held), cursor_(a.row_start.begin(), a.row_start.end() - 1)
+        : a_(a),
+          scale_(scale),
+          held_(held),
+          cursor_(a.row_start.begin(), a.row_start.end() - 1)
     {
         for (std::uint32_t i = 0; i < a.rows; ++i)
         {
@@ -211,7 +212,8 @@ void check_consistency(const SparseMatrix& a, std::span<const double> b, double 
     const double share = constant_share(b);
     if (share <= limit || !maps_constants_to_zero(a))
         return;
-    refuse("every row of the matrix sums to zero, so it maps constants to zero, but b is not orthogonal to them: "
+    refuse("every row of the matrix sums to zero, so it maps constants to zero, but b is not orthogonal to "
+           "them: "
            "|1.b| / (|1| |b|) = " +
            shown(share, 3) + " where at most " + shown(limit, 3) +
            " passes as rounding; no x solves that: take the mean out of b, or project the null space of "

@@ -9,10 +9,11 @@ namespace taut::linear {
 
 struct CheckOptions
 {
-    double asymmetry = 1e-6; ///< largest |a_ij - a_ji| / sqrt(|a_ii a_jj|) that counts as rounding
-    double consistency = 1e-10; ///< largest |1.b| / (|1| |b|) of a system that A maps constants to zero
+    double asymmetry = 1e-6;        ///< largest |a_ij - a_ji| / sqrt(|a_ii a_jj|) that counts as rounding
+    double consistency = 1e-10;     ///< largest |1.b| / (|1| |b|) of a system that A maps constants to zero
     bool project_constants = false; ///< the caller takes the constants out of b
-    std::span<const std::uint32_t> held = {}; ///< rows that are kept at their start: their diagonal may be anything
+    /// Rows that are kept at their start: their diagonal may be anything.
+    std::span<const std::uint32_t> held = {};
 };
 
 /// Throws Error{bad_input} that names row and column, counted from 0, and values for: a matrix that is not
@@ -23,8 +24,9 @@ struct CheckOptions
 void check_system(const SparseMatrix&, std::span<const double> b, std::span<const double> x0,
                   const CheckOptions&);
 
-/// Constants are in the null space: |sum_j a_ij| <= 1e-12 sum_j |a_ij| in every row. Judged row by row, so that a
-/// small row that holds the others in place is not lost beside large ones. False for a matrix of no rows.
+/// Constants are in the null space: |sum_j a_ij| <= 1e-12 sum_j |a_ij| in every row. Judged row by row, so
+/// that a small row that holds the others in place is not lost beside large ones. False for a matrix of no
+/// rows.
 bool maps_constants_to_zero(const SparseMatrix&);
 
 } // namespace taut::linear

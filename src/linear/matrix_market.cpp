@@ -18,7 +18,8 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t(1) << 36; ///< of a file th
 void append(std::string& text, double value)
 {
     char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16).ptr;
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16).ptr;
     text.append(digits, end);
 }
 
@@ -38,9 +39,10 @@ void refuse_non_finite(std::span<const double> values, const std::string& path)
 {
     for (std::size_t k = 0; k < values.size(); ++k)
         if (!std::isfinite(values[k]))
-            throw Error(ErrorCode::bad_input, path + ": not written: value " + std::to_string(k) +
-                                                  " (counted from 0) is not finite, which a Matrix Market file "
-                                                  "cannot hold");
+            throw Error(ErrorCode::bad_input,
+                        path + ": not written: value " + std::to_string(k) +
+                            " (counted from 0) is not finite, which a Matrix Market file "
+                            "cannot hold");
 }
 
 } // namespace
@@ -81,7 +83,8 @@ void write_matrix_market(const std::string& path, const SparseMatrix& a, std::st
 {
     refuse_non_finite(a.value, path);
     std::string text = head("%%MatrixMarket matrix coordinate real general", comment);
-    text += std::to_string(a.rows) + ' ' + std::to_string(a.columns) + ' ' + std::to_string(a.nonzeros()) + '\n';
+    text +=
+        std::to_string(a.rows) + ' ' + std::to_string(a.columns) + ' ' + std::to_string(a.nonzeros()) + '\n';
     for (std::uint32_t i = 0; i < a.rows; ++i)
         for (std::uint32_t k = a.row_start[i]; k < a.row_start[i + 1]; ++k)
         {

@@ -18,14 +18,14 @@ struct MatrixFile
 };
 
 /// Symmetric files are expanded; pattern entries are 1; zeros of an array are left out. `notes` count in the
-/// expanded matrix. Comments and blank lines may stand anywhere below the banner. Values below the range of double
-/// are 0. Nothing is allocated for counts that the file is too short for.
-/// Throws Error{io} for a file that cannot be read and
-/// Error{bad_input}, naming file and line, for everything else: banner, field or symmetry that is not
-/// supported (complex and hermitian are refused in words), counts that lie, indices out of range (they count
-/// from 1), entries above the diagonal of a symmetric file or on that of a skew-symmetric one, numbers that do
-/// not parse or are not finite, text behind an entry or behind the last one, and matrices of which nearly all
-/// rows would be empty. Error{limit} where the expanded matrix has 2^32 - 1 entries or more.
+/// expanded matrix. Comments and blank lines may stand anywhere below the banner. Values below the range of
+/// double are 0. Nothing is allocated for counts that the file is too short for. Throws Error{io} for a file
+/// that cannot be read and Error{bad_input}, naming file and line, for everything else: banner, field or
+/// symmetry that is not supported (complex and hermitian are refused in words), counts that lie, indices out
+/// of range (they count from 1), entries above the diagonal of a symmetric file or on that of a
+/// skew-symmetric one, numbers that do not parse or are not finite, text behind an entry or behind the last
+/// one, and matrices of which nearly all rows would be empty. Error{limit} where the expanded matrix has
+/// 2^32 - 1 entries or more.
 MatrixFile read_matrix_market(const std::string& path);
 /// The same from text; `name` stands for the file in messages.
 MatrixFile parse_matrix_market(std::string_view text, const std::string& name);

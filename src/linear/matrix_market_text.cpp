@@ -17,8 +17,18 @@ namespace {
 using scene_file::quoted;
 using scene_file::Words;
 
-enum class Field : std::uint8_t { real, integer, pattern };
-enum class Symmetry : std::uint8_t { general, symmetric, skew };
+enum class Field : std::uint8_t
+{
+    real,
+    integer,
+    pattern
+};
+enum class Symmetry : std::uint8_t
+{
+    general,
+    symmetric,
+    skew
+};
 
 struct Banner
 {
@@ -34,8 +44,8 @@ struct Sizes
 };
 
 constexpr std::uint64_t kMostRows = std::numeric_limits<std::uint32_t>::max() - 1ull;
-/// A matrix with more rows or columns than this must have an entry for one in kRowsPerEntry of them: a short text
-/// asks for little memory.
+/// A matrix with more rows or columns than this must have an entry for one in kRowsPerEntry of them: a short
+/// text asks for little memory.
 constexpr std::uint64_t kFreeRows = 1 << 22;
 constexpr std::uint64_t kRowsPerEntry = 16;
 
@@ -154,7 +164,8 @@ private:
         if (symmetry == "skew-symmetric")
             return Symmetry::skew;
         if (symmetry != "general")
-            words_.fail("the symmetry is " + quoted(word) + "; it must be general, symmetric or skew-symmetric");
+            words_.fail("the symmetry is " + quoted(word) +
+                        "; it must be general, symmetric or skew-symmetric");
         return Symmetry::general;
     }
 
@@ -199,11 +210,13 @@ private:
     /// Before any memory is asked for.
     void refuse_lies()
     {
-        const std::uint64_t shortest = banner_.array ? 2 : banner_.field == Field::pattern ? 4 : 6; // "1 1 1\n"
+        const std::uint64_t shortest = banner_.array                     ? 2
+                                       : banner_.field == Field::pattern ? 4
+                                                                         : 6; // "1 1 1\n"
         if (sizes_.entries > (words_.left() + 1) / shortest) // the last line end may be missing
-            words_.fail("the size line promises " + std::to_string(sizes_.entries) + " entries, of at least " +
-                        std::to_string(shortest) + " bytes each, but only " + std::to_string(words_.left()) +
-                        " bytes follow");
+            words_.fail("the size line promises " + std::to_string(sizes_.entries) +
+                        " entries, of at least " + std::to_string(shortest) + " bytes each, but only " +
+                        std::to_string(words_.left()) + " bytes follow");
         const std::uint64_t size = std::max(sizes_.rows, sizes_.columns);
         if (size > kFreeRows && size / kRowsPerEntry > sizes_.entries)
             words_.fail("the size line promises a matrix of " + std::to_string(sizes_.rows) + " x " +
@@ -243,8 +256,9 @@ private:
             std::int64_t value = 0;
             const auto [end, code] = std::from_chars(digits.data(), last, value);
             if (code != std::errc() || end != last)
-                words_.fail("the value is " + quoted(word) + "; in a file of integers it must be a whole number "
-                                                             "of at most 18 digits");
+                words_.fail("the value is " + quoted(word) +
+                            "; in a file of integers it must be a whole number "
+                            "of at most 18 digits");
             return double(value);
         }
         double value = 0;
@@ -283,11 +297,13 @@ private:
             const std::uint32_t row = read_index("the row", sizes_.rows);
             const std::uint32_t column = read_index("the column", sizes_.columns);
             if (banner_.symmetry != Symmetry::general && column > row)
-                words_.fail("entry (" + std::to_string(row + 1) + ", " + std::to_string(column + 1) +
-                            ") lies above the diagonal; a symmetric file stores the lower triangle, row >= column");
+                words_.fail(
+                    "entry (" + std::to_string(row + 1) + ", " + std::to_string(column + 1) +
+                    ") lies above the diagonal; a symmetric file stores the lower triangle, row >= column");
             if (banner_.symmetry == Symmetry::skew && column == row)
-                words_.fail("entry (" + std::to_string(row + 1) + ", " + std::to_string(row + 1) +
-                            ") lies on the diagonal, which is zero in a skew-symmetric matrix and not stored");
+                words_.fail(
+                    "entry (" + std::to_string(row + 1) + ", " + std::to_string(row + 1) +
+                    ") lies on the diagonal, which is zero in a skew-symmetric matrix and not stored");
             const double value = banner_.field == Field::pattern ? 1.0 : read_value();
             end_line("the entry");
             put(row, column, value);

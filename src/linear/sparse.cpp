@@ -1,4 +1,5 @@
-// Based on: Gustavson. Two fast algorithms for sparse matrices: multiplication and permuted transposition. 1978
+// Based on: Gustavson. Two fast algorithms for sparse matrices: multiplication and permuted transposition.
+// 1978
 //           (sorting triplets by two counting passes).
 // Departures: the pass over columns is left out where the triplets come sorted by row and column already.
 
@@ -28,11 +29,10 @@ void refuse_out_of_range(std::uint32_t rows, std::uint32_t columns, std::span<co
         const Triplet& t = triplets[k];
         if (t.row < rows && t.column < columns)
             continue;
-        throw Error(ErrorCode::bad_input, "entry " + std::to_string(k) + " lies at row " +
-                                              std::to_string(t.row) + ", column " + std::to_string(t.column) +
-                                              ", outside of a matrix of " + std::to_string(rows) + " x " +
-                                              std::to_string(columns) +
-                                              " (entries, rows and columns are counted from 0)");
+        throw Error(ErrorCode::bad_input,
+                    "entry " + std::to_string(k) + " lies at row " + std::to_string(t.row) + ", column " +
+                        std::to_string(t.column) + ", outside of a matrix of " + std::to_string(rows) +
+                        " x " + std::to_string(columns) + " (entries, rows and columns are counted from 0)");
     }
 }
 
@@ -62,7 +62,8 @@ std::vector<std::uint32_t> counting_sort(const std::vector<std::uint32_t>& order
     return sorted;
 }
 
-std::vector<std::uint32_t> order_of(std::uint32_t rows, std::uint32_t columns, std::span<const Triplet> triplets)
+std::vector<std::uint32_t> order_of(std::uint32_t rows, std::uint32_t columns,
+                                    std::span<const Triplet> triplets)
 {
     std::vector<std::uint32_t> order(triplets.size());
     for (std::size_t k = 0; k < order.size(); ++k)
@@ -147,10 +148,10 @@ SparseMatrix from_triplets(std::uint32_t rows, std::uint32_t columns, std::span<
 SparseMatrix from_dense(std::uint32_t rows, std::uint32_t columns, std::span<const double> values)
 {
     if (values.size() != std::uint64_t(rows) * columns)
-        throw Error(ErrorCode::bad_input, "a dense matrix of " + std::to_string(rows) + " x " +
-                                              std::to_string(columns) + " has " +
-                                              std::to_string(std::uint64_t(rows) * columns) +
-                                              " values, row by row, but there are " + std::to_string(values.size()));
+        throw Error(ErrorCode::bad_input,
+                    "a dense matrix of " + std::to_string(rows) + " x " + std::to_string(columns) + " has " +
+                        std::to_string(std::uint64_t(rows) * columns) +
+                        " values, row by row, but there are " + std::to_string(values.size()));
     std::uint64_t entries = 0;
     for (const double v : values)
         entries += v != 0 ? 1 : 0;
@@ -186,14 +187,8 @@ std::vector<Triplet> to_triplets(const SparseMatrix& a)
     return triplets;
 }
 
-SparseMatrix poisson3d(std::uint32_t n)
-{
-    return laplacian(n, 3);
-}
+SparseMatrix poisson3d(std::uint32_t n) { return laplacian(n, 3); }
 
-SparseMatrix poisson2d(std::uint32_t n)
-{
-    return laplacian(n, 2);
-}
+SparseMatrix poisson2d(std::uint32_t n) { return laplacian(n, 2); }
 
 } // namespace taut::linear

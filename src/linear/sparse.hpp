@@ -20,7 +20,8 @@ struct SparseMatrix
 {
     std::uint32_t rows = 0;
     std::uint32_t columns = 0;
-    std::vector<std::uint32_t> row_start = {0}; ///< rows + 1; row i owns entries row_start[i]..row_start[i+1]-1
+    /// rows + 1; row i owns entries row_start[i]..row_start[i+1]-1
+    std::vector<std::uint32_t> row_start = {0};
     std::vector<std::uint32_t> column;
     std::vector<double> value;
 
@@ -36,12 +37,13 @@ struct BuildNotes
     std::uint64_t explicit_zeros = 0; ///< stored entries of value 0; they stay
 };
 
-/// Entries of the same place are summed in the order given. Throws Error{bad_input} naming the first entry that
-/// is out of range, Error{limit} for 2^32 - 1 entries or more.
+/// Entries of the same place are summed in the order given. Throws Error{bad_input} naming the first entry
+/// that is out of range, Error{limit} for 2^32 - 1 entries or more.
 SparseMatrix from_triplets(std::uint32_t rows, std::uint32_t columns, std::span<const Triplet>,
                            BuildNotes* notes = nullptr);
 
-/// Row-major; entries that are exactly 0 are left out. Throws Error{bad_input} unless values are rows*columns.
+/// Row-major; entries that are exactly 0 are left out. Throws Error{bad_input} unless values are
+/// rows*columns.
 SparseMatrix from_dense(std::uint32_t rows, std::uint32_t columns, std::span<const double> values);
 
 /// In order of row, then column.

@@ -15,7 +15,8 @@ void refuse_size(std::size_t have, std::uint32_t want, const char* name, const c
 {
     if (have != want)
         throw Error(ErrorCode::bad_input, std::string(name) + " has " + std::to_string(have) +
-                                              " entries, but the matrix has " + std::to_string(want) + " " + what);
+                                              " entries, but the matrix has " + std::to_string(want) + " " +
+                                              what);
 }
 
 /// sum + low is the sum of all terms but for an error of second order.
@@ -68,7 +69,8 @@ ScaledNorm scaled_norm(std::span<const double> values)
         return {most, 0};
     const int exponent = std::ilogb(most);
     // 2^-exponent may itself leave the range: in two steps.
-    const double first = std::ldexp(1.0, -exponent / 2), second = std::ldexp(1.0, -exponent - (-exponent / 2));
+    const double first = std::ldexp(1.0, -exponent / 2),
+                 second = std::ldexp(1.0, -exponent - (-exponent / 2));
     double sum = 0;
     for (const double v : values)
     {
@@ -99,7 +101,8 @@ void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double
     }
 }
 
-void residual(const SparseMatrix& a, std::span<const double> x, std::span<const double> b, std::span<double> r)
+void residual(const SparseMatrix& a, std::span<const double> x, std::span<const double> b,
+              std::span<double> r)
 {
     refuse_size(x.size(), a.columns, "x", "columns");
     refuse_size(b.size(), a.rows, "b", "rows");
@@ -121,8 +124,9 @@ double relative_residual(const SparseMatrix& a, std::span<const double> x, std::
     for (const std::uint32_t i : held)
     {
         if (i >= a.rows)
-            throw Error(ErrorCode::bad_input, "held row " + std::to_string(i) + " is outside of a matrix of " +
-                                                  std::to_string(a.rows) + " rows (counted from 0)");
+            throw Error(ErrorCode::bad_input, "held row " + std::to_string(i) +
+                                                  " is outside of a matrix of " + std::to_string(a.rows) +
+                                                  " rows (counted from 0)");
         r[i] = rest[i] = 0;
     }
     const ScaledNorm top = scaled_norm(r), bottom = scaled_norm(rest);

@@ -23,7 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::bad_input || !std::string_view(error.what()).starts_with("fuzz: line "))
+        if (error.code() != ErrorCode::bad_input ||
+            !std::string_view(error.what()).starts_with("fuzz: line "))
             std::abort();
     }
     return 0; // anything else that is thrown ends the process, which libFuzzer reports

@@ -13,6 +13,8 @@ cmake --build "$folder/build" --target fuzz_matrix_market >> "$folder/build.log"
 for file in "$data"/matrices/*.mtx; do
     [ -f "$file" ] && [ "$(stat -c %s "$file")" -lt 8000 ] && cp -f "$file" "$folder/corpus/"
 done
+printf '%%%%MatrixMarket matrix array real general\n2 3\n1\n2\n3e5\n0\n-5\n6\n' > "$folder/corpus/dense"
+printf '%%%%MatrixMarket matrix coordinate real general\n1 1 2\n1 1 1e308\n1 1 1e308\n' > "$folder/corpus/overflow"
 for words in "coordinate real general" "coordinate integer symmetric" "coordinate real skew-symmetric"; do
     printf '%%%%MatrixMarket matrix %s\n%% seed\n3 3 2\n2 1 7\n3 2 -5\n' "$words" > "$folder/corpus/${words// /_}"
 done

@@ -16,7 +16,8 @@ inline void require_sound(const SparseMatrix& a)
             throw std::logic_error(promise);
     };
     require(a.row_start.size() == std::size_t(a.rows) + 1, "row_start does not have rows + 1 entries");
-    require(a.row_start.front() == 0 && a.row_start.back() == a.column.size(), "row_start does not span the entries");
+    require(a.row_start.front() == 0 && a.row_start.back() == a.column.size(),
+            "row_start does not span the entries");
     require(a.value.size() == a.column.size(), "values and columns differ in number");
     for (std::uint32_t i = 0; i < a.rows; ++i)
     {

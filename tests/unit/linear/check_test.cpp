@@ -41,7 +41,10 @@ bool contains(const std::string& text, const std::string& part)
     return false;
 }
 
-SparseMatrix matrix(std::uint32_t n, const std::vector<Triplet>& triplets) { return from_triplets(n, n, triplets); }
+SparseMatrix matrix(std::uint32_t n, const std::vector<Triplet>& triplets)
+{
+    return from_triplets(n, n, triplets);
+}
 
 std::vector<double> ones(std::size_t n) { return std::vector<double>(n, 1.0); }
 
@@ -50,7 +53,8 @@ SparseMatrix neumann(std::uint32_t n, double scale = 1)
 {
     std::vector<Triplet> t;
     for (std::uint32_t i = 0; i + 1 < n; ++i)
-        for (const auto& [row, column, value] : {Triplet{i, i, 1}, {i, i + 1, -1}, {i + 1, i, -1}, {i + 1, i + 1, 1}})
+        for (const auto& [row, column, value] :
+             {Triplet{i, i, 1}, {i, i + 1, -1}, {i + 1, i, -1}, {i + 1, i + 1, 1}})
             t.push_back({row, column, value * scale});
     return matrix(n, t);
 }
@@ -71,7 +75,8 @@ TEST_CASE("sound systems pass", "[check]")
     CHECK(refusal(matrix(0, {}), {}).empty());
     CHECK(refusal(matrix(1, {{0, 0, 1e-300}}), {1}).empty());
     CHECK(refusal(poisson2d(4), std::vector<double>(16, 0.0)).empty());
-    CHECK(refusal(matrix(2, {{0, 0, 4}, {0, 1, 1}, {1, 0, 1}, {1, 1, 4}, {0, 1, 0.5}, {1, 0, 0.5}}), ones(2)).empty());
+    CHECK(refusal(matrix(2, {{0, 0, 4}, {0, 1, 1}, {1, 0, 1}, {1, 1, 4}, {0, 1, 0.5}, {1, 0, 0.5}}), ones(2))
+              .empty());
 }
 
 TEST_CASE("sizes that do not fit are named", "[check]")
@@ -79,7 +84,8 @@ TEST_CASE("sizes that do not fit are named", "[check]")
     const SparseMatrix wide = from_triplets(3, 4, {});
     CHECK(contains(refusal(wide, ones(3)), "the matrix is 3 x 4"));
     CHECK(contains(refusal(poisson2d(2), ones(5)), "b has 5 entries, but the matrix has 4 rows"));
-    CHECK(contains(refusal(poisson2d(2), ones(4), ones(3)), "x0 has 3 entries, but the matrix has 4 columns"));
+    CHECK(
+        contains(refusal(poisson2d(2), ones(4), ones(3)), "x0 has 3 entries, but the matrix has 4 columns"));
     const std::vector<std::uint32_t> held = {4};
     CHECK(contains(refusal(poisson2d(2), ones(4), {}, {.held = held}), "held row 4"));
 }
@@ -88,7 +94,8 @@ TEST_CASE("values that are not finite are named: D12", "[check]")
 {
     const double nan = std::nan("");
     CHECK(contains(refusal(with(poisson2d(3), {{4, 7, nan}}), ones(9)), "a(4, 7) = nan is not finite"));
-    CHECK(contains(refusal(with(poisson2d(3), {{8, 8, -kInfinity}}), ones(9)), "a(8, 8) = -inf is not finite"));
+    CHECK(
+        contains(refusal(with(poisson2d(3), {{8, 8, -kInfinity}}), ones(9)), "a(8, 8) = -inf is not finite"));
     CHECK(contains(refusal(poisson2d(3), {1, 1, nan, 1, 1, 1, 1, 1, 1}), "b(2) = nan is not finite"));
     CHECK(contains(refusal(poisson2d(2), ones(4), {1, 1, 1, kInfinity}), "x0(3) = inf is not finite"));
     CHECK(contains(refusal(poisson2d(2), ones(4), {1, 1, 1, kInfinity}), "counted from 0"));
@@ -108,8 +115,10 @@ TEST_CASE("a negative or zero diagonal: D07", "[check]")
     CHECK(contains(text, "9 of 9"));
     CHECK(contains(text, "solve -A x = -b"));
     const SparseMatrix saddle = matrix(2, {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}});
-    CHECK(contains(refusal(saddle, ones(2)), "a(1, 1) is not stored, so it is 0, while row 1 has other entries"));
-    CHECK(contains(refusal(with(saddle, {{1, 1, 0}}), ones(2)), "a(1, 1) is 0 while row 1 has other entries"));
+    CHECK(contains(refusal(saddle, ones(2)),
+                   "a(1, 1) is not stored, so it is 0, while row 1 has other entries"));
+    CHECK(
+        contains(refusal(with(saddle, {{1, 1, 0}}), ones(2)), "a(1, 1) is 0 while row 1 has other entries"));
 }
 
 TEST_CASE("an indefinite matrix with a positive diagonal is left to the solve", "[check]")
@@ -188,7 +197,8 @@ TEST_CASE("an explicit zero needs no mirror", "[check]")
 
 TEST_CASE("a zero row passes where b is 0 and has no solution where it is not: D09", "[check]")
 {
-    const SparseMatrix empty = matrix(3, {{0, 0, 2}, {2, 2, 2}}), stored = with(empty, {{1, 1, 0}, {1, 0, 0}});
+    const SparseMatrix empty = matrix(3, {{0, 0, 2}, {2, 2, 2}}),
+                       stored = with(empty, {{1, 1, 0}, {1, 0, 0}});
     for (const SparseMatrix& a : {empty, stored})
     {
         CHECK(refusal(a, {1, 0, 1}).empty());

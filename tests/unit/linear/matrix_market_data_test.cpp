@@ -25,7 +25,8 @@ std::vector<std::filesystem::path> matrix_files()
 {
     const char* named = std::getenv("TAUT_DATA");
     const std::filesystem::path root =
-        named ? std::filesystem::path(named) : std::filesystem::path(TAUT_SOURCE_DIR) / ".." / "shared" / "data";
+        named ? std::filesystem::path(named)
+              : std::filesystem::path(TAUT_SOURCE_DIR) / ".." / "shared" / "data";
     std::vector<std::filesystem::path> files;
     std::error_code missing;
     for (const auto& entry : std::filesystem::directory_iterator(root / "matrices", missing))
@@ -33,7 +34,8 @@ std::vector<std::filesystem::path> matrix_files()
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     if (files.empty())
-        WARN("skipped: no matrices under " << root.string() << "; set TAUT_DATA to the folder of shared data");
+        WARN("skipped: no matrices under " << root.string()
+                                           << "; set TAUT_DATA to the folder of shared data");
     return files;
 }
 
@@ -60,7 +62,8 @@ const std::vector<std::string>& seeds()
 {
     static const std::vector<std::string> texts = {
         "%%MatrixMarket matrix coordinate real general\n% c\n3 4 4\n1 1 1.5\n3 4 -2e-3\n2 2 7\n1 3 .5\n",
-        "%%MatrixMarket matrix coordinate real symmetric\r\n3 3 4\r\n1 1 4\r\n2 2 4\r\n3 1 -1\r\n3 3 1e300\r\n",
+        "%%MatrixMarket matrix coordinate real symmetric\r\n3 3 4\r\n1 1 4\r\n2 2 4\r\n3 1 -1\r\n3 3 "
+        "1e300\r\n",
         "%%MatrixMarket matrix coordinate integer skew-symmetric\n4 4 2\n2 1 7\n4 3 -9\n",
         "%%MatrixMarket matrix coordinate pattern symmetric\n3 3 3\n1 1\n2 1\n3 3\n",
         "%%MatrixMarket matrix array real general\n2 3\n1\n2\n3e5\n4\n5\n6\n",

@@ -45,7 +45,8 @@ bool contains(const std::string& text, const std::string& part)
     return false;
 }
 
-void require_dense(const SparseMatrix& a, std::uint32_t rows, std::uint32_t columns, std::vector<double> values)
+void require_dense(const SparseMatrix& a, std::uint32_t rows, std::uint32_t columns,
+                   std::vector<double> values)
 {
     REQUIRE(a.rows == rows);
     REQUIRE(a.columns == columns);
@@ -64,9 +65,12 @@ TEST_CASE("coordinate files: general, symmetric, skew-symmetric; real, integer, 
     require_dense(s.matrix, 3, 3, {4, 0, -1, 0, 0, 0, -1, 0, 5});
     CHECK(s.stored_symmetric);
     CHECK_FALSE(parse_matrix_market(kReal + "1 1 1\n1 1 1\n", "a.mtx").stored_symmetric);
-    require_dense(read("%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n2 1 7\n"), 2, 2, {0, -7, 7, 0});
-    require_dense(read("%%MatrixMarket matrix coordinate integer general\n1 2 2\n1 1 -3\n1 2 +4\n"), 1, 2, {-3, 4});
-    require_dense(read("%%MatrixMarket matrix coordinate pattern symmetric\n2 2 2\n1 1\n2 1\n"), 2, 2, {1, 1, 1, 0});
+    require_dense(read("%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n2 1 7\n"), 2, 2,
+                  {0, -7, 7, 0});
+    require_dense(read("%%MatrixMarket matrix coordinate integer general\n1 2 2\n1 1 -3\n1 2 +4\n"), 1, 2,
+                  {-3, 4});
+    require_dense(read("%%MatrixMarket matrix coordinate pattern symmetric\n2 2 2\n1 1\n2 1\n"), 2, 2,
+                  {1, 1, 1, 0});
     require_dense(read(kReal + "0 0 0\n"), 0, 0, {});
 }
 
@@ -87,7 +91,7 @@ TEST_CASE("blanks, tabs, line ends, comments and cases that change nothing", "[m
     const SparseMatrix plain = read(kReal + "2 2 2\n1 1 1\n2 2 2\n");
     for (const std::string& text : {
              kReal + "%a comment\n\n  % another\n2 2 2\n% between\n1 1 1\n\n2 2 2\n% behind\n\n",
-             kReal + "\t2  2\t2 \n  1\t1 1  \n2 2 2",                           // no line end at the end
+             kReal + "\t2  2\t2 \n  1\t1 1  \n2 2 2", // no line end at the end
              std::string("%%matrixmarket MATRIX Coordinate REAL General\r\n2 2 2\r\n1 1 1\r\n2 2 2\r\n"),
              kReal + "2 2 2\n2 2 2\n1 1 +1\n",
              kReal + "2 2 2\n1 1 1.\n2 2 20.0E-1\n",
@@ -110,12 +114,15 @@ TEST_CASE("duplicates are summed and explicit zeros stay, both counted", "[matri
     CHECK(file.notes.duplicates == 1);
     CHECK(file.notes.first_duplicate.row == 0);
     CHECK(file.notes.explicit_zeros == 1);
-    CHECK(contains(refusal(kReal + "1 1 2\n1 1 1e308\n1 1 1e308\n"), "row 1, column 1 (counted from 1) add up"));
+    CHECK(contains(refusal(kReal + "1 1 2\n1 1 1e308\n1 1 1e308\n"),
+                   "row 1, column 1 (counted from 1) add up"));
 }
 
 TEST_CASE("banners that are not supported are refused in words", "[matrix_market]")
 {
-    const auto banner = [](const std::string& words) { return refusal("%%MatrixMarket " + words + "\n1 1 1\n1 1 1\n"); };
+    const auto banner = [](const std::string& words) {
+        return refusal("%%MatrixMarket " + words + "\n1 1 1\n1 1 1\n");
+    };
     CHECK(banner("matrix coordinate real general").empty());
     CHECK(contains(banner("matrix coordinate complex general"), "complex matrices are not supported"));
     CHECK(contains(banner("matrix array complex hermitian"), "complex matrices are not supported"));
@@ -129,9 +136,10 @@ TEST_CASE("banners that are not supported are refused in words", "[matrix_market
     CHECK(contains(banner("matrix array pattern general"), "an array of pattern has no values"));
     CHECK(contains(banner("matrix coordinate pattern skew-symmetric"), "a pattern has no signs"));
     const std::string hint = "begins with \"%%MatrixMarket";
-    for (const std::string& text : {std::string(), std::string("\n"), std::string("1 1 1\n1 1 1\n"),
-                                    std::string("%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n"),
-                                    "\xef\xbb\xbf" + kReal, std::string("\0\1\2\xff\xfe junk", 10)})
+    for (const std::string& text :
+         {std::string(), std::string("\n"), std::string("1 1 1\n1 1 1\n"),
+          std::string("%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n"), "\xef\xbb\xbf" + kReal,
+          std::string("\0\1\2\xff\xfe junk", 10)})
         CHECK(contains(refusal(text), hint));
 }
 
@@ -140,7 +148,8 @@ TEST_CASE("counts that lie are refused before memory is asked for", "[matrix_mar
     const std::string entries = "\n1 1 1\n2 2 2\n";
     CHECK(contains(refusal(kReal + "2 2 3" + entries), "only 13 bytes follow"));
     CHECK(contains(refusal(kReal + "2 2 3\n1 1 1.000000\n2 2 2\n"), "ends after 2 of the 3 entries"));
-    CHECK(contains(refusal(kReal + "2 2 1" + entries), "line 4: \"2\" stands behind the last of the 1 entries"));
+    CHECK(contains(refusal(kReal + "2 2 1" + entries),
+                   "line 4: \"2\" stands behind the last of the 1 entries"));
     CHECK(contains(refusal(kReal + "2 2 -2" + entries), "entries is \"-2\"; it must be a whole number"));
     CHECK(contains(refusal(kReal + "-2 2 2" + entries), "rows is \"-2\""));
     CHECK(contains(refusal(kReal + "2 2.0 2" + entries), "columns is \"2.0\""));
@@ -201,7 +210,8 @@ TEST_CASE("values that are no finite decimal numbers", "[matrix_market]")
     CHECK(contains(value("+-1"), "a number of one sign"));
     CHECK(contains(value(""), "the value is nothing"));
     CHECK(contains(value("1 2"), "\"2\" stands behind the entry"));
-    CHECK(contains(refusal("%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1 7\n"), "behind the entry"));
+    CHECK(contains(refusal("%%MatrixMarket matrix coordinate pattern general\n1 1 1\n1 1 7\n"),
+                   "behind the entry"));
     CHECK(contains(refusal(kArray + "1 1\n1 2\n"), "behind the entry"));
     const std::string integer = "%%MatrixMarket matrix coordinate integer general\n1 1 1\n1 1 ";
     for (const char* word : {"1.5", "1e3", "99999999999999999999", "x"})
@@ -211,7 +221,9 @@ TEST_CASE("values that are no finite decimal numbers", "[matrix_market]")
 
 TEST_CASE("numbers at the ends of the range", "[matrix_market]")
 {
-    const auto value = [](const std::string& word) { return read(kReal + "1 1 1\n1 1 " + word + "\n").value.at(0); };
+    const auto value = [](const std::string& word) {
+        return read(kReal + "1 1 1\n1 1 " + word + "\n").value.at(0);
+    };
     CHECK(value("1.7976931348623157e308") == std::numeric_limits<double>::max());
     CHECK(value("4.9406564584124654e-324") == std::numeric_limits<double>::denorm_min());
     CHECK(value("1e-310") == 1e-310);
@@ -236,7 +248,8 @@ TEST_CASE("what is written reads back, whole", "[matrix_market]")
     CHECK(again.value == a.value);
     write_vector(path, {});
     CHECK(read_vector(path).empty());
-    CHECK(std::distance(std::filesystem::directory_iterator(folder.path), {}) == 1); // nothing temporary is left
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.path), {}) ==
+          1); // nothing temporary is left
 }
 
 TEST_CASE("a vector is one column; what is not finite is not written", "[matrix_market]")
@@ -260,10 +273,12 @@ TEST_CASE("a vector is one column; what is not finite is not written", "[matrix_
     CHECK(read_vector(sparse) == std::vector<double>{0, 5, 0});
     const std::vector<double> bad = {1, std::numeric_limits<double>::quiet_NaN()};
     const std::string out = (folder.path / "out.mtx").string();
-    CHECK(contains(failure([&] { write_vector(out, bad); }, ErrorCode::bad_input), "value 1 (counted from 0)"));
+    CHECK(
+        contains(failure([&] { write_vector(out, bad); }, ErrorCode::bad_input), "value 1 (counted from 0)"));
     CHECK_FALSE(std::filesystem::exists(out));
     const std::string nowhere = (folder.path / "no" / "x.mtx").string();
     CHECK_FALSE(failure([&] { write_vector(nowhere, {}); }, ErrorCode::io).empty());
     CHECK(contains(failure([&] { read_matrix_market(nowhere); }, ErrorCode::io), "there is no such file"));
-    CHECK(contains(failure([&] { read_matrix_market(folder.path.string()); }, ErrorCode::io), "not a regular file"));
+    CHECK(contains(failure([&] { read_matrix_market(folder.path.string()); }, ErrorCode::io),
+                   "not a regular file"));
 }

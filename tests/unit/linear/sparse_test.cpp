@@ -80,7 +80,10 @@ std::string message_of(const std::function<void()>& call, ErrorCode code)
     return {};
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
 
 } // namespace
 
@@ -160,11 +163,13 @@ TEST_CASE("a product is Eigen's", "[sparse]")
     const auto x = random_vector(random, 80);
     std::vector<double> y(120, 7);
     multiply(a, x, y);
-    const Eigen::VectorXd expected = eigen_of(120, 80, triplets) * Eigen::Map<const Eigen::VectorXd>(x.data(), 80);
+    const Eigen::VectorXd expected =
+        eigen_of(120, 80, triplets) * Eigen::Map<const Eigen::VectorXd>(x.data(), 80);
     for (int i = 0; i < 120; ++i)
         CHECK(std::abs(y[std::size_t(i)] - expected[i]) < 1e-13);
     CHECK(contains(message_of([&] { multiply(a, y, y); }, ErrorCode::bad_input), "x has 120 entries"));
-    CHECK(contains(message_of([&] { multiply(a, x, std::span(y).first(7)); }, ErrorCode::bad_input), "y has 7"));
+    CHECK(contains(message_of([&] { multiply(a, x, std::span(y).first(7)); }, ErrorCode::bad_input),
+                   "y has 7"));
 }
 
 TEST_CASE("the residual is that of twice the precision", "[sparse]")
