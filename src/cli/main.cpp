@@ -22,7 +22,10 @@ int complain(const std::string& sentence, int status)
 /// Arguments to a command; kDone in `status` with an empty command after --help or --version.
 cli::Command parse(int argc, char** argv, int& status)
 {
-    CLI::App app("Simulates cloth: one set of compute kernels on Vulkan, OpenGL and the CPU.", "taut");
+    CLI::App app(
+        "Simulates cloth and solves sparse systems: one set of compute kernels on Vulkan, OpenGL and "
+        "the CPU.",
+        "taut");
     app.set_version_flag("--version", "taut " TAUT_VERSION);
     app.require_subcommand(1);
     cli::Command chosen;
@@ -30,6 +33,7 @@ cli::Command parse(int argc, char** argv, int& status)
     cli::add_plan(app, chosen);
     cli::add_cost(app, chosen);
     cli::add_check(app, chosen);
+    cli::add_solve(app, chosen);
     cli::add_devices(app, chosen);
     try
     {
@@ -66,7 +70,7 @@ int execute(const cli::Command& command)
     }
     catch (const std::bad_alloc&)
     {
-        return complain("the host has no memory left for this scene; use a smaller one.",
+        return complain("the host has no memory left for this scene or system; use a smaller one.",
                         cli::exit_status(ErrorCode::out_of_memory));
     }
     catch (const std::exception& error)

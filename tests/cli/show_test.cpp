@@ -105,7 +105,7 @@ TEST_CASE("version and help go to standard output with status 0")
     CHECK(version.out.rfind("taut ", 0) == 0);
     const Result help = folder.taut({"--help"});
     CHECK(help.status == 0);
-    for (const char* command : {"run", "plan", "cost", "check", "devices"})
+    for (const char* command : {"run", "plan", "cost", "solve", "check", "devices"})
         CHECK(help.out.find(command) != std::string::npos);
     const Result run_help = folder.taut({"run", "--help"});
     CHECK(run_help.status == 0);
