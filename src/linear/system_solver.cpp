@@ -135,7 +135,8 @@ Preconditioning SystemSolver::make_preconditioning() const
         const std::vector<double> inverse = inverse_diagonal(Preconditioner::jacobi);
         const Interval interval = chebyshev_interval(a_, jacobi_inverse(a_, options_.held));
         const BufferPtr buffer = upload(inverse, "chebyshev inverse");
-        out.stored = std::make_shared<Chebyshev>(device_, matrix_, buffer, interval, options_.chebyshev_degree);
+        out.stored =
+            std::make_shared<Chebyshev>(device_, matrix_, buffer, interval, options_.chebyshev_degree);
         if (!options_.held.empty())
             out.inverse = buffer; // its zeros keep held rows out of the residual
     }

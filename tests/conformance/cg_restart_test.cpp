@@ -60,7 +60,7 @@ TEMPLATE_TEST_CASE("cg_restart clears held rows, sums the residual and sets the 
             for (std::uint32_t g = 0; g < dealt.groups; ++g)
                 partials.add(9, 0);
         };
-        variant.starts_with("stored") ? nines() : rz.put(partials); // r.z comes from the preconditioner's own passes
+        variant.starts_with("stored") ? nines() : rz.put(partials); // else from its own passes
         rr.put(partials);
         begin == 0 ? nines() : bb.put(partials);
         look_on_every_device(c, [&](const Buffers& out) {
