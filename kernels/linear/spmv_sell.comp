@@ -64,10 +64,16 @@ APART void add_rows(uint begin, uint end)
 {
     EACH_BEGIN(begin, end)
     uint slice = uint(i) / 32u;
+    uint place = uint(i) % 32u;
+    uint first = slice_start[slice];
     uint after = slice_start[slice + 1u];
     uint row = order[i];
+    uint width = (after - first) / 32u;
+    uint part = first + place * width; // the lanes fetch the slices that come next in turn
+    PREFETCH(values, part, part + width, 256u);
+    PREFETCH(column, part, part + width, 256u);
     Term s = no_term();
-    for (uint at = slice_start[slice] + uint(i) % 32u; at < after; at += 32u)
+    for (uint at = first + place; at < after; at += 32u)
         s = add_term(s, term(at, column[at]));
     real result = row_result(row, s);
     y[row] = result;
