@@ -18,6 +18,12 @@
 //   LINE_END LINES_END                 EACH over elements that lie in lines of `length` > 0: element i is in
 //                                      line i / length, the flags say whether it is at an end of it, and
 //                                      what is the same for a whole line stands before LINE_BEGIN
+//   SLICES_BEGIN(first, end) ... slice ... PER_ROW(T, name) ...
+//   SLICE_ROWS_BEGIN ... r, lane ... SLICE_ROWS_END
+//   SLICE_STEPS_BEGIN(n) ... k, r, lane ... SLICE_STEPS_END
+//   SLICES_END                         a phase over slices of 32 rows, a row a lane, slices first..end-1 going
+//                                      round; a row's own values are PER_ROW and used as ROW(name). All rows of
+//                                      a slice make the same n steps; the CPU makes a step for all rows at once
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
@@ -134,6 +140,25 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
     bool line_last = i + 1u == (line + 1u) * taut_length;
 #define LINE_END
 #define LINES_END EACH_END
+
+#define SLICES_BEGIN(first, end)                                                                       \
+    {                                                                                                  \
+        uint lane = gl_LocalInvocationID.x;                                                            \
+        uint r = lane % 32u;                                                                           \
+        for (uint slice = uint(first) + lane / 32u; slice < uint(end); slice += gl_WorkGroupSize.x / 32u) \
+        {
+#define PER_ROW(T, name) T name
+#define ROW(name) name
+#define SLICE_ROWS_BEGIN {
+#define SLICE_ROWS_END }
+#define SLICE_STEPS_BEGIN(n)              \
+    for (uint k = 0u; k < uint(n); ++k)   \
+    {
+#define SLICE_STEPS_END }
+#define SLICES_END           \
+        }                    \
+    }                        \
+    TAUT_PHASE_BARRIER
 
 #endif
 #endif

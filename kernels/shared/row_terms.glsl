@@ -1,5 +1,6 @@
 // What a row of a product adds up, in one real or in two (PAIRS): for the kernels spmv_*. The kernel has declared
-// `values`, `x`, with RESIDUAL `b`, and with PAIRS `b`, `low` and the parameter `low_words`.
+// `values`, `x`, with RESIDUAL `b`, and with PAIRS `b`, `low` and the parameter `low_words`. With
+// TERMS_ONLY it needs no `b`, and takes care of the result itself.
 //
 // Based on: shared/two_float.glsl.
 // Departures: none.
@@ -22,12 +23,14 @@ Term term(uint entry, uint at)
 
 Term add_term(Term a, Term b) { return two_float_add2(a, b); }
 
+#if !TERMS_ONLY
 /// b - sum, rounded to one real.
 real row_result(uint row, Term sum)
 {
     TwoFloat result = two_float_add2(two_float(b[2u * row], b[2u * row + 1u]), two_float_negate(sum));
     return result.high + result.low;
 }
+#endif
 #else
 #define Term real
 

@@ -232,3 +232,24 @@ inline void count_event(std::uint32_t& counter)
                         const auto line_last) {
 #define LINE_END });
 #define LINES_END }
+
+// A slice at a time; `r` is wide for the same reason as `i` of EACH.
+#define SLICES_BEGIN(first, end)                                                        \
+    for (uint slice = uint(first); slice < uint(end); ++slice)                          \
+    {                                                                                   \
+        const uint taut_lane = (slice - uint(first)) % (taut_group_size / 32u) * 32u;
+#define PER_ROW(T, name) T name[32]
+#define ROW(name) name[r]
+#define TAUT_SLICE_ROWS                   \
+    TAUT_INDEPENDENT                      \
+    for (std::size_t r = 0; r < 32; ++r)  \
+    {                                     \
+        [[maybe_unused]] const std::size_t lane = taut_lane + r;
+#define SLICE_ROWS_BEGIN TAUT_SLICE_ROWS
+#define SLICE_ROWS_END }
+#define SLICE_STEPS_BEGIN(n)                                     \
+    for (uint k = 0, taut_steps = uint(n); k < taut_steps; ++k)  \
+    {                                                            \
+        TAUT_SLICE_ROWS
+#define SLICE_STEPS_END }}
+#define SLICES_END }

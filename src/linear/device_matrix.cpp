@@ -45,11 +45,9 @@ std::shared_ptr<DeviceMatrix> DeviceMatrix::upload(const std::shared_ptr<Device>
     case Format::csr: return make_csr(device, matrix, options);
     case Format::ell: return make_ell(device, matrix, options);
     case Format::sell: return make_sell(device, matrix, options);
-    case Format::dense:
-    case Format::coo:
-    case Format::bcsr3:
-        throw Error(ErrorCode::unsupported,
-                    "format " + std::string(to_string(options.format)) + " cannot be put on a device yet");
+    case Format::dense: return make_dense(device, matrix, options);
+    case Format::coo: return make_coo(device, matrix, options);
+    case Format::bcsr3: return make_bcsr3(device, matrix, options);
     }
     throw Error(ErrorCode::bad_input, "a format is wanted, not \"auto\": ask choose_format first");
 }

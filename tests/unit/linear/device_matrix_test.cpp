@@ -170,7 +170,7 @@ void check_passes(const std::shared_ptr<Device>& device, const SparseMatrix& a, 
 
 std::vector<Format> formats()
 {
-    return {Format::csr, Format::ell, Format::sell};
+    return {Format::dense, Format::coo, Format::csr, Format::ell, Format::sell, Format::bcsr3};
 }
 
 } // namespace
@@ -193,10 +193,43 @@ TEST_CASE("products and residuals of every format agree with fp64", "[linear][fo
 TEST_CASE("one dense row of 100,000 entries", "[linear][formats]")
 {
     const std::string selector = GENERATE(from_range(test_devices()));
-    const Format format = GENERATE(Format::csr);
+    const Format format = GENERATE(Format::csr, Format::coo);
     CAPTURE(selector, to_string(format));
     const SparseMatrix a = arrow(100'000, {{70'000, 100'000}});
     check_passes<float>(test_device(selector), a, {format, Precision::float32, true, 0});
+}
+
+TEST_CASE("formats take 1 x 1, one row of several groups' entries, and rows without any", "[linear][formats]")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    CAPTURE(selector);
+    const auto device = test_device(selector);
+    for (const Format format : {Format::dense, Format::coo, Format::csr, Format::sell})
+    {
+        CAPTURE(to_string(format));
+        check_passes<float>(device, from_triplets(1, 1, std::vector<Triplet>{{0, 0, 2.5}}),
+                            {format, Precision::float32, true, 0});
+        check_passes<float>(device, from_triplets(400, 400, std::vector<Triplet>{{399, 399, 3}, {130, 7, -1}}),
+                            {format, Precision::float32, true, 0});
+        check_passes<float>(device, arrow(999, {{0, 999}, {998, 700}}), {format, Precision::float32, true, 0});
+    }
+    check_passes<float>(device, from_triplets(3, 3, std::vector<Triplet>{{1, 1, 2.5}}),
+                        {Format::bcsr3, Precision::float32, true, 0});
+    check_passes<float>(device, arrow(999, {{0, 999}, {998, 700}}), {Format::bcsr3, Precision::float32, true, 0});
+}
+
+TEST_CASE("what dense, coo and bcsr3 cannot take is refused in words", "[linear][formats]")
+{
+    const auto device = test_device("cpu:serial");
+    CHECK_THROWS_WITH(DeviceMatrix::upload(device, poisson2d(4), {Format::bcsr3, Precision::float32, false, 0}),
+                      Contains("multiple of 3") && Contains("16"));
+    CHECK_THROWS_WITH(DeviceMatrix::upload(device, arrow(70'000, {}), {Format::dense, Precision::float32, false, 0}),
+                      Contains("format dense"));
+    const auto coo = DeviceMatrix::upload(device, poisson2d(20), {Format::coo, Precision::float32, false, 0});
+    Recorder recorder(device);
+    const BufferPtr v = device->make_buffer(4000, "v");
+    CHECK_THROWS_WITH(coo->record_product(recorder, {3, nullptr, 0}, v, v, BufferPtr()), Contains("packed for passes"));
+    CHECK_THROWS_WITH(coo->record_residual_pairs(recorder, {4, nullptr, 0}, v, v, v), Contains("without `pairs`"));
 }
 
 TEST_CASE("compressed rows around the length from which a group takes them", "[linear][formats]")
@@ -217,7 +250,8 @@ TEST_CASE("values are rewritten on the device through their slots", "[linear][fo
     Random random(5);
     for (const SparseMatrix& a : {banded(300, random), arrow(700, {{3, 40}}), arrow(700, {{3, 600}, {600, 700}})})
     {
-        if (format == Format::ell && row_statistics(a).longest > 30)
+        if ((format == Format::ell && row_statistics(a).longest > 30) ||
+            (format == Format::bcsr3 && a.rows % 3 != 0))
             continue;
         SparseMatrix other = a;
         for (double& value : other.value)
@@ -251,7 +285,7 @@ TEST_CASE("the exponent brings the largest value to [1, 2)", "[linear][formats]"
     const auto device = test_device("cpu:serial");
     for (const Format format : formats())
     {
-        if (format == Format::sell || format == Format::ell || format == Format::csr)
+        if (format != Format::bcsr3) // 2 rows
         {
             const auto matrix = DeviceMatrix::upload(device, a, {format, Precision::float32, true, exponent});
             const auto answer = run<float>(device, *matrix, {1, 1}, {0, 0}, false);
