@@ -225,7 +225,7 @@ TEST_CASE("every format, precision and preconditioner word is taken", "[solve]")
 {
     const Folder folder;
     const std::string matrix = folder.file("a.mtx", path_matrix(90));
-    for (const char* format : {"auto", "csr", "ell", "sell"})
+    for (const char* format : {"auto", "dense", "coo", "csr", "ell", "sell", "bcsr3"})
     {
         const auto json = solved(folder, {matrix, "--format", format});
         CHECK(json["status"] == "converged");
