@@ -12,6 +12,7 @@ taut_packages_build=(g++ cmake ninja-build pkg-config libvulkan-dev libvulkan-vo
     libcli11-dev libassimp-dev libegl-dev libgl-dev libstb-dev)
 taut_packages_run=(libvulkan1 libegl1 mesa-vulkan-drivers libegl-mesa0 libgl1-mesa-dri)
 taut_packages_test=(vulkan-validationlayers)
+taut_packages_bench=(libviennacl-dev) # a rival of taut_linear_bench; no script installs it
 }
 
 # A command that is already there will do, wherever it came from.

@@ -2,34 +2,15 @@
 // Exit status 1 and one sentence when a rival computes something else, or the file cannot be written.
 
 #include "bench.hpp"
+#include "conditions.hpp"
 
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/shown.hpp"
-#include "taut/runtime/device.hpp"
-#include "taut/version.hpp"
 
 #include <cstdio>
 #include <exception>
 
 namespace {
-
-/// Everything in it must be known to compare two tables.
-std::string conditions(int argc, char** argv)
-{
-    std::string text = "taut " TAUT_VERSION "; devices:";
-    for (const taut::DeviceInfo& device : taut::Device::list())
-        text += " " + device.selector + " = " + device.name + " (" + device.driver + "),";
-    text.back() = ';';
-#if defined(__clang__)
-    text += " compiler: clang " __clang_version__;
-#else
-    text += " compiler: g++ " __VERSION__;
-#endif
-    text += "; CPU: " + bench::processor() + "; command: taut_bench"; // not the folder that it lies in
-    for (int i = 1; i < argc; ++i)
-        text += std::string(" ") + argv[i];
-    return text;
-}
 
 void print(const std::vector<bench::Row>& rows)
 {
@@ -64,7 +45,7 @@ try
         rows.push_back(row);
     print(rows);
     if (argc > 1)
-        taut::write_file(argv[1], csv(rows, conditions(argc, argv)));
+        taut::write_file(argv[1], csv(rows, bench::conditions("taut_bench", argc, argv)));
     return 0;
 }
 catch (const std::exception& error)

@@ -36,10 +36,10 @@ struct Rival
     }
 };
 
-/// Three turns to warm up, then `turns` turns in which every rival runs once.
-inline void take_turns(std::vector<Rival>& rivals, int turns)
+/// Some turns to warm up, then `turns` turns in which every rival runs once.
+inline void take_turns(std::vector<Rival>& rivals, int turns, int warm_up = 3)
 {
-    for (int turn = -3; turn < turns; ++turn)
+    for (int turn = -warm_up; turn < turns; ++turn)
         for (Rival& rival : rivals)
         {
             const auto from = std::chrono::steady_clock::now();
@@ -49,9 +49,6 @@ inline void take_turns(std::vector<Rival>& rivals, int turns)
                 rival.milliseconds.push_back(took.count());
         }
 }
-
-/// Model name of the processor, as the native executor reports it.
-std::string processor();
 
 /// Throws std::runtime_error when a rival's result is further than kLargestError from the reference's: what
 /// computes something else is not timed.

@@ -168,8 +168,6 @@ private:
 
 } // namespace
 
-std::string processor() { return taut::Device::open("cpu:serial")->info().name; }
-
 std::vector<Row> distance_rows()
 {
     const Problem problem = make_problem();
