@@ -186,8 +186,8 @@ void add_solve(CLI::App& app, Command& chosen)
         ->check(CLI::IsMember({"auto", "float", "double", "mixed"}));
     command
         ->add_option("--preconditioner", options->preconditioner,
-                     "none, jacobi, block_jacobi, chebyshev, spai0 (default: jacobi)")
-        ->check(CLI::IsMember({"none", "jacobi", "block_jacobi", "chebyshev", "spai0"}));
+                     "none, jacobi, block_jacobi, chebyshev, multigrid, spai0 (default: jacobi)")
+        ->check(CLI::IsMember({"none", "jacobi", "block_jacobi", "chebyshev", "multigrid", "spai0"}));
     command->add_option("--tolerance", options->tolerance, "Of the true |b - A x| / |b| (default: 1e-8)");
     command->add_option("--max-iterations", options->max_iterations,
                         "At most (default: 0, ten times the unknowns, at least 1,000)");

@@ -235,7 +235,7 @@ TEST_CASE("every format, precision and preconditioner word is taken", "[solve]")
     for (const char* precision : {"auto", "double", "mixed"})
         CHECK(solved(folder, {matrix, "--precision", precision})["relative_residual"].get<double>() <= 1e-8);
     CHECK(solved(folder, {matrix, "--precision", "float", "--tolerance", "1e-4"})["precision"] == "float");
-    for (const char* preconditioner : {"none", "jacobi", "block_jacobi", "chebyshev", "spai0"})
+    for (const char* preconditioner : {"none", "jacobi", "block_jacobi", "chebyshev", "multigrid", "spai0"})
     {
         const auto json = solved(folder, {matrix, "--preconditioner", preconditioner});
         CHECK(json["status"] == "converged");
