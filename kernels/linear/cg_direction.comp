@@ -34,6 +34,9 @@ READ(7, real, inverse); // 1 / d; 0 = the row is held
 #elif BLOCK
 READ(7, real, inverse); // 6 a block row: xx xy xz yy yz zz
 #endif
+#if BLOCK
+#include "shared/block_inverse.glsl"
+#endif
 
 SHARED(real, sum_rz, TAUT_LINEAR_GROUP);
 SHARED(real, sum_rr, TAUT_LINEAR_GROUP);
@@ -64,22 +67,13 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     uint end = min(begin + chunk, count);
     EACH_BEGIN(begin, end)
 #if BLOCK
-    real r0 = residual[3u * i];
-    real r1 = residual[3u * i + 1u];
-    real r2 = residual[3u * i + 2u];
-    real xy = inverse[6u * i + 1u];
-    real xz = inverse[6u * i + 2u];
-    real yz = inverse[6u * i + 4u];
-    real z0 = (inverse[6u * i] * r0 + xy * r1) + xz * r2;
-    real z1 = (xy * r0 + inverse[6u * i + 3u] * r1) + yz * r2;
-    real z2 = (xz * r0 + yz * r1) + inverse[6u * i + 5u] * r2;
+    uint at = 3u * uint(i);
+    rvec3 z = block_inverse_times(uint(i), rvec3(residual[at], residual[at + 1u], residual[at + 2u]));
     for (uint k = 0u; k < 3u; ++k)
     {
-        real p = direction[3u * i + k];
-        real at = x[3u * i + k];
-        real z = k == 0u ? z0 : (k == 1u ? z1 : z2);
-        x[3u * i + k] = stepping ? at + step * p : at;
-        direction[3u * i + k] = turning ? z + (conjugate ? beta * p : real(0)) : p;
+        real p = direction[at + k];
+        x[at + k] = stepping ? x[at + k] + step * p : x[at + k];
+        direction[at + k] = turning ? z[k] + (conjugate ? beta * p : real(0)) : p;
     }
 #else
 #if DIAGONAL

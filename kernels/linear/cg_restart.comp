@@ -31,6 +31,9 @@ WRITE(5, uint, control);
 #if DIAGONAL || BLOCK || HELD
 READ(6, real, inverse); // as in cg_direction; with HELD only whether it is 0
 #endif
+#if BLOCK
+#include "shared/block_inverse.glsl"
+#endif
 
 SHARED(real, sum_rz, TAUT_LINEAR_GROUP);
 SHARED(real, sum_rr, TAUT_LINEAR_GROUP);
@@ -45,29 +48,18 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     uint end = min(begin + chunk, count);
     EACH_BEGIN(begin, end)
 #if BLOCK
-    real m00 = inverse[6u * i];
-    real m11 = inverse[6u * i + 3u];
-    real m22 = inverse[6u * i + 5u];
-    real r0 = m00 > real(0) ? residual[3u * i] : real(0);
-    real r1 = m11 > real(0) ? residual[3u * i + 1u] : real(0);
-    real r2 = m22 > real(0) ? residual[3u * i + 2u] : real(0);
-    residual[3u * i] = r0;
-    residual[3u * i + 1u] = r1;
-    residual[3u * i + 2u] = r2;
-    real xy = inverse[6u * i + 1u];
-    real xz = inverse[6u * i + 2u];
-    real yz = inverse[6u * i + 4u];
-    real z0 = (m00 * r0 + xy * r1) + xz * r2;
-    real z1 = (xy * r0 + m11 * r1) + yz * r2;
-    real z2 = (xz * r0 + yz * r1) + m22 * r2;
-    sum_rz[lane] += (r0 * z0 + r1 * z1) + r2 * z2;
-    sum_rr[lane] += (r0 * r0 + r1 * r1) + r2 * r2;
+    uint block = uint(i);
+    rvec3 r = block_kept(block, rvec3(residual[3u * i], residual[3u * i + 1u], residual[3u * i + 2u]));
+    residual[3u * i] = r.x;
+    residual[3u * i + 1u] = r.y;
+    residual[3u * i + 2u] = r.z;
+    sum_rz[lane] += dot(r, block_inverse_times(block, r));
+    sum_rr[lane] += dot(r, r);
     if (begin_solve != 0u)
     {
-        real b0 = m00 > real(0) ? b[3u * i * b_stride] : real(0);
-        real b1 = m11 > real(0) ? b[(3u * i + 1u) * b_stride] : real(0);
-        real b2 = m22 > real(0) ? b[(3u * i + 2u) * b_stride] : real(0);
-        sum_bb[lane] += (b0 * b0 + b1 * b1) + b2 * b2;
+        rvec3 given = rvec3(b[3u * i * b_stride], b[(3u * i + 1u) * b_stride], b[(3u * i + 2u) * b_stride]);
+        given = block_kept(block, given);
+        sum_bb[lane] += dot(given, given);
     }
 #else
     real r = residual[i];

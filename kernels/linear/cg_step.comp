@@ -29,6 +29,9 @@ WRITE(5, CgState, after);
 #if DIAGONAL || BLOCK || HELD
 READ(6, real, inverse); // as in cg_direction; with HELD only whether it is 0
 #endif
+#if BLOCK
+#include "shared/block_inverse.glsl"
+#endif
 
 SHARED(real, sum, TAUT_LINEAR_GROUP);
 SHARED(real, sum_rz, TAUT_LINEAR_GROUP);
@@ -38,6 +41,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     SUM_PARTIALS(sum, curvatures, 0u, groups)
     CgState s = cg_measure(before[0], sum[0]);
     real step = s.step;
+    bool stepping = step != real(0); // a product that is not finite is not touched
     PHASE_BEGIN // the sum was read by all lanes
     PHASE_END
     CLEAR_LANES(sum)
@@ -46,25 +50,17 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     uint end = min(begin + chunk, count);
     EACH_BEGIN(begin, end)
 #if BLOCK
-    real m00 = inverse[6u * i];
-    real m11 = inverse[6u * i + 3u];
-    real m22 = inverse[6u * i + 5u];
-    real r0 = m00 > real(0) ? residual[3u * i] - step * product[3u * i] : real(0);
-    real r1 = m11 > real(0) ? residual[3u * i + 1u] - step * product[3u * i + 1u] : real(0);
-    real r2 = m22 > real(0) ? residual[3u * i + 2u] - step * product[3u * i + 2u] : real(0);
-    residual[3u * i] = r0;
-    residual[3u * i + 1u] = r1;
-    residual[3u * i + 2u] = r2;
-    real xy = inverse[6u * i + 1u];
-    real xz = inverse[6u * i + 2u];
-    real yz = inverse[6u * i + 4u];
-    real z0 = (m00 * r0 + xy * r1) + xz * r2;
-    real z1 = (xy * r0 + m11 * r1) + yz * r2;
-    real z2 = (xz * r0 + yz * r1) + m22 * r2;
-    sum_rz[lane] += (r0 * z0 + r1 * z1) + r2 * z2;
-    sum[lane] += (r0 * r0 + r1 * r1) + r2 * r2;
+    uint block = uint(i);
+    rvec3 r = rvec3(residual[3u * i], residual[3u * i + 1u], residual[3u * i + 2u]);
+    rvec3 q = rvec3(product[3u * i], product[3u * i + 1u], product[3u * i + 2u]);
+    r = block_kept(block, stepping ? r - step * q : r);
+    residual[3u * i] = r.x;
+    residual[3u * i + 1u] = r.y;
+    residual[3u * i + 2u] = r.z;
+    sum_rz[lane] += dot(r, block_inverse_times(block, r));
+    sum[lane] += dot(r, r);
 #else
-    real r = residual[i] - step * product[i];
+    real r = stepping ? residual[i] - step * product[i] : residual[i];
 #if DIAGONAL
     real m = inverse[i];
     r = m > real(0) ? r : real(0);

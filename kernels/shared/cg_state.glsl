@@ -39,7 +39,7 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
         s.peak = rr;
         s.lowest = rr;
         s.best = rr;
-        s.growth_squared *= max(bb, rr);
+        s.growth_squared = min(s.growth_squared * max(bb, rr), REAL(1e37));
     }
     s.rr = rr;
     if (s.status != uint(TAUT_CG_RUNNING))
@@ -124,7 +124,7 @@ CgState cg_measure(CgState s, real curvature)
         s.status = uint(TAUT_CG_NON_FINITE);
     else
     {
-        s.steepest = max(s.steepest, bend / s.pmp);
+        s.steepest = s.pmp > real(0) ? max(s.steepest, bend / s.pmp) : s.steepest;
         real doubt = s.epsilon * s.steepest * s.pmp;
         if (curvature < real(-256) * doubt)
             s.status = uint(TAUT_CG_INDEFINITE_MATRIX);

@@ -86,10 +86,7 @@ ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared
 
 void ConjugateGradient::set(const CgSettings& settings)
 {
-    if (!(settings.tolerance > 0) || !(settings.replacement > 0 && settings.replacement < 1) ||
-        !(settings.growth > 1))
-        throw Error(ErrorCode::bad_input, "a tolerance above 0, a replacement in (0, 1) and a growth above 1 are "
-                                          "wanted for conjugate gradients");
+    check_settings(settings);
     if (precision_ == Precision::float32)
         device_->write<layout::CgState<float>>(settings_, std::vector{first_state<float>(settings)});
     else

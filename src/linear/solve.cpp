@@ -10,6 +10,8 @@
 namespace taut::linear {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 SolvePrecision resolve(SolvePrecision wanted, const DeviceInfo& device)
 {
     if (wanted == SolvePrecision::float64 && !device.limits.float64)
@@ -41,6 +43,53 @@ bool all_zero(std::span<const double> v)
     return std::all_of(v.begin(), v.end(), [](double entry) { return entry == 0; });
 }
 
+/// What is solved: A y = right from `start`, and x = y + shift.
+struct Problem
+{
+    std::vector<double> right, start, shift;
+};
+
+/// Held rows do not count in b. Where they alone drive the system (b = 0 elsewhere) the unknown is the change
+/// from x0, so that there is a right-hand side to compare residuals with.
+Problem pose(const SparseMatrix& a, std::span<const double> b, std::span<const double> x0,
+             std::span<const std::uint32_t> held)
+{
+    Problem out{{b.begin(), b.end()}, {x0.begin(), x0.end()}, std::vector<double>(a.rows, 0)};
+    out.start.resize(a.rows, 0);
+    for (const std::uint32_t row : held)
+        out.right[row] = 0;
+    if (held.empty() || !all_zero(out.right))
+        return out;
+    std::swap(out.start, out.shift);
+    multiply(a, out.shift, out.right);
+    for (double& entry : out.right)
+        entry = -entry;
+    for (const std::uint32_t row : held)
+        out.right[row] = 0;
+    return out;
+}
+
+void choose(SolveReport& report, const SparseMatrix& a, const SolveOptions& options, const DeviceInfo& device)
+{
+    report.format = options.format;
+    report.format_reason = "asked for";
+    if (options.format != Format::automatic)
+        return;
+    const FormatChoice choice = choose_format(row_statistics(a), device.hardware_gpu);
+    report.format = choice.format;
+    report.format_reason = choice.reason;
+}
+
+/// What the start has of the null space stays.
+void project_change(const NullBasis& basis, const std::vector<double>& start, std::vector<double>& x)
+{
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] -= start[i];
+    basis.project(x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] += start[i];
+}
+
 } // namespace
 
 std::uint64_t product_bytes(std::uint64_t matrix_bytes, std::uint32_t rows, Precision precision)
@@ -63,7 +112,7 @@ double forward_error(std::span<const double> x, std::span<const double> exact)
 Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std::span<const double> b,
                const SolveOptions& options, std::span<const double> x0)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point begin = Clock::now();
     check_options(options, a.rows);
     const CheckOptions checks{.asymmetry = options.asymmetry,
                               .project_constants = options.null_space != NullSpace::none,
@@ -76,41 +125,26 @@ Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std
     report.device = device->info().selector;
     report.n = a.rows;
     report.nnz = a.nonzeros();
-    out.x.assign(a.rows, 0.0);
-    if (!x0.empty())
-        out.x.assign(x0.begin(), x0.end());
-
     const NullBasis basis(a, options.null_space, options.null_vectors);
-    std::vector<double> right(b.begin(), b.end());
-    for (const std::uint32_t row : options.held)
-        right[row] = 0;
-    const double size = norm(right);
-    report.null_part = size > 0 ? basis.project(right) / size : 0;
     if (basis.empty() && a.rows > 0 && maps_constants_to_zero(a))
         report.notes.push_back("A maps constants to zero: x is known up to a constant only");
-    if (all_zero(right) && (options.held.empty() || all_zero(out.x)))
+    Problem problem = pose(a, b, x0, options.held);
+    const double size = norm(problem.right);
+    report.null_part = size > 0 ? basis.project(problem.right) / size : 0;
+    if (all_zero(problem.right))
     {
-        out.x.assign(a.rows, 0.0);
+        out.x = problem.shift;
         report.status = Status::zero_right_hand_side;
         report.reason = "b is zero, so x is zero: nothing was iterated";
         return out;
     }
-    FormatChoice choice{options.format, "asked for"};
-    if (options.format == Format::automatic)
-        choice = choose_format(row_statistics(a), device->info().hardware_gpu);
-    report.format = choice.format;
-    report.format_reason = choice.reason;
-    report.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::vector<double> from = out.x;
-    out.x = SystemSolver(device, a, right, from, options, report).run();
+    choose(report, a, options, device->info());
+    report.setup_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    out.x = SystemSolver(device, a, problem.right, problem.start, options, report).run();
     if (!basis.empty())
-    {
-        for (std::size_t i = 0; i < from.size(); ++i)
-            out.x[i] -= from[i];
-        basis.project(out.x); // what x0 has of the null space stays
-        for (std::size_t i = 0; i < from.size(); ++i)
-            out.x[i] += from[i];
-    }
+        project_change(basis, problem.start, out.x);
+    for (std::size_t i = 0; i < out.x.size(); ++i)
+        out.x[i] += problem.shift[i];
     return out;
 }
 

@@ -37,6 +37,15 @@ int vector_exponent(std::span<const double> v)
     return largest > 0 ? -std::ilogb(largest) : 0;
 }
 
+/// An inverse must not become 0, which would hold its row, nor infinite: a preconditioner may be coarse.
+double within_range(double inverse, Precision precision)
+{
+    if (precision == Precision::float64 || inverse == 0)
+        return inverse;
+    const double sign = inverse < 0 ? -1 : 1; // off the diagonal of a block
+    return sign * std::clamp(std::abs(inverse), 1e-30, 1e30);
+}
+
 } // namespace
 
 SystemSolver::SystemSolver(std::shared_ptr<Device> device, const SparseMatrix& a, std::span<const double> b,
@@ -109,7 +118,7 @@ std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
     else
         inverse = jacobi_inverse(a_, options_.held);
     for (double& value : inverse)
-        value = std::ldexp(value, -matrix_exponent_);
+        value = within_range(std::ldexp(value, -matrix_exponent_), precision_);
     return inverse;
 }
 
