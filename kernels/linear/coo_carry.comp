@@ -1,4 +1,4 @@
-// After spmv_coo: rows that several groups made up, rows without entries, and what the product was wanted for.
+// After spmv_coo: rows that several groups made up, rows without entries, and what follows a product.
 //
 // Based on: Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented
 //   Processors. SC 2009 (COO: segmented reduction with carries).

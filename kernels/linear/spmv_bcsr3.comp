@@ -44,7 +44,8 @@ READ(6, real, low);
 #else
 #define ENTRY(e, at) (values[TAUT_BCSR3_VALUE(start + k, e, r)] * x[at])
 #endif
-#define THREE(sum, e) add_term(add_term(add_term(sum, ENTRY(e, c)), ENTRY(e + 1u, c + 1u)), ENTRY(e + 2u, c + 2u))
+#define THREE(sum, e) \
+    add_term(add_term(add_term(sum, ENTRY(e, c)), ENTRY(e + 1u, c + 1u)), ENTRY(e + 2u, c + 2u))
 
 #if DOT
 SHARED(real, sum, TAUT_LINEAR_GROUP);

@@ -1,13 +1,14 @@
 // Compressed rows: y = A x for rows that are short; spmv_csr_long has done the others before.
 //
 // Based on:
-//   Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented Processors. SC 2009
-//   (scalar CSR).
-//   Greathouse, Daga. Efficient Sparse Matrix-Vector Multiplication on GPUs using the CSR Storage Format. SC 2014
-//   (variants "stream": products go to shared memory in the order of memory, then a lane sums a row).
+//   Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented Processors. SC
+//   2009 (scalar CSR).
+//   Greathouse, Daga. Efficient Sparse Matrix-Vector Multiplication on GPUs using the CSR Storage Format.
+//   SC 2014 (variants "stream": products go to shared memory in the order of memory, then a lane sums a row).
 // Departures: a window is always a row a lane and passes through shared memory in pieces, so nothing but
 //   row_start is stored; both ways add a row from left to right, so that they agree to the last bit.
-// A row of no entries here is one that spmv_csr_long has written. A row that is empty in truth holds one zero.
+// A row of no entries here is one that spmv_csr_long has written. A row that is empty in truth holds one
+// zero.
 // Bytes per entry (float): 8 read; per row 8 read (12 with b), 4 written; pairs 12 and 20.
 //! variant dot DOT=1
 //! variant residual RESIDUAL=1

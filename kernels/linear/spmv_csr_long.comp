@@ -1,9 +1,9 @@
 // Compressed rows: the rows of y = A x that are too long for one lane, a group a row. Comes before spmv_csr.
 //
-// Based on: Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented Processors.
-//   SC 2009 (vector CSR).
-// Departures: a whole group takes a row, because only rows of many hundred entries come here; the tree of sums
-//   has one fixed order, so that the result repeats to the last bit.
+// Based on: Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented
+//   Processors. SC 2009 (vector CSR).
+// Departures: a whole group takes a row, because only rows of many hundred entries come here; the tree of
+//   sums has one fixed order, so that the result repeats to the last bit.
 // Bytes per entry (float): 8 read; pairs 12.
 //! variant residual RESIDUAL=1
 //! variant residual_pairs PAIRS=1

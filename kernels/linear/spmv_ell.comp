@@ -3,7 +3,8 @@
 //
 // Based on:
 //   Grimes, Kincaid, Young. ITPACK 2.0 User's Guide. 1979. (the format)
-//   Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented Processors. SC 2009
+//   Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented Processors. SC
+//   2009
 // Departures: none. Padding is value 0 in the row's own column.
 // Bytes per stored entry (float): 8 read; per row 4 read (8 with b), 4 written; pairs 12 and 16.
 //! variant dot DOT=1

@@ -1,8 +1,8 @@
-// SELL-C-sigma: y = A x with rows in slices of 32, each padded to its own longest row and stored column by column;
-// rows were sorted by length within windows of 256, so that a slice's rows are about as long.
+// SELL-C-sigma: y = A x with rows in slices of 32, each padded to its own longest row and stored column by
+// column; rows were sorted by length within windows of 256, so that a slice's rows are about as long.
 //
-// Based on: Kreutzer, Hager, Wellein, Fehske, Bishop. A Unified Sparse Matrix Data Format for Efficient General
-//   Sparse Matrix-Vector Multiplication on Modern Processors with Wide SIMD Units. SISC 2014.
+// Based on: Kreutzer, Hager, Wellein, Fehske, Bishop. A Unified Sparse Matrix Data Format for Efficient
+//   General Sparse Matrix-Vector Multiplication on Modern Processors with Wide SIMD Units. SISC 2014.
 // Departures: y keeps the order of the matrix; only the storage is sorted.
 // Bytes per stored entry (float): 8 read; per row 8 read (12 with b), 4 written; pairs 12 and 20.
 //! variant dot DOT=1

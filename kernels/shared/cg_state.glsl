@@ -15,7 +15,8 @@
 // Checks without progress before a solve is given up.
 #define TAUT_CG_STALLS 3u
 
-/// PRECISE, because a compiler that may rearrange takes a difference of equals for zero, NaN or not (Mesa does).
+/// PRECISE, because a compiler that may rearrange takes a difference of equals for zero, NaN or not (Mesa
+/// does).
 bool taut_is_finite(real value)
 {
     PRECISE real difference = value - value;
@@ -23,8 +24,8 @@ bool taut_is_finite(real value)
 }
 
 /// Before a direction is made: `s` is what cg_step or cg_restart left, rz and rr are of the residual in hand.
-/// On return s.status says whether to go on, `replace` whether the residual is wanted anew first, and `keep` whether
-/// the step in hand may be added to x.
+/// On return s.status says whether to go on, `replace` whether the residual is wanted anew first, and
+/// `keep` whether the step in hand may be added to x.
 CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT(bool) keep)
 {
     replace = false;
@@ -39,7 +40,7 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
         s.peak = rr;
         s.lowest = rr;
         s.best = rr;
-        s.growth_squared = min(s.growth_squared * max(bb, rr), REAL(1e37));
+        s.growth_squared *= max(bb, rr);
     }
     s.rr = rr;
     if (s.status != uint(TAUT_CG_RUNNING))

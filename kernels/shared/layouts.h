@@ -124,7 +124,8 @@ LAYOUT_STRUCT(CgState)
 #define TAUT_DIRECTION_CONJUGATE 2
 
 /// Lanes of a work group of the linear kernels, and the words of their control buffer: group counts of the
-/// passes of an iteration, of the passes that form the residual anew, then the history (float bits of |r|/|b|).
+/// passes of an iteration, of the passes that form the residual anew, then the history (float bits of
+/// |r|/|b|).
 #define TAUT_LINEAR_GROUP 128
 #define TAUT_SMALL_ROWS 1024 // largest system that one group solves: its direction lies in shared memory
 #define TAUT_CONTROL_ITERATE 0

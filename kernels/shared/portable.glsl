@@ -21,13 +21,15 @@
 //   SLICES_BEGIN(first, end) ... slice ... PER_ROW(T, name) ...
 //   SLICE_ROWS_BEGIN ... r, lane ... SLICE_ROWS_END
 //   SLICE_STEPS_BEGIN(n) ... k, r, lane ... SLICE_STEPS_END
-//   SLICES_END                         a phase over slices of 32 rows, a row a lane, slices first..end-1 going
-//                                      round; a row's own values are PER_ROW and used as ROW(name). All rows of
-//                                      a slice make the same n steps; the CPU makes a step for all rows at once
+//   SLICES_END                         a phase over slices of 32 rows, a row a lane, slices first..end-1
+//                                      going round; a row's own values are PER_ROW and used as ROW(name). All
+//                                      rows of a slice make the same n steps; the CPU makes a step for all
+//                                      rows at once
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
-//   PREFETCH(name, first, last, ahead) name[first + ahead .. last + ahead) is wanted soon; past the end is allowed
+//   PREFETCH(name, first, last, ahead) name[first + ahead .. last + ahead) is wanted soon; past the end is
+//                                      allowed
 //   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
 //                                      it can hold phases; the native build never inlines it, which leaves
 //                                      a hot loop the registers

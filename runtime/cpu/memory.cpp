@@ -15,8 +15,8 @@ constexpr std::uint64_t kAlignment = 64;
 constexpr std::uint64_t kHugePage = std::uint64_t{2} << 20;
 constexpr std::uint64_t kLarge = 2 * kHugePage; ///< bytes from which a buffer asks for huge pages
 
-/// Passes that stream through memory spend a third of their time on looking up small pages. Only a wish: where
-/// the system has no huge pages, or gives none, nothing changes.
+/// Passes that stream through memory spend a third of their time on looking up small pages. Only a wish:
+/// where the system has no huge pages, or gives none, nothing changes.
 void ask_for_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::uint64_t bytes)
 {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)

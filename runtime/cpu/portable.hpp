@@ -111,8 +111,7 @@ public:
           i_(first),
           tile_(first),
           behind_((std::size_t{line} + 1) * length)
-    {
-    }
+    {}
 
     bool more() const { return i_ < end_; }
 
@@ -157,12 +156,14 @@ private:
     std::size_t behind_; ///< the first element of the next line
 };
 
-/// Where a loop reads several streams, or short pieces of them, the processor's own guesses end with every page.
+/// Where a loop reads several streams, or short pieces of them, the processor's own guesses end with every
+/// page.
 template <typename T>
 void prefetch(const T* buffer, std::uint64_t first, std::uint64_t last)
 {
     constexpr std::uintptr_t line = 64;
-    const auto begin = reinterpret_cast<std::uintptr_t>(buffer); // numbers: pointers past the end must not be made
+    const auto begin =
+        reinterpret_cast<std::uintptr_t>(buffer); // numbers: pointers past the end must not be made
     for (std::uintptr_t at = begin + first * sizeof(T); at < begin + last * sizeof(T); at += line)
         __builtin_prefetch(reinterpret_cast<const void*>(at));
 }
@@ -190,66 +191,73 @@ inline void count_event(std::uint32_t& counter)
 #define COUNTERS(slot, name) std::uint32_t* __restrict name
 #define SHARED(T, name, n) T name[n]
 #define COUNT_EVENT(buffer, index) taut::native::count_event(buffer[index])
-#define PREFETCH(buffer, first, last, ahead) \
+#define PREFETCH(buffer, first, last, ahead)                                                                 \
     taut::native::prefetch(buffer, std::uint64_t(first) + (ahead), std::uint64_t(last) + (ahead))
 
-#define KERNEL(count)                                               \
-    std::uint32_t element_count() const { return std::uint32_t(count); } \
+#define KERNEL(count)                                                                                        \
+    std::uint32_t element_count() const { return std::uint32_t(count); }                                     \
     void element(const uint i)
 
-#define GROUP_KERNEL(size)                                \
-    static constexpr std::uint32_t taut_group_size = size; \
+#define GROUP_KERNEL(size)                                                                                   \
+    static constexpr std::uint32_t taut_group_size = size;                                                   \
     void body(const uint group)
 
-#define PHASE_BEGIN for (uint lane = 0; lane < taut_group_size; ++lane) {
+#define PHASE_BEGIN                                                                                          \
+    for (uint lane = 0; lane < taut_group_size; ++lane)                                                      \
+    {
 #define PHASE_END }
 
-#define LANES_BEGIN(n)                             \
-    TAUT_INDEPENDENT                               \
-    for (uint lane = 0; lane < uint(n); ++lane)    \
+#define LANES_BEGIN(n)                                                                                       \
+    TAUT_INDEPENDENT                                                                                         \
+    for (uint lane = 0; lane < uint(n); ++lane)                                                              \
     {
 #define LANES_END }
 
 // Tiles of one group's size: lane k of a tile is its k-th element, as on a device. `i` is wider than uint so
 // that the compiler sees neighbours: a sum of two uints might wrap.
-#define EACH_BEGIN(first, end)                                                                              \
-    for (std::size_t taut_tile = uint(first); taut_tile < uint(end); taut_tile += taut_group_size)          \
-    {                                                                                                       \
-        const std::size_t taut_rest = uint(end) - taut_tile;                                                \
-        const uint taut_lanes = taut_rest < taut_group_size ? uint(taut_rest) : taut_group_size;            \
-        TAUT_INDEPENDENT                                                                                    \
-        for (uint lane = 0; lane < taut_lanes; ++lane)                                                      \
-        {                                                                                                   \
+#define EACH_BEGIN(first, end)                                                                               \
+    for (std::size_t taut_tile = uint(first); taut_tile < uint(end); taut_tile += taut_group_size)           \
+    {                                                                                                        \
+        const std::size_t taut_rest = uint(end) - taut_tile;                                                 \
+        const uint taut_lanes = taut_rest < taut_group_size ? uint(taut_rest) : taut_group_size;             \
+        TAUT_INDEPENDENT                                                                                     \
+        for (uint lane = 0; lane < taut_lanes; ++lane)                                                       \
+        {                                                                                                    \
             const std::size_t i = taut_tile + lane;
-#define EACH_END }}
+#define EACH_END                                                                                             \
+    }                                                                                                        \
+    }
 
-#define LINES_BEGIN(first, end, length)                                                             \
-    for (taut::native::Lines<taut_group_size> taut_lines{first, end, length}; taut_lines.more();)    \
-    {                                                                                               \
+#define LINES_BEGIN(first, end, length)                                                                      \
+    for (taut::native::Lines<taut_group_size> taut_lines{first, end, length}; taut_lines.more();)            \
+    {                                                                                                        \
         const uint line = taut_lines.line;
-#define LINE_BEGIN                                                                 \
+#define LINE_BEGIN                                                                                           \
     taut_lines.each([&](const std::size_t i, const std::size_t lane, const auto line_first, \
                         const auto line_last) {
-#define LINE_END });
+#define LINE_END                                                                                             \
+    });
 #define LINES_END }
 
 // A slice at a time; `r` is wide for the same reason as `i` of EACH.
-#define SLICES_BEGIN(first, end)                                                        \
-    for (uint slice = uint(first); slice < uint(end); ++slice)                          \
-    {                                                                                   \
+#define SLICES_BEGIN(first, end)                                                                             \
+    for (uint slice = uint(first); slice < uint(end); ++slice)                                               \
+    {                                                                                                        \
         const uint taut_lane = (slice - uint(first)) % (taut_group_size / 32u) * 32u;
 #define PER_ROW(T, name) T name[32]
 #define ROW(name) name[r]
-#define TAUT_SLICE_ROWS                   \
-    TAUT_INDEPENDENT                      \
-    for (std::size_t r = 0; r < 32; ++r)  \
-    {                                     \
+#define TAUT_SLICE_ROWS                                                                                      \
+    TAUT_INDEPENDENT                                                                                         \
+    for (std::size_t r = 0; r < 32; ++r)                                                                     \
+    {                                                                                                        \
         [[maybe_unused]] const std::size_t lane = taut_lane + r;
 #define SLICE_ROWS_BEGIN TAUT_SLICE_ROWS
 #define SLICE_ROWS_END }
-#define SLICE_STEPS_BEGIN(n)                                     \
-    for (uint k = 0, taut_steps = uint(n); k < taut_steps; ++k)  \
-    {                                                            \
+#define SLICE_STEPS_BEGIN(n)                                                                                 \
+    for (uint k = 0, taut_steps = uint(n); k < taut_steps; ++k)                                              \
+    {                                                                                                        \
         TAUT_SLICE_ROWS
-#define SLICE_STEPS_END }}
+#define SLICE_STEPS_END                                                                                      \
+    }                                                                                                        \
+    }
 #define SLICES_END }

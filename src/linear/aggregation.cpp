@@ -40,7 +40,8 @@ SparseMatrix from_eigen(const Rows& a)
     entries.reserve(static_cast<std::size_t>(a.nonZeros()));
     for (int row = 0; row < a.outerSize(); ++row)
         for (Rows::InnerIterator it(a, row); it; ++it)
-            entries.push_back({static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(it.col()), it.value()});
+            entries.push_back(
+                {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(it.col()), it.value()});
     return from_triplets(static_cast<std::uint32_t>(a.rows()), static_cast<std::uint32_t>(a.cols()), entries);
 }
 
@@ -72,7 +73,9 @@ Rows filtered(const Rows& a, double strength)
 class Aggregates
 {
 public:
-    explicit Aggregates(const Rows& strong) : strong_(strong), of_(static_cast<std::size_t>(strong.rows()), kNone)
+    explicit Aggregates(const Rows& strong)
+        : strong_(strong),
+          of_(static_cast<std::size_t>(strong.rows()), kNone)
     {
         for (int row = 0; row < strong_.rows(); ++row)
             seed(row);
@@ -135,7 +138,8 @@ Rows tentative(const Aggregates& aggregates, int rows)
         size[aggregates.of(row)] += 1;
     std::vector<Eigen::Triplet<double>> entries;
     for (int row = 0; row < rows; ++row)
-        entries.emplace_back(row, static_cast<int>(aggregates.of(row)), 1 / std::sqrt(size[aggregates.of(row)]));
+        entries.emplace_back(row, static_cast<int>(aggregates.of(row)),
+                             1 / std::sqrt(size[aggregates.of(row)]));
     Rows out(rows, static_cast<int>(aggregates.count()));
     out.setFromTriplets(entries.begin(), entries.end());
     return out;
@@ -213,8 +217,10 @@ AggregationHierarchy aggregate(const SparseMatrix& matrix, const AggregationOpti
         strength /= 2;
     }
     if (a.rows() > static_cast<int>(kMostCoarse))
-        throw Error(ErrorCode::limit, "aggregation stops at " + std::to_string(a.rows()) + " rows, and a direct solve "
-                                          "of more than " + std::to_string(kMostCoarse) +
+        throw Error(ErrorCode::limit, "aggregation stops at " + std::to_string(a.rows()) +
+                                          " rows, and a direct solve "
+                                          "of more than " +
+                                          std::to_string(kMostCoarse) +
                                           " is too much: take another preconditioner");
     out.levels.push_back({from_eigen(a), {}, {}});
     out.coarsest_inverse = pseudo_inverse(a);

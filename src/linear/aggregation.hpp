@@ -17,7 +17,7 @@ struct AggregationLevel
 
 struct AggregationOptions
 {
-    double strength = 0.08;      ///< |a_ij| > strength sqrt(a_ii a_jj) couples; halved from level to level
+    double strength = 0.08;       ///< |a_ij| > strength sqrt(a_ii a_jj) couples; halved from level to level
     std::uint32_t coarsest = 256; ///< rows at which it stops
     int most_levels = 12;
 };
@@ -34,8 +34,9 @@ struct AggregationHierarchy
 
 /// For symmetric matrices with a positive diagonal. Vanek, Mandel, Brezina. Algebraic Multigrid by Smoothed
 /// Aggregation for Second and Fourth Order Elliptic Problems. Computing 56, 1996: algorithm 5.1 (aggregates),
-/// section 4 (the smoothed prolongation, here of constants). Stops early where aggregates no longer shrink the
-/// system to two thirds; the last matrix may then be larger than `coarsest`, but Error{limit} beyond 1,024 rows.
+/// section 4 (the smoothed prolongation, here of constants). Stops early where aggregates no longer shrink
+/// the system to two thirds; the last matrix may then be larger than `coarsest`, but Error{limit} beyond
+/// 1,024 rows.
 AggregationHierarchy aggregate(const SparseMatrix&, const AggregationOptions& = {});
 
 } // namespace taut::linear

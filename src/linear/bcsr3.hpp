@@ -16,8 +16,8 @@ struct Bcsr3Layout
     std::uint64_t values() const { return std::uint64_t{9} * column.size(); }
 };
 
-/// Throws Error{bad_input} unless rows and columns are a multiple of 3, Error{limit} when values would be 2^32
-/// or more.
+/// Throws Error{bad_input} unless rows and columns are a multiple of 3, Error{limit} when values would be
+/// 2^32 or more.
 Bcsr3Layout bcsr3_layout(const SparseMatrix&);
 
 inline std::uint32_t bcsr3_block(std::uint32_t step, std::uint32_t r) { return TAUT_BCSR3_BLOCK(step, r); }

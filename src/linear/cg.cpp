@@ -14,7 +14,8 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::uint32_t kReplacementEvery = 8; ///< iterations between two places where the residual may be formed
+constexpr std::uint32_t kReplacementEvery =
+    8; ///< iterations between two places where the residual may be formed
 constexpr const char* kLabel = "cg";
 
 bool is_diagonal(Preconditioner kind)
@@ -39,10 +40,7 @@ std::string_view variant_of(Preconditioner kind, bool masked = false)
     return "";
 }
 
-std::uint32_t word_bytes(std::uint32_t word)
-{
-    return word * 4;
-}
+std::uint32_t word_bytes(std::uint32_t word) { return word * 4; }
 
 } // namespace
 
@@ -61,7 +59,8 @@ ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared
         throw Error(ErrorCode::bad_input, "block_jacobi needs a multiple of 3 rows, but there are " +
                                               std::to_string(operator_->rows()) + ": take jacobi");
     if (operator_->recomputes() && preconditioning_.kind != Preconditioner::none)
-        throw Error(ErrorCode::unsupported, "an operator that recomputes its product takes no preconditioner");
+        throw Error(ErrorCode::unsupported,
+                    "an operator that recomputes its product takes no preconditioner");
     const std::uint64_t real = real_bytes(precision_);
     const std::uint64_t rows = operator_->rows();
     const std::uint64_t state = real == 4 ? sizeof(layout::CgState<float>) : sizeof(layout::CgState<double>);
@@ -104,13 +103,12 @@ void ConjugateGradient::record_restart(Recorder& recorder, const Gate& gate, boo
     const auto& kernel = kernels::cg_restart::info(
         variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_);
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
-    std::vector<Recorder::Binding> bindings = {r_, begin ? b_ : r_, partials_, begin ? settings_ : decided_,
-                                               measured_, control_};
+    std::vector<Recorder::Binding> bindings = {
+        r_, begin ? b_ : r_, partials_, begin ? settings_ : decided_, measured_, control_};
     if (preconditioning_.inverse)
         bindings.push_back(preconditioning_.inverse);
     launch(recorder, gate, kernel, std::move(bindings),
-           kernels::cg_restart::Params{grid.count, grid.chunk, groups_, begin ? 1u : 0u,
-                                       pairs_ ? 2u : 1u},
+           kernels::cg_restart::Params{grid.count, grid.chunk, groups_, begin ? 1u : 0u, pairs_ ? 2u : 1u},
            kLabel);
     record_preconditioner(recorder, gate);
 }
@@ -126,7 +124,8 @@ void ConjugateGradient::record_residual(Recorder& recorder, const Gate& gate)
 void ConjugateGradient::record_preconditioner(Recorder& recorder, const Gate& gate)
 {
     if (is_stored(preconditioning_.kind))
-        preconditioning_.stored->record(recorder, gate, r_, z_, {partials_, 0, groups_ * real_bytes(precision_)});
+        preconditioning_.stored->record(recorder, gate, r_, z_,
+                                        {partials_, 0, groups_ * real_bytes(precision_)});
 }
 
 void ConjugateGradient::record_begin(Recorder& recorder)
@@ -152,13 +151,13 @@ void ConjugateGradient::record_direction(Recorder& recorder, bool last)
     const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
     const bool stored = is_stored(preconditioning_.kind);
-    std::vector<Recorder::Binding> bindings = {stored ? z_ : r_, p_, x_, partials_, measured_, decided_,
-                                               control_};
+    std::vector<Recorder::Binding> bindings = {stored ? z_ : r_, p_,       x_,      partials_,
+                                               measured_,        decided_, control_};
     if (preconditioning_.inverse && !stored)
         bindings.push_back(preconditioning_.inverse);
     launch(recorder, gate, kernels::cg_direction::info(variant_of(preconditioning_.kind), precision_),
-           std::move(bindings), kernels::cg_direction::Params{grid.count, grid.chunk, groups_, kHistory, last ? 1u : 0u},
-           kLabel);
+           std::move(bindings),
+           kernels::cg_direction::Params{grid.count, grid.chunk, groups_, kHistory, last ? 1u : 0u}, kLabel);
 }
 
 void ConjugateGradient::record_iteration(Recorder& recorder)
@@ -226,8 +225,8 @@ std::uint64_t ConjugateGradient::bytes() const
 {
     std::uint64_t sum = preconditioning_.inverse ? preconditioning_.inverse->bytes() : 0;
     sum += preconditioning_.stored ? preconditioning_.stored->bytes() : 0;
-    for (const BufferPtr* buffer : {&b_, &base_, &x_, &r_, &p_, &q_, &z_, &partials_, &curvatures_, &settings_,
-                                    &decided_, &measured_, &control_})
+    for (const BufferPtr* buffer : {&b_, &base_, &x_, &r_, &p_, &q_, &z_, &partials_, &curvatures_,
+                                    &settings_, &decided_, &measured_, &control_})
         sum += *buffer ? (*buffer)->bytes() : 0;
     return sum;
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Conjugate gradients as passes of a recording: what `solve` replays, and what an implicit method puts into its
-// own step. No host read between begin and end; a solve that has ended leaves passes of zero groups behind.
+// Conjugate gradients as passes of a recording: what `solve` replays, and what an implicit method puts into
+// its own step. No host read between begin and end; a solve that has ended leaves passes of zero groups
+// behind.
 
 #include "taut/linear/operator.hpp"
 #include "taut/linear/preconditioner.hpp"
@@ -15,8 +16,8 @@ struct CgSettings
 {
     double tolerance = 1e-8; ///< of |b - A x| / |b|, > 0
     std::uint32_t iteration_limit = 1000;
-    double replacement = 0.01; ///< |r| below this share of its peak: form the residual anew; in (0, 1)
-    double growth = 1e8;       ///< |r| above this multiple of max(|b|, |r0|): the iteration runs away
+    double replacement = 0.01;     ///< |r| below this share of its peak: form the residual anew; in (0, 1)
+    double growth = 1e8;           ///< |r| above this multiple of max(|b|, |r0|): the iteration runs away
     std::uint32_t patience = 1000; ///< iterations without a new smallest |r| after which it is formed anew
 };
 
@@ -32,12 +33,12 @@ struct Preconditioning
 struct CgOutcome
 {
     Status status = Status::iteration_limit;
-    std::uint32_t cause = 0;      ///< TAUT_CG_* (kernels/shared/layouts.h)
-    bool running = false;         ///< more iterations are wanted
+    std::uint32_t cause = 0; ///< TAUT_CG_* (kernels/shared/layouts.h)
+    bool running = false;    ///< more iterations are wanted
     std::uint32_t iterations = 0;
     std::uint32_t replacements = 0;
-    double residual = 0;  ///< |r| / |b| at the end: of the residual formed anew where cause says so
-    double curvature = 0; ///< p.Ap of the last direction
+    double residual = 0;        ///< |r| / |b| at the end: of the residual formed anew where cause says so
+    double curvature = 0;       ///< p.Ap of the last direction
     double curvature_ratio = 0; ///< p.Ap / p.Mp over the largest seen so far
     double rz = 0;
 };
@@ -60,8 +61,8 @@ public:
 
     /// r = b - A x, b.b, and the state of a new solve.
     void record_begin(Recorder&);
-    /// Room for `count` iterations: three dispatches each (COO and Chebyshev more), and after every eighth those
-    /// that form the residual anew. What is not needed runs zero groups.
+    /// Room for `count` iterations: three dispatches each (COO and Chebyshev more), and after every eighth
+    /// those that form the residual anew. What is not needed runs zero groups.
     void record_iterations(Recorder&, std::uint32_t count);
     /// Takes the last step, checks the true residual where that is still open, x += what was gained. After it
     /// outcome() is final: a solve that still went on has the status iteration_limit.

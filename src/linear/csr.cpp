@@ -61,10 +61,7 @@ std::vector<std::uint32_t> columns_of(const SparseMatrix& matrix, const Layout& 
 }
 
 /// Trips of one lane of spmv_csr_long for a row of `length` entries, with the tree of sums.
-std::uint64_t long_trips(std::uint64_t length)
-{
-    return length / TAUT_LINEAR_GROUP + 10;
-}
+std::uint64_t long_trips(std::uint64_t length) { return length / TAUT_LINEAR_GROUP + 10; }
 
 class CsrMatrix final : public PackedMatrix
 {
@@ -88,7 +85,10 @@ public:
         upload_values(matrix, layout.slots, layout.count);
     }
 
-    std::vector<std::uint32_t> slots(const SparseMatrix& matrix) const override { return lay_out(matrix).slots; }
+    std::vector<std::uint32_t> slots(const SparseMatrix& matrix) const override
+    {
+        return lay_out(matrix).slots;
+    }
 
 private:
     void record(Recorder&, const Gate&, const Pass&) const override;
@@ -122,10 +122,10 @@ void CsrMatrix::cut_long_rows(const Layout& layout)
     {
         const std::uint64_t length = layout.long_rows[3 * k + 2] - layout.long_rows[3 * k + 1];
         if (length > kLongestCsrRow)
-            throw Error(ErrorCode::limit, "row " + std::to_string(layout.long_rows[3 * k]) + " (from 0) holds " +
-                                              std::to_string(length) + " entries, and a row of format csr may hold " +
-                                              std::to_string(kLongestCsrRow) +
-                                              ": take coo");
+            throw Error(ErrorCode::limit, "row " + std::to_string(layout.long_rows[3 * k]) +
+                                              " (from 0) holds " + std::to_string(length) +
+                                              " entries, and a row of format csr may hold " +
+                                              std::to_string(kLongestCsrRow) + ": take coo");
         std::uint64_t& sum = trips[(k - cuts_.back()) % groups];
         if (sum + long_trips(length) > kMostTrips)
         {
@@ -156,7 +156,8 @@ void CsrMatrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) c
     if (stream_)
         variant = variant.empty() ? "stream" : "stream_" + variant;
     const Grid grid = make_grid(rows(), gate.groups);
-    launch(recorder, gate, kernels::spmv_csr::info(variant, precision()), bindings({row_start_, column_}, pass),
+    launch(recorder, gate, kernels::spmv_csr::info(variant, precision()),
+           bindings({row_start_, column_}, pass),
            kernels::spmv_csr::Params{grid.count, grid.chunk, gate.groups, low_words}, kLabel);
 }
 

@@ -16,8 +16,8 @@ struct Packed
 
 [[noreturn]] void throw_too_large(const SparseMatrix& matrix, std::size_t entry, int exponent)
 {
-    const auto after = std::upper_bound(matrix.row_start.begin(), matrix.row_start.end(),
-                                        static_cast<std::uint32_t>(entry));
+    const auto after =
+        std::upper_bound(matrix.row_start.begin(), matrix.row_start.end(), static_cast<std::uint32_t>(entry));
     throw Error(ErrorCode::bad_input,
                 "the value " + std::to_string(matrix.value[entry]) + " of row " +
                     std::to_string(after - matrix.row_start.begin() - 1) + " column " +
@@ -59,8 +59,7 @@ PackedMatrix::PackedMatrix(const std::shared_ptr<Device>& device, const SparseMa
       format_(options.format),
       pairs_(options.pairs),
       exponent_(options.exponent)
-{
-}
+{}
 
 void PackedMatrix::record_product(Recorder& recorder, const Gate& gate, Binding x, Binding y,
                                   Binding partials) const
@@ -69,7 +68,8 @@ void PackedMatrix::record_product(Recorder& recorder, const Gate& gate, Binding 
     record(recorder, gate, {variant, std::move(x), std::move(y), std::move(partials)});
 }
 
-void PackedMatrix::record_residual(Recorder& recorder, const Gate& gate, Binding x, Binding b, Binding r) const
+void PackedMatrix::record_residual(Recorder& recorder, const Gate& gate, Binding x, Binding b,
+                                   Binding r) const
 {
     record(recorder, gate, {"residual", std::move(x), std::move(r), std::move(b)});
 }
@@ -85,8 +85,9 @@ void PackedMatrix::check_bytes(std::uint64_t wanted, std::string_view what) cons
     const std::uint64_t most = device_->limits().max_buffer_bytes;
     if (wanted > most)
         throw Error(ErrorCode::limit, "format " + std::string(to_string(format_)) + " needs " +
-                                          std::to_string(wanted) + " bytes for " + std::string(what) + ", but " +
-                                          device_->info().selector + " allows " + std::to_string(most) +
+                                          std::to_string(wanted) + " bytes for " + std::string(what) +
+                                          ", but " + device_->info().selector + " allows " +
+                                          std::to_string(most) +
                                           " in one buffer: take a sparser format, float, or another device");
 }
 
@@ -101,8 +102,9 @@ void PackedMatrix::check_trips(std::uint32_t units,
         std::uint64_t sum = 0;
         const std::uint64_t end = std::min<std::uint64_t>(begin + grid.chunk, units);
         for (std::uint64_t tile = begin; tile < end; tile += TAUT_LINEAR_GROUP)
-            sum += 1 + trips(static_cast<std::uint32_t>(tile),
-                             static_cast<std::uint32_t>(std::min<std::uint64_t>(tile + TAUT_LINEAR_GROUP, end)));
+            sum +=
+                1 + trips(static_cast<std::uint32_t>(tile),
+                          static_cast<std::uint32_t>(std::min<std::uint64_t>(tile + TAUT_LINEAR_GROUP, end)));
         if (sum > kMostTrips)
             throw Error(ErrorCode::limit, "format " + std::string(to_string(format_)) + " would loop " +
                                               std::to_string(sum) + " times in one of the rows " +
@@ -130,7 +132,8 @@ void PackedMatrix::upload_values(const SparseMatrix& matrix, std::span<const std
     check_bytes(count * real_bytes(precision_), "values");
     const auto send = [this](const auto& values, std::string_view label) {
         using Real = typename std::decay_t<decltype(values)>::value_type;
-        BufferPtr buffer = device_->make_buffer(std::max<std::uint64_t>(values.size(), 1) * sizeof(Real), label);
+        BufferPtr buffer =
+            device_->make_buffer(std::max<std::uint64_t>(values.size(), 1) * sizeof(Real), label);
         if (!values.empty())
             device_->write<Real>(buffer, values);
         bytes_ += values.size() * sizeof(Real);

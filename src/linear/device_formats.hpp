@@ -8,8 +8,8 @@
 
 namespace taut::linear {
 
-/// What every format is: tables that stay, values, and a kernel with the variants "" (y = A x), "dot" (partials
-/// too), "residual" (r = b - A x) and "residual_pairs" (the same in two floats).
+/// What every format is: tables that stay, values, and a kernel with the variants "" (y = A x), "dot"
+/// (partials too), "residual" (r = b - A x) and "residual_pairs" (the same in two floats).
 ///
 /// Every kernel binds, in this order: tables of the pattern, values, x, the result (y or r), and then for
 /// "dot" the partials, for "residual" b, for "residual_pairs" b and the low words of the values.
@@ -38,27 +38,28 @@ protected:
     };
     virtual void record(Recorder&, const Gate&, const Pass&) const = 0;
 
-    /// A table of the pattern on the device (at least one word); counted in bytes(). Throws Error{limit} naming
-    /// format, what it is and its bytes where it is larger than the device's buffers may be.
+    /// A table of the pattern on the device (at least one word); counted in bytes(). Throws Error{limit}
+    /// naming format, what it is and its bytes where it is larger than the device's buffers may be.
     BufferPtr upload_table(std::span<const std::uint32_t> table, std::string_view what);
 
-    /// values() of `count` entries, zero but for value k of the matrix times 2^exponent at slots[k]; low words where
-    /// options ask for pairs and any value needs one. Throws Error{limit} as above, and Error{bad_input} for a value
-    /// that float cannot hold.
+    /// values() of `count` entries, zero but for value k of the matrix times 2^exponent at slots[k]; low
+    /// words where options ask for pairs and any value needs one. Throws Error{limit} as above, and
+    /// Error{bad_input} for a value that float cannot hold.
     void upload_values(const SparseMatrix&, std::span<const std::uint32_t> slots, std::uint64_t count);
 
     /// tables, values, x, result, and what the variant asks for behind it: the bindings of a pass.
     std::vector<Binding> bindings(std::vector<BufferPtr> tables, const Pass&) const;
 
-    /// Whether values have low words: the parameter `low_words` of "residual_pairs". Without, `bindings` binds the
-    /// values again in that slot and the kernel must not read it.
+    /// Whether values have low words: the parameter `low_words` of "residual_pairs". Without, `bindings`
+    /// binds the values again in that slot and the kernel must not read it.
     bool has_low_words() const { return low_ != nullptr; }
 
     /// Throws Error{limit} where a buffer of `wanted` bytes is more than the device allows.
     void check_bytes(std::uint64_t wanted, std::string_view what) const;
 
-    /// Throws Error{limit} where a lane of group g, which loops `trips(begin, end)` times for 128 rows (units) from
-    /// `begin` on, would loop more often than kMostTrips in one dispatch. Native code loops as long as it likes.
+    /// Throws Error{limit} where a lane of group g, which loops `trips(begin, end)` times for 128 rows
+    /// (units) from `begin` on, would loop more often than kMostTrips in one dispatch. Native code loops as
+    /// long as it likes.
     void check_trips(std::uint32_t units,
                      const std::function<std::uint64_t(std::uint32_t begin, std::uint32_t end)>& trips) const;
 
@@ -98,11 +99,17 @@ SellLayout sell_layout(const SparseMatrix&);
 
 /// Called by DeviceMatrix::upload, which has checked what does not depend on the format (square, at least one
 /// row, precision of the device, pairs with float only).
-std::shared_ptr<DeviceMatrix> make_dense(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
-std::shared_ptr<DeviceMatrix> make_coo(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
-std::shared_ptr<DeviceMatrix> make_csr(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
-std::shared_ptr<DeviceMatrix> make_ell(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
-std::shared_ptr<DeviceMatrix> make_sell(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
-std::shared_ptr<DeviceMatrix> make_bcsr3(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_dense(const std::shared_ptr<Device>&, const SparseMatrix&,
+                                         const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_coo(const std::shared_ptr<Device>&, const SparseMatrix&,
+                                       const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_csr(const std::shared_ptr<Device>&, const SparseMatrix&,
+                                       const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_ell(const std::shared_ptr<Device>&, const SparseMatrix&,
+                                       const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_sell(const std::shared_ptr<Device>&, const SparseMatrix&,
+                                        const UploadOptions&);
+std::shared_ptr<DeviceMatrix> make_bcsr3(const std::shared_ptr<Device>&, const SparseMatrix&,
+                                         const UploadOptions&);
 
 } // namespace taut::linear

@@ -12,14 +12,15 @@ void check(const Device& device, const SparseMatrix& matrix, const UploadOptions
 {
     const bool may_be_long = options.rectangular && options.format == Format::csr;
     if (matrix.rows != matrix.columns && !may_be_long)
-        throw Error(ErrorCode::bad_input, "the matrix has " + std::to_string(matrix.rows) + " rows and " +
-                                              std::to_string(matrix.columns) +
-                                              " columns: only square ones go to a device, or rectangular ones in csr");
+        throw Error(ErrorCode::bad_input,
+                    "the matrix has " + std::to_string(matrix.rows) + " rows and " +
+                        std::to_string(matrix.columns) +
+                        " columns: only square ones go to a device, or rectangular ones in csr");
     if (matrix.rows == 0)
         throw Error(ErrorCode::bad_input, "the matrix has no rows: nothing to put on a device");
     if (options.precision == Precision::float64 && !device.limits().float64)
         throw Error(ErrorCode::unsupported, device.info().selector + " has no 64-bit floats: take float, or "
-                                            "mixed for more digits");
+                                                                     "mixed for more digits");
     if (options.pairs && options.precision != Precision::float32)
         throw Error(ErrorCode::bad_input, "low words are kept of floats only: take pairs with float");
 }

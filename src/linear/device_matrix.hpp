@@ -10,8 +10,8 @@ struct UploadOptions
 {
     Format format = Format::csr; ///< not automatic
     Precision precision = Precision::float64;
-    bool pairs = false;  ///< float only: keep the low words of values that float cannot hold (for `mixed`)
-    int exponent = 0;    ///< values are multiplied by 2^exponent (exact); the solver chooses it
+    bool pairs = false; ///< float only: keep the low words of values that float cannot hold (for `mixed`)
+    int exponent = 0;   ///< values are multiplied by 2^exponent (exact); the solver chooses it
     bool rectangular = false; ///< csr only: products and residuals without partials; x has `columns` entries
 };
 
@@ -22,8 +22,8 @@ public:
     /// Largest |value| of the matrix has exponent 0 after 2^exponent: the way to solve 1e30 as well as 1e-30.
     static int scale_exponent(const SparseMatrix&);
 
-    /// Throws Error{limit} naming format and bytes when a buffer would be larger than the device allows, ELL would
-    /// waste more than kLargestEllWaste, or a row is longer than the kernel's loops may go;
+    /// Throws Error{limit} naming format and bytes when a buffer would be larger than the device allows, ELL
+    /// would waste more than kLargestEllWaste, or a row is longer than the kernel's loops may go;
     /// Error{bad_input} for a matrix that is not square, or bcsr3 with rows no multiple of 3.
     static std::shared_ptr<DeviceMatrix> upload(const std::shared_ptr<Device>&, const SparseMatrix&,
                                                 const UploadOptions&);

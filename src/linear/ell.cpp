@@ -44,10 +44,10 @@ private:
     {
         const double stored = static_cast<double>(matrix.rows) * width_;
         if (stored > kLargestEllWaste * static_cast<double>(matrix.nonzeros()))
-            throw Error(ErrorCode::limit,
-                        "format ell would pad every row to " + std::to_string(width_) + " entries and store " +
-                            std::to_string(static_cast<std::uint64_t>(stored)) + " for " +
-                            std::to_string(matrix.nonzeros()) + ": take sell or csr");
+            throw Error(ErrorCode::limit, "format ell would pad every row to " + std::to_string(width_) +
+                                              " entries and store " +
+                                              std::to_string(static_cast<std::uint64_t>(stored)) + " for " +
+                                              std::to_string(matrix.nonzeros()) + ": take sell or csr");
         if (std::uint64_t{stride_} * width_ >= std::uint64_t{1} << 32)
             throw Error(ErrorCode::limit, "format ell numbers entries with 32 bits, but would store " +
                                               std::to_string(std::uint64_t{stride_} * width_) + ": take csr");

@@ -73,8 +73,8 @@ Storage ell_storage(const SparseMatrix& matrix)
 Storage bcsr3_storage(const SparseMatrix& matrix)
 {
     if (matrix.rows % 3 != 0)
-        throw Error(ErrorCode::bad_input, "format bcsr3 needs a multiple of 3 rows, not " +
-                                              std::to_string(matrix.rows));
+        throw Error(ErrorCode::bad_input,
+                    "format bcsr3 needs a multiple of 3 rows, not " + std::to_string(matrix.rows));
     const std::uint64_t blocks = sliced(blocks_of(matrix));
     return {9 * blocks, 4 * blocks + 4 * (slices_of(matrix.rows / 3) + 1)};
 }
@@ -88,7 +88,8 @@ Storage storage_of(Format format, const SparseMatrix& matrix)
     case Format::coo: return {matrix.nonzeros(), 8 * matrix.nonzeros()};
     case Format::csr: return csr_storage(matrix);
     case Format::ell: return ell_storage(matrix);
-    case Format::sell: {
+    case Format::sell:
+    {
         const SellLayout layout = sell_layout(matrix);
         return {layout.entries(), 4 * (layout.entries() + layout.slice_start.size() + matrix.rows)};
     }
@@ -125,7 +126,8 @@ Format format_from(std::string_view word)
             return static_cast<Format>(k);
         words += (k == 0 ? "\"" : ", \"") + std::string(kWords[k]) + '"';
     }
-    throw Error(ErrorCode::bad_input, "\"" + std::string(word) + "\" is no matrix format: take one of " + words);
+    throw Error(ErrorCode::bad_input,
+                "\"" + std::string(word) + "\" is no matrix format: take one of " + words);
 }
 
 std::span<const Format> all_formats() { return kFormats; }
@@ -175,16 +177,18 @@ FormatChoice choose_format(const RowStatistics& s, bool hardware_gpu)
     const double square = static_cast<double>(s.rows) * s.rows;
     const double share = s.rows == 0 ? 0 : static_cast<double>(s.nonzeros) / square;
     if (share >= kLeastDenseShare)
-        return {Format::dense, "dense: " + shown(100 * share) + " % of all places hold an entry, so that column "
-                               "numbers would cost more than the zeros"};
+        return {Format::dense, "dense: " + shown(100 * share) +
+                                   " % of all places hold an entry, so that column "
+                                   "numbers would cost more than the zeros"};
     if (s.longest > kLongestCsrRow)
-        return {Format::coo, "coo: the longest row holds " + std::to_string(s.longest) + " entries, and csr takes " +
-                                 std::to_string(kLongestCsrRow)};
+        return {Format::coo, "coo: the longest row holds " + std::to_string(s.longest) +
+                                 " entries, and csr takes " + std::to_string(kLongestCsrRow)};
     if (s.block_fill >= kLeastBlockFill)
-        return {Format::bcsr3, "bcsr3: " + shown(100 * s.block_fill) +
-                                   " % of the places in its 3 x 3 blocks hold an entry"};
+        return {Format::bcsr3,
+                "bcsr3: " + shown(100 * s.block_fill) + " % of the places in its 3 x 3 blocks hold an entry"};
     const std::string rows = "rows hold " + std::to_string(s.shortest) + " to " + std::to_string(s.longest) +
-                             " entries, " + shown(s.mean) + " on average (deviation " + shown(s.deviation) + ")";
+                             " entries, " + shown(s.mean) + " on average (deviation " + shown(s.deviation) +
+                             ")";
     if (hardware_gpu && s.sell_fill >= kLeastSellFill)
         return {Format::sell, "sell: " + rows + ", so that only " + shown(100 * (1 - s.sell_fill)) +
                                   " % of what it stores is padding"};

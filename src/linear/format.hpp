@@ -20,7 +20,8 @@ enum class Format : std::uint8_t
     bcsr3,     ///< 3 x 3 blocks in slices of 32 block rows
 };
 std::string_view to_string(Format);
-/// Throws Error{bad_input} listing the words there are ("auto", "dense", "coo", "csr", "ell", "sell", "bcsr3").
+/// Throws Error{bad_input} listing the words there are ("auto", "dense", "coo", "csr", "ell", "sell",
+/// "bcsr3").
 Format format_from(std::string_view word);
 
 /// Every format that is not `automatic`, in the order above.
@@ -33,9 +34,9 @@ struct RowStatistics
     std::uint32_t shortest = 0;
     std::uint32_t longest = 0;
     double mean = 0;
-    double deviation = 0;    ///< standard deviation of the row length
-    double block_fill = 0;   ///< nonzeros / (9 x nonzero 3 x 3 blocks); 0 where rows is no multiple of 3
-    double sell_fill = 0;    ///< nonzeros / stored entries of SELL-32-256
+    double deviation = 0;  ///< standard deviation of the row length
+    double block_fill = 0; ///< nonzeros / (9 x nonzero 3 x 3 blocks); 0 where rows is no multiple of 3
+    double sell_fill = 0;  ///< nonzeros / stored entries of SELL-32-256
 };
 RowStatistics row_statistics(const SparseMatrix&);
 
@@ -46,8 +47,8 @@ std::uint64_t matrix_bytes(Format, const SparseMatrix&, Precision, bool pairs = 
 inline constexpr double kLargestEllWaste = 3;
 /// Largest block fill below which bcsr3 is refused by `automatic`.
 inline constexpr double kLeastBlockFill = 0.6;
-/// `automatic` takes dense from this share of all places on: there a value with a column number (12 bytes) costs
-/// as much as the values of all places.
+/// `automatic` takes dense from this share of all places on: there a value with a column number (12 bytes)
+/// costs as much as the values of all places.
 inline constexpr double kLeastDenseShare = 2.0 / 3;
 /// `automatic` takes sell, on a hardware GPU, from this fill on.
 inline constexpr double kLeastSellFill = 0.75;

@@ -18,7 +18,8 @@ Grid make_grid(std::uint32_t count, std::uint32_t groups, std::uint32_t multiple
 }
 
 void launch(Recorder& recorder, const Gate& gate, const KernelInfo& kernel,
-            std::vector<Recorder::Binding> bindings, std::span<const std::byte> params, std::string_view label)
+            std::vector<Recorder::Binding> bindings, std::span<const std::byte> params,
+            std::string_view label)
 {
     if (gate.control)
         recorder.dispatch_indirect(kernel, std::move(bindings), params, {gate.control, gate.offset, 12},

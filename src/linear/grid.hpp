@@ -24,7 +24,8 @@ std::uint32_t group_count_for(std::uint32_t rows, const DeviceInfo&);
 
 Grid make_grid(std::uint32_t count, std::uint32_t groups, std::uint32_t multiple = TAUT_LINEAR_GROUP);
 
-/// When a pass runs: always, or with as many groups as a word of the solver's control buffer says (0: not at all).
+/// When a pass runs: always, or with as many groups as a word of the solver's control buffer says (0: not at
+/// all).
 struct Gate
 {
     std::uint32_t groups = 1;

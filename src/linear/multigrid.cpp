@@ -57,7 +57,8 @@ Multigrid::Multigrid(std::shared_ptr<Device> device, const AggregationHierarchy&
             value = std::ldexp(value, -exponent);
         BufferPtr diagonal = make_vector(from.matrix.rows, "multigrid inverse");
         write_reals(*device_, diagonal, inverse, precision_);
-        level.smoother = std::make_shared<Chebyshev>(device_, level.matrix, diagonal, interval, kSmootherDegree);
+        level.smoother =
+            std::make_shared<Chebyshev>(device_, level.matrix, diagonal, interval, kSmootherDegree);
         level.smooth = make_vector(from.matrix.rows, "multigrid smooth");
         level.corrected = make_vector(from.matrix.rows, "multigrid corrected");
         level.rest = make_vector(from.matrix.rows, "multigrid rest");

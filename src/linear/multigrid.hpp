@@ -10,8 +10,8 @@
 
 namespace taut::linear {
 
-/// z = V(r): a Chebyshev polynomial before and the same one after the correction from the next level, so that V is
-/// symmetric and, with intervals that hold the largest eigenvalues, positive definite.
+/// z = V(r): a Chebyshev polynomial before and the same one after the correction from the next level, so that
+/// V is symmetric and, with intervals that hold the largest eigenvalues, positive definite.
 class Multigrid : public StoredPreconditioner
 {
 public:
@@ -30,11 +30,12 @@ private:
         std::shared_ptr<const Operator> prolongation; ///< negative, so that a correction is a residual
         std::shared_ptr<const Operator> restriction;
         std::shared_ptr<const Chebyshev> smoother;
-        BufferPtr right, out;             ///< what a coarser level is given, and gives back
+        BufferPtr right, out; ///< what a coarser level is given, and gives back
         BufferPtr smooth, corrected, rest;
     };
 
-    void record_level(Recorder&, const Gate&, std::size_t level, Operator::Binding r, Operator::Binding z) const;
+    void record_level(Recorder&, const Gate&, std::size_t level, Operator::Binding r,
+                      Operator::Binding z) const;
     BufferPtr make_vector(std::uint32_t rows, std::string_view label);
 
     std::shared_ptr<Device> device_;

@@ -82,8 +82,8 @@ NullBasis::NullBasis(const SparseMatrix& a, NullSpace kind, std::span<const std:
         project(z);
         const double left = norm(z);
         if (left < 1e-6)
-            throw Error(ErrorCode::bad_input,
-                        "null vector " + std::to_string(k + 1) + " depends on the ones before it: leave it out");
+            throw Error(ErrorCode::bad_input, "null vector " + std::to_string(k + 1) +
+                                                  " depends on the ones before it: leave it out");
         for (double& entry : z)
             entry /= left;
         vectors_.push_back(std::move(z));

@@ -9,8 +9,8 @@ namespace taut::linear {
 class NullBasis
 {
 public:
-    /// Throws Error{bad_input} for given vectors of another length than n, that are not finite or depend on each
-    /// other, and for one that A does not map to zero (within 1e-8 of |A|_inf).
+    /// Throws Error{bad_input} for given vectors of another length than n, that are not finite or depend on
+    /// each other, and for one that A does not map to zero (within 1e-8 of |A|_inf).
     NullBasis(const SparseMatrix&, NullSpace, std::span<const std::vector<double>> given);
 
     bool empty() const { return vectors_.empty(); }

@@ -1,6 +1,6 @@
 #pragma once
-// A linear operator as passes on a device: what conjugate gradients need of a matrix. A matrix-free operator is
-// a class of the caller that records kernels of its own.
+// A linear operator as passes on a device: what conjugate gradients need of a matrix. A matrix-free operator
+// is a class of the caller that records kernels of its own.
 
 #include "taut/linear/grid.hpp"
 
@@ -19,8 +19,8 @@ public:
     /// Device bytes that one product reads of the operator itself (0: matrix-free).
     virtual std::uint64_t bytes() const = 0;
 
-    /// y = A x. Where `partials` is a buffer also partials[g] = sum of x_i y_i over the units of group g, for all
-    /// gate.groups groups.
+    /// y = A x. Where `partials` is a buffer also partials[g] = sum of x_i y_i over the units of group g, for
+    /// all gate.groups groups.
     virtual void record_product(Recorder&, const Gate&, Binding x, Binding y, Binding partials) const = 0;
     /// r = b - A x.
     virtual void record_residual(Recorder&, const Gate&, Binding x, Binding b, Binding r) const = 0;

@@ -10,7 +10,8 @@ void write_reals(Device& device, const BufferPtr& buffer, std::span<const double
     device.write<float>(buffer, rounded);
 }
 
-std::vector<double> read_reals(Device& device, const BufferPtr& buffer, std::size_t count, Precision precision)
+std::vector<double> read_reals(Device& device, const BufferPtr& buffer, std::size_t count,
+                               Precision precision)
 {
     if (precision == Precision::float64)
         return device.read<double>(buffer, count);

@@ -16,7 +16,8 @@ constexpr std::uint32_t kSlice = SellLayout::kSlice;
 class SellMatrix final : public PackedMatrix
 {
 public:
-    SellMatrix(const std::shared_ptr<Device>& device, const SparseMatrix& matrix, const UploadOptions& options)
+    SellMatrix(const std::shared_ptr<Device>& device, const SparseMatrix& matrix,
+               const UploadOptions& options)
         : PackedMatrix(device, matrix, options)
     {
         const SellLayout layout = sell_layout(matrix);
@@ -27,11 +28,12 @@ public:
         check_trips(rows(), [&](std::uint32_t begin, std::uint32_t end) {
             std::uint64_t widest = 0;
             for (std::uint32_t slice = begin / kSlice; slice * kSlice < end; ++slice)
-                widest = std::max(widest, (layout.slice_start[slice + 1] - layout.slice_start[slice]) / kSlice);
+                widest =
+                    std::max(widest, (layout.slice_start[slice + 1] - layout.slice_start[slice]) / kSlice);
             return widest;
         });
-        slice_start_ = upload_table(std::vector<std::uint32_t>(layout.slice_start.begin(), layout.slice_start.end()),
-                                    "slice starts");
+        slice_start_ = upload_table(
+            std::vector<std::uint32_t>(layout.slice_start.begin(), layout.slice_start.end()), "slice starts");
         order_ = upload_table(layout.order, "order of rows");
         column_ = upload_table(columns_of(matrix, layout), "columns");
         upload_values(matrix, slots_of(matrix, layout), layout.entries());
@@ -79,7 +81,8 @@ private:
         const Grid grid = make_grid(rows(), gate.groups);
         launch(recorder, gate, kernels::spmv_sell::info(pass.variant, precision()),
                bindings({slice_start_, order_, column_}, pass),
-               kernels::spmv_sell::Params{grid.count, grid.chunk, gate.groups, has_low_words() ? 1u : 0u}, "spmv");
+               kernels::spmv_sell::Params{grid.count, grid.chunk, gate.groups, has_low_words() ? 1u : 0u},
+               "spmv");
     }
 
     BufferPtr slice_start_, order_, column_;
@@ -92,11 +95,13 @@ SellLayout sell_layout(const SparseMatrix& matrix)
     SellLayout layout;
     layout.order.resize(matrix.rows);
     std::iota(layout.order.begin(), layout.order.end(), 0u);
-    for (std::uint32_t begin = 0; begin < matrix.rows; begin += std::min(SellLayout::kWindow, matrix.rows - begin))
+    for (std::uint32_t begin = 0; begin < matrix.rows;
+         begin += std::min(SellLayout::kWindow, matrix.rows - begin))
     {
         const std::uint32_t end = begin + std::min(SellLayout::kWindow, matrix.rows - begin);
-        std::stable_sort(layout.order.begin() + begin, layout.order.begin() + end,
-                         [&](std::uint32_t a, std::uint32_t b) { return matrix.row_length(a) > matrix.row_length(b); });
+        std::stable_sort(
+            layout.order.begin() + begin, layout.order.begin() + end,
+            [&](std::uint32_t a, std::uint32_t b) { return matrix.row_length(a) > matrix.row_length(b); });
     }
     layout.slice_start.push_back(0);
     for (std::uint64_t place = 0; place < matrix.rows; place += kSlice) // the first of a slice is its longest

@@ -31,10 +31,12 @@ void check_options(const SolveOptions& options, std::uint32_t rows)
         throw Error(ErrorCode::bad_input, "the degree of the Chebyshev polynomial must be 1 to 16, not " +
                                               std::to_string(options.chebyshev_degree));
     if (options.preconditioner == Preconditioner::multigrid && !options.held.empty())
-        throw Error(ErrorCode::unsupported, "multigrid takes no held rows: take jacobi, block_jacobi or chebyshev");
+        throw Error(ErrorCode::unsupported,
+                    "multigrid takes no held rows: take jacobi, block_jacobi or chebyshev");
     for (const std::uint32_t row : options.held)
         if (row >= rows)
-            throw Error(ErrorCode::bad_input, "held row " + std::to_string(row) + " is not there: rows count from 0 to " +
+            throw Error(ErrorCode::bad_input, "held row " + std::to_string(row) +
+                                                  " is not there: rows count from 0 to " +
                                                   std::to_string(rows - 1));
 }
 
@@ -101,7 +103,8 @@ double forward_error(std::span<const double> x, std::span<const double> exact)
 {
     if (x.size() != exact.size())
         throw Error(ErrorCode::bad_input, "forward_error compares vectors of one length, not " +
-                                              std::to_string(x.size()) + " and " + std::to_string(exact.size()));
+                                              std::to_string(x.size()) + " and " +
+                                              std::to_string(exact.size()));
     std::vector<double> difference(x.begin(), x.end());
     for (std::size_t i = 0; i < difference.size(); ++i)
         difference[i] -= exact[i];

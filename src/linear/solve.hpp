@@ -1,6 +1,6 @@
 #pragma once
-// Solves A x = b for a matrix on the host: checks it, scales it, packs it, iterates on a device, and judges the
-// answer in fp64. Usable without any physics.
+// Solves A x = b for a matrix on the host: checks it, scales it, packs it, iterates on a device, and judges
+// the answer in fp64. Usable without any physics.
 
 #include "taut/linear/format.hpp"
 #include "taut/linear/preconditioner.hpp"
@@ -35,17 +35,17 @@ struct SolveOptions
     Format format = Format::automatic;
     SolvePrecision precision = SolvePrecision::automatic;
     Preconditioner preconditioner = Preconditioner::jacobi;
-    double tolerance = 1e-8; ///< of the true residual |b - A x| / |b|, in (0, 1)
+    double tolerance = 1e-8;          ///< of the true residual |b - A x| / |b|, in (0, 1)
     std::uint32_t max_iterations = 0; ///< 0: 10 n, at least 1,000
     int chebyshev_degree = 4;
     /// A is singular and b consistent but for its part in the null space: that part is taken out of b and x.
     NullSpace null_space = NullSpace::none;
     std::vector<std::vector<double>> null_vectors; ///< each of n entries; need not be orthogonal
     std::vector<std::uint32_t> held; ///< rows whose x stays exactly at its start (b there is ignored)
-    bool one_group = true;   ///< systems of at most kSmallRows rows: the whole solve in one work group
+    bool one_group = true; ///< systems of at most kSmallRows rows: the whole solve in one work group
     bool keep_history = false;
     bool measure_product = false; ///< time a product by itself, for SolveReport::spmv_gb_per_s
-    double asymmetry = 1e-6; ///< CheckOptions::asymmetry
+    double asymmetry = 1e-6;      ///< CheckOptions::asymmetry
 };
 
 struct SolveReport
@@ -55,23 +55,24 @@ struct SolveReport
     std::uint32_t n = 0;
     std::uint64_t nnz = 0;
     std::uint32_t iterations = 0;
-    std::uint32_t replacements = 0;   ///< times that the residual was formed anew
-    double relative_residual = 0;     ///< |b - A x| / |b|, true, fp64 on the host
-    double recursive_residual = 0;    ///< what the recurrence believed before it was checked
-    double seconds = 0;               ///< iterations only, wall time with all waits
-    double setup_seconds = 0;         ///< checks, packing, preconditioner
+    std::uint32_t replacements = 0; ///< times that the residual was formed anew
+    double relative_residual = 0;   ///< |b - A x| / |b|, true, fp64 on the host
+    double recursive_residual = 0;  ///< what the recurrence believed before it was checked
+    double seconds = 0;             ///< iterations only, wall time with all waits
+    double setup_seconds = 0;       ///< checks, packing, preconditioner
     double ms_per_iteration = 0;
-    double spmv_gb_per_s = 0; ///< of one product timed by itself, bytes as product_bytes counts; 0: not measured
-    std::uint64_t bytes = 0;          ///< device bytes of the matrix
-    Format format = Format::csr;      ///< the one taken
+    double spmv_gb_per_s =
+        0; ///< of one product timed by itself, bytes as product_bytes counts; 0: not measured
+    std::uint64_t bytes = 0;     ///< device bytes of the matrix
+    Format format = Format::csr; ///< the one taken
     std::string format_reason;
     SolvePrecision precision = SolvePrecision::float64;
     Preconditioner preconditioner = Preconditioner::jacobi;
-    std::string device;               ///< DeviceInfo::selector
-    bool one_group = false;           ///< taken
-    double null_part = 0;             ///< share of |b| that the projection took out
-    std::vector<std::string> notes;   ///< e.g. that A maps constants to zero
-    std::vector<float> history;       ///< |r| / |b| of iterations 0, 1, ...
+    std::string device;             ///< DeviceInfo::selector
+    bool one_group = false;         ///< taken
+    double null_part = 0;           ///< share of |b| that the projection took out
+    std::vector<std::string> notes; ///< e.g. that A maps constants to zero
+    std::vector<float> history;     ///< |r| / |b| of iterations 0, 1, ...
 };
 
 struct Solution
@@ -80,8 +81,8 @@ struct Solution
     SolveReport report;
 };
 
-/// Throws what check_system and DeviceMatrix::upload throw, Error{unsupported} for `float64` on a device without
-/// it. n = 0 gives an empty x with status zero_right_hand_side.
+/// Throws what check_system and DeviceMatrix::upload throw, Error{unsupported} for `float64` on a device
+/// without it. n = 0 gives an empty x with status zero_right_hand_side.
 Solution solve(const std::shared_ptr<Device>&, const SparseMatrix&, std::span<const double> b,
                const SolveOptions& = {}, std::span<const double> x0 = {});
 

@@ -15,8 +15,8 @@ std::string stagnation(const SolveReport& report, const CgOutcome& outcome, cons
     if (outcome.cause == TAUT_CG_RAN_AWAY)
         return "the residual grew to " + shown(outcome.residual, 3) + " |b|: the best iterate has " + where;
     if (outcome.cause == TAUT_CG_CONVERGED)
-        return "the device's residual of " + shown(outcome.residual, 3) + " is below the tolerance, but " + where +
-               " is not: " + precision + " holds no better x, take \"mixed\" or \"double\"";
+        return "the device's residual of " + shown(outcome.residual, 3) + " is below the tolerance, but " +
+               where + " is not: " + precision + " holds no better x, take \"mixed\" or \"double\"";
     return "three checks of the true residual in a row found it not halved: it stays at " + where +
            (report.precision == SolvePrecision::float32 ? "; \"mixed\" or \"double\" go further" : "");
 }
@@ -36,7 +36,8 @@ std::string reason_of(const SolveReport& report, const CgOutcome& outcome, const
                shown(-outcome.curvature_ratio, 3) + " of the largest curvature, was met" + after +
                ": A is not positive definite";
     case Status::indefinite_preconditioner:
-        return "r.M^-1 r = " + shown(outcome.rz, 3) + " is not positive" + after + ": the preconditioner is not";
+        return "r.M^-1 r = " + shown(outcome.rz, 3) + " is not positive" + after +
+               ": the preconditioner is not";
     case Status::non_finite:
         return "a value that is not finite appeared" + after + "; the last finite iterate has " + where;
     case Status::stagnated: return stagnation(report, outcome, where) + after;

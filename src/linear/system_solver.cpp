@@ -49,7 +49,7 @@ double within_range(double inverse, Precision precision)
 } // namespace
 
 SystemSolver::SystemSolver(std::shared_ptr<Device> device, const SparseMatrix& a, std::span<const double> b,
-             std::span<const double> x0, const SolveOptions& options, SolveReport& report)
+                           std::span<const double> x0, const SolveOptions& options, SolveReport& report)
     : device_(std::move(device)),
       a_(a),
       b_(b),
@@ -78,8 +78,7 @@ std::vector<double> SystemSolver::run()
         if (settle(outcome))
             break;
     }
-    report_.ms_per_iteration =
-        report_.iterations > 0 ? report_.seconds * 1e3 / report_.iterations : 0;
+    report_.ms_per_iteration = report_.iterations > 0 ? report_.seconds * 1e3 / report_.iterations : 0;
     if (options_.measure_product)
         measure_product();
     return std::move(x_);
@@ -106,8 +105,8 @@ std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
     if (kind == Preconditioner::spai0)
         inverse = spai0_inverse(a_, options_.held);
     else if (kind == Preconditioner::block_jacobi)
-        inverse = block_jacobi_inverse(a_, options_.held,
-                                       precision_ == Precision::float64 ? 0x1p-53 : 0x1p-24);
+        inverse =
+            block_jacobi_inverse(a_, options_.held, precision_ == Precision::float64 ? 0x1p-53 : 0x1p-24);
     else if (kind == Preconditioner::none)
     {
         inverse.assign(a_.rows, 1.0);
@@ -189,9 +188,9 @@ std::vector<double> SystemSolver::scaled(std::span<const double> v, int exponent
                                                             : std::numeric_limits<float>::max();
     for (const double entry : out)
         if (!(std::abs(entry) <= largest))
-            throw Error(ErrorCode::bad_input, "the start x0 is too far from the size of b for the precision " +
-                                                  std::string(to_string(report_.precision)) +
-                                                  ": leave it out or take double");
+            throw Error(ErrorCode::bad_input,
+                        "the start x0 is too far from the size of b for the precision " +
+                            std::string(to_string(report_.precision)) + ": leave it out or take double");
     return out;
 }
 
@@ -272,8 +271,8 @@ std::vector<double> SystemSolver::unscaled(std::vector<double> x) const
     return x;
 }
 
-/// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since where
-/// the iteration ran along a null space a larger x is no better one.
+/// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since
+/// where the iteration ran along a null space a larger x is no better one.
 void SystemSolver::take(std::vector<double> candidate)
 {
     const double now = relative_residual(a_, candidate, b_, options_.held);

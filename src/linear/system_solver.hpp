@@ -34,8 +34,8 @@ private:
     void append(const std::vector<float>& part);
     std::vector<double> read(const BufferPtr& buffer) const;
     std::vector<double> unscaled(std::vector<double> x) const;
-    /// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since where
-    /// the iteration ran along a null space a larger x is no better one.
+    /// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since
+    /// where the iteration ran along a null space a larger x is no better one.
     void take(std::vector<double> candidate);
     /// Says how it ended; false: go on with a smaller tolerance.
     bool settle(const CgOutcome& outcome);

@@ -23,7 +23,8 @@ TEMPLATE_TEST_CASE("dot leaves one partial sum a group", "", float, double)
 
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"x", bytes_of(x)}, {"y", bytes_of(y)}, {"partials", bytes_of(std::vector<Real>(groups, Real(7)))}};
+    c.in = {
+        {"x", bytes_of(x)}, {"y", bytes_of(y)}, {"partials", bytes_of(std::vector<Real>(groups, Real(7)))}};
     // One group more than there is: what folding may bring.
     c.launches = {make_launch(kernels::dot::info("", c.precision), kernels::dot::Params{count, chunk, groups},
                               groups + 1)};

@@ -29,9 +29,9 @@ Case long_case(const Rows<Real>& rows, std::string_view variant, bool low, std::
     const auto listed = static_cast<std::uint32_t>(list.size() / 3);
     const std::uint32_t begin = listed > 2 ? 1 : 0, end = listed > 2 ? listed - 1 : listed;
     std::iota(slots.begin(), slots.end(), 0u);
-    Case c = product_case(rows, variant, low, grid_of(rows.count, groups), slots, slots.size(), [&](std::uint32_t row) {
-        return row % 3 == 0 && row / 3 >= begin && row / 3 < end;
-    });
+    Case c =
+        product_case(rows, variant, low, grid_of(rows.count, groups), slots, slots.size(),
+                     [&](std::uint32_t row) { return row % 3 == 0 && row / 3 >= begin && row / 3 < end; });
     c.in["long_rows"] = bytes_of(list);
     c.in["column"] = bytes_of(rows.column);
     const kernels::spmv_csr_long::Params params{begin, end, groups, low ? 1u : 0u};

@@ -9,7 +9,8 @@ using namespace taut::conformance;
 
 namespace {
 
-/// Mostly few entries, now and then hundreds: more than a lane's share and more than one piece of shared memory.
+/// Mostly few entries, now and then hundreds: more than a lane's share and more than one piece of shared
+/// memory.
 std::vector<std::uint32_t> lengths_of(Random& random, std::uint32_t count)
 {
     std::vector<std::uint32_t> lengths;
@@ -71,6 +72,7 @@ TEMPLATE_TEST_CASE("both ways of spmv_csr give the same bits", "[spmv]", float, 
         CAPTURE(selector, variant);
         const Case row = csr_case(rows, variant, true, 4);
         const Case stream = csr_case(rows, variant.empty() ? "stream" : "stream_" + variant, true, 4);
-        CHECK(differing_buffers(run(*device, row.launches, row.in), run(*device, stream.launches, stream.in)) == "");
+        CHECK(differing_buffers(run(*device, row.launches, row.in),
+                                run(*device, stream.launches, stream.in)) == "");
     }
 }

@@ -9,7 +9,8 @@ namespace {
 
 /// The kernel takes rows in any order, so the test shuffles them instead of sorting.
 template <typename Real>
-Case sell_case(const Rows<Real>& rows, Random& random, std::string_view variant, bool low, std::uint32_t groups)
+Case sell_case(const Rows<Real>& rows, Random& random, std::string_view variant, bool low,
+               std::uint32_t groups)
 {
     const Grid grid = grid_of(rows.count, groups);
     const std::vector<std::uint32_t> order = random.shuffled(rows.count);
@@ -43,7 +44,8 @@ Case sell_case(const Rows<Real>& rows, Random& random, std::string_view variant,
 
 } // namespace
 
-TEMPLATE_TEST_CASE("spmv_sell multiplies rows in slices and writes each where it belongs", "[spmv]", float, double)
+TEMPLATE_TEST_CASE("spmv_sell multiplies rows in slices and writes each where it belongs", "[spmv]", float,
+                   double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 31u, 32u, 33u, 63u, 64u, 65u, 128u, 129u, 1000u);

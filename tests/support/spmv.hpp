@@ -17,7 +17,7 @@ struct Rows
 {
     std::uint32_t count = 0;
     std::vector<std::uint32_t> start = {0}, column;
-    std::vector<Real> values, low; ///< low words, below half a last digit of the value
+    std::vector<Real> values, low;           ///< low words, below half a last digit of the value
     std::vector<Real> x, x_low, b, b_low, y; ///< y: what is in the result before
 
     std::uint32_t length(std::uint32_t row) const { return start[row + 1] - start[row]; }
@@ -122,12 +122,12 @@ inline Grid grid_of(std::uint32_t count, std::uint32_t groups)
 /// Which rows a kernel writes; of the others y stays.
 using Writes = std::function<bool(std::uint32_t row)>;
 
-/// Vectors in and out for one variant; a test adds tables and launches. `slots` place the values among `stored`.
-/// `order`: the row at each place, where groups share places; empty: rows are their own places.
+/// Vectors in and out for one variant; a test adds tables and launches. `slots` place the values among
+/// `stored`. `order`: the row at each place, where groups share places; empty: rows are their own places.
 template <typename Real>
 Case product_case(const Rows<Real>& rows, std::string_view variant, bool low, const Grid& grid,
-                  const std::vector<std::uint32_t>& slots, std::size_t stored,
-                  const Writes& writes = {}, const std::vector<std::uint32_t>& order = {})
+                  const std::vector<std::uint32_t>& slots, std::size_t stored, const Writes& writes = {},
+                  const std::vector<std::uint32_t>& order = {})
 {
     const bool pairs = variant.ends_with("pairs"), dot = variant.ends_with("dot");
     const bool residual = variant.find("residual") != variant.npos;
@@ -149,7 +149,8 @@ Case product_case(const Rows<Real>& rows, std::string_view variant, bool low, co
         const long double b = pairs ? static_cast<long double>(rows.b[i]) + rows.b_low[i] : rows.b[i];
         const auto value = static_cast<double>(residual ? b - sum.value : sum.value);
         double scale = static_cast<double>(sum.scale + (residual ? std::abs(b) : 0));
-        if (pairs) // one rounding of the result, and the terms in two words (the reference itself has 64 bits)
+        if (pairs) // one rounding of the result, and the terms in two words (the reference itself has 64
+                   // bits)
             scale = std::abs(value) + (sizeof(Real) == 4 ? eps : 0x1p-10) * scale;
         if (!writes || writes(i))
             y.add(value, scale);

@@ -41,10 +41,7 @@ struct Problem
         device->write<double>(cg->b(), b);
     }
 
-    double true_residual() const
-    {
-        return relative_residual(a, device->read<double>(cg->x(), a.rows), b);
-    }
+    double true_residual() const { return relative_residual(a, device->read<double>(cg->x(), a.rows), b); }
 };
 
 } // namespace
@@ -104,7 +101,8 @@ TEST_CASE("an iteration is three dispatches", "[linear][cg]")
     CHECK(2 * eight - when_replaced == 16 * 3);
 }
 
-TEST_CASE("recorded iterations that do not suffice end in iteration_limit with the true residual", "[linear][cg]")
+TEST_CASE("recorded iterations that do not suffice end in iteration_limit with the true residual",
+          "[linear][cg]")
 {
     const std::string selector = GENERATE(from_range(test_devices()));
     CAPTURE(selector);

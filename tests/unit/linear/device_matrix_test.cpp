@@ -89,7 +89,8 @@ Answer run(const std::shared_ptr<Device>& device, const DeviceMatrix& matrix, co
     const std::uint32_t rows = matrix.rows(), groups = group_count_for(rows, device->info());
     const std::vector<Real> garbage(rows, Real(-77));
     const BufferPtr xs = upload(*device, rounded<Real>(x)), bs = upload(*device, rounded<Real>(b));
-    const BufferPtr y = upload(*device, garbage), dotted = upload(*device, garbage), r = upload(*device, garbage);
+    const BufferPtr y = upload(*device, garbage), dotted = upload(*device, garbage),
+                    r = upload(*device, garbage);
     const BufferPtr partials = upload(*device, std::vector<Real>(groups, Real(-77)));
     const BufferPtr fine = upload(*device, garbage);
     Recorder recorder(device);
@@ -98,7 +99,8 @@ Answer run(const std::shared_ptr<Device>& device, const DeviceMatrix& matrix, co
     matrix.record_product(recorder, gate, xs, dotted, partials);
     matrix.record_residual(recorder, gate, xs, bs, r);
     if (pairs)
-        matrix.record_residual_pairs(recorder, gate, upload(*device, as_pairs(x)), upload(*device, as_pairs(b)), fine);
+        matrix.record_residual_pairs(recorder, gate, upload(*device, as_pairs(x)),
+                                     upload(*device, as_pairs(b)), fine);
     recorder.finish()->replay();
     const auto read = [&](const BufferPtr& buffer, std::size_t count) {
         const auto values = device->read<Real>(buffer, count);
@@ -209,27 +211,34 @@ TEST_CASE("formats take 1 x 1, one row of several groups' entries, and rows with
         CAPTURE(to_string(format));
         check_passes<float>(device, from_triplets(1, 1, std::vector<Triplet>{{0, 0, 2.5}}),
                             {format, Precision::float32, true, 0});
-        check_passes<float>(device, from_triplets(400, 400, std::vector<Triplet>{{399, 399, 3}, {130, 7, -1}}),
+        check_passes<float>(device,
+                            from_triplets(400, 400, std::vector<Triplet>{{399, 399, 3}, {130, 7, -1}}),
                             {format, Precision::float32, true, 0});
-        check_passes<float>(device, arrow(999, {{0, 999}, {998, 700}}), {format, Precision::float32, true, 0});
+        check_passes<float>(device, arrow(999, {{0, 999}, {998, 700}}),
+                            {format, Precision::float32, true, 0});
     }
     check_passes<float>(device, from_triplets(3, 3, std::vector<Triplet>{{1, 1, 2.5}}),
                         {Format::bcsr3, Precision::float32, true, 0});
-    check_passes<float>(device, arrow(999, {{0, 999}, {998, 700}}), {Format::bcsr3, Precision::float32, true, 0});
+    check_passes<float>(device, arrow(999, {{0, 999}, {998, 700}}),
+                        {Format::bcsr3, Precision::float32, true, 0});
 }
 
 TEST_CASE("what dense, coo and bcsr3 cannot take is refused in words", "[linear][formats]")
 {
     const auto device = test_device("cpu:serial");
-    CHECK_THROWS_WITH(DeviceMatrix::upload(device, poisson2d(4), {Format::bcsr3, Precision::float32, false, 0}),
-                      Contains("multiple of 3") && Contains("16"));
-    CHECK_THROWS_WITH(DeviceMatrix::upload(device, arrow(70'000, {}), {Format::dense, Precision::float32, false, 0}),
-                      Contains("format dense"));
+    CHECK_THROWS_WITH(
+        DeviceMatrix::upload(device, poisson2d(4), {Format::bcsr3, Precision::float32, false, 0}),
+        Contains("multiple of 3") && Contains("16"));
+    CHECK_THROWS_WITH(
+        DeviceMatrix::upload(device, arrow(70'000, {}), {Format::dense, Precision::float32, false, 0}),
+        Contains("format dense"));
     const auto coo = DeviceMatrix::upload(device, poisson2d(20), {Format::coo, Precision::float32, false, 0});
     Recorder recorder(device);
     const BufferPtr v = device->make_buffer(4000, "v");
-    CHECK_THROWS_WITH(coo->record_product(recorder, {3, nullptr, 0}, v, v, BufferPtr()), Contains("packed for passes"));
-    CHECK_THROWS_WITH(coo->record_residual_pairs(recorder, {4, nullptr, 0}, v, v, v), Contains("without `pairs`"));
+    CHECK_THROWS_WITH(coo->record_product(recorder, {3, nullptr, 0}, v, v, BufferPtr()),
+                      Contains("packed for passes"));
+    CHECK_THROWS_WITH(coo->record_residual_pairs(recorder, {4, nullptr, 0}, v, v, v),
+                      Contains("without `pairs`"));
 }
 
 TEST_CASE("compressed rows around the length from which a group takes them", "[linear][formats]")
@@ -248,7 +257,8 @@ TEST_CASE("values are rewritten on the device through their slots", "[linear][fo
     CAPTURE(to_string(format));
     const auto device = test_device("cpu:serial");
     Random random(5);
-    for (const SparseMatrix& a : {banded(300, random), arrow(700, {{3, 40}}), arrow(700, {{3, 600}, {600, 700}})})
+    for (const SparseMatrix& a :
+         {banded(300, random), arrow(700, {{3, 40}}), arrow(700, {{3, 600}, {600, 700}})})
     {
         if ((format == Format::ell && row_statistics(a).longest > 30) ||
             (format == Format::bcsr3 && a.rows % 3 != 0))
@@ -305,7 +315,8 @@ TEST_CASE("a matrix that cannot go to a device is refused in words", "[linear][f
     CHECK_THROWS_WITH(attempt(from_triplets(2, 3, {}), {}), Contains("2 rows and 3 columns"));
     CHECK_THROWS_WITH(attempt(SparseMatrix(), {}), Contains("no rows"));
     CHECK_THROWS_WITH(attempt(good, {Format::automatic, Precision::float64, false, 0}), Contains("\"auto\""));
-    CHECK_THROWS_WITH(attempt(good, {Format::csr, Precision::float64, true, 0}), Contains("pairs with float"));
+    CHECK_THROWS_WITH(attempt(good, {Format::csr, Precision::float64, true, 0}),
+                      Contains("pairs with float"));
     CHECK_THROWS_WITH(attempt(arrow(1000, {{5, 1000}}), {Format::ell, Precision::float64, false, 0}),
                       Contains("to 1000 entries") && Contains("take sell or csr"));
     SparseMatrix large = good;
@@ -329,7 +340,8 @@ TEST_CASE("a row that would loop too often is refused where loops are cut short"
                           Contains("rows 0 to 255") && Contains("32000") && Contains("take csr"));
 }
 
-TEST_CASE("a matrix that does not fit the device's largest buffer is refused with its bytes", "[linear][formats]")
+TEST_CASE("a matrix that does not fit the device's largest buffer is refused with its bytes",
+          "[linear][formats]")
 {
     for (const std::string& selector : test_devices())
     {

@@ -78,9 +78,9 @@ TEST_CASE("bytes of a format are those of its arrays", "[linear][format]")
     const std::map<Format, std::uint64_t> in_double = {
         {Format::dense, 36 * 8},
         {Format::coo, 12 * 16},
-        {Format::csr, 14 * 12 + 7 * 4},         // an empty row holds one zero
-        {Format::ell, 32 * 6 * 12},             // 32 rows, 6 wide
-        {Format::sell, 32 * 6 * 12 + 8 + 24},   // one slice, and the order of rows
+        {Format::csr, 14 * 12 + 7 * 4},            // an empty row holds one zero
+        {Format::ell, 32 * 6 * 12},                // 32 rows, 6 wide
+        {Format::sell, 32 * 6 * 12 + 8 + 24},      // one slice, and the order of rows
         {Format::bcsr3, 32 * 2 * (9 * 8 + 4) + 8}, // one slice of two blocks a block row
     };
     for (const auto& [format, bytes] : in_double)
@@ -89,7 +89,8 @@ TEST_CASE("bytes of a format are those of its arrays", "[linear][format]")
         CHECK(matrix_bytes(format, a, Precision::float64) == bytes);
     }
     CHECK(matrix_bytes(Format::csr, a, Precision::float32) == 14 * 8 + 7 * 4);
-    CHECK(matrix_bytes(Format::csr, a, Precision::float32, true) == 14 * 8 + 7 * 4); // float holds these values
+    CHECK(matrix_bytes(Format::csr, a, Precision::float32, true) ==
+          14 * 8 + 7 * 4); // float holds these values
     SparseMatrix b = a;
     b.value[3] = 0.1;
     CHECK(matrix_bytes(Format::csr, b, Precision::float32, true) == 14 * 12 + 7 * 4);

@@ -35,7 +35,8 @@ struct Cycle
     double rz = 0;
 };
 
-Cycle cycle(const std::string& selector, const SparseMatrix& a, const std::vector<double>& r, int exponent = 0)
+Cycle cycle(const std::string& selector, const SparseMatrix& a, const std::vector<double>& r,
+            int exponent = 0)
 {
     const auto device = test_device(selector);
     const auto matrix = DeviceMatrix::upload(device, a, {Format::csr, Precision::float64, false, exponent});
@@ -69,7 +70,8 @@ TEST_CASE("aggregation shrinks a Laplacian and keeps what it does to constants",
         REQUIRE(level.prolongation.columns == coarse.rows);
         // The Galerkin product: y.A_c x = (P y).A (P x).
         const std::vector<double> x = waves(coarse.rows, 0.3), y = waves(coarse.rows, 0.7);
-        std::vector<double> px(level.matrix.rows), py(level.matrix.rows), apx(level.matrix.rows), ax(coarse.rows);
+        std::vector<double> px(level.matrix.rows), py(level.matrix.rows), apx(level.matrix.rows),
+            ax(coarse.rows);
         multiply(level.prolongation, x, px);
         multiply(level.prolongation, y, py);
         multiply(level.matrix, px, apx);
@@ -145,5 +147,6 @@ TEST_CASE("multigrid refuses held rows", "[linear][multigrid]")
     options.preconditioner = Preconditioner::multigrid;
     options.held = {3};
     const SparseMatrix a = poisson2d(5);
-    CHECK_THROWS_WITH(solve(test_device("cpu:serial"), a, waves(25, 1), options), Catch::Matchers::Contains("no held rows"));
+    CHECK_THROWS_WITH(solve(test_device("cpu:serial"), a, waves(25, 1), options),
+                      Catch::Matchers::Contains("no held rows"));
 }
