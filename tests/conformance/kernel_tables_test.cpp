@@ -137,8 +137,9 @@ TEST_CASE("variants differ from the base kernel in their own bindings, and param
 {
     for (const KernelInfo* kernel : all_kernels())
     {
-        if (kernel->name == "stencil7")
-            continue; // its passes have the stencil in common, not what they read and write
+        // Their passes share a way through the data, not what they read and write.
+        if (kernel->name == "stencil7" || kernel->name == "spmv_coo" || kernel->name == "chebyshev")
+            continue;
         CAPTURE(kernel->name, kernel->variant);
         const KernelInfo& base = find_kernel(kernel->name, "", kernel->precision);
         REQUIRE(kernel->params.size() == base.params.size());
