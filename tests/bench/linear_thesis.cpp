@@ -238,22 +238,24 @@ void print_means(const std::vector<Line>& lines)
     row("all", std::nullopt);
 }
 
+/// One sentence for all devices that say the same.
 void print_refusals(const std::vector<Entry>& entries)
 {
     std::printf("\nRefused, in the library's words:\n\n");
-    std::map<std::string, std::string> by_reason; // who
-    std::vector<std::string> order;
+    std::vector<std::pair<std::string, std::string>> reasons; // reason, who
     for (const Entry& entry : entries)
-        if (!entry.refused.empty())
-        {
-            std::string& who = by_reason[entry.refused];
-            if (who.empty())
-                order.push_back(entry.refused);
-            who += (who.empty() ? "" : ", ") + entry.matrix + " " + std::string(to_string(entry.format)) +
-                   " on " + entry.device;
-        }
-    for (const std::string& reason : order)
-        std::printf("- %s: %s.\n", by_reason[reason].c_str(), reason.c_str());
+    {
+        if (entry.refused.empty())
+            continue;
+        const auto same = [&](const auto& pair) { return pair.first == entry.refused; };
+        const auto at = std::find_if(reasons.begin(), reasons.end(), same);
+        if (at != reasons.end())
+            at->second += ", " + entry.device;
+        else
+            reasons.emplace_back(entry.refused, entry.matrix + " on " + entry.device);
+    }
+    for (const auto& [reason, who] : reasons)
+        std::printf("- %s: %s.\n", who.c_str(), reason.c_str());
 }
 
 std::string csv(const std::vector<Entry>& entries, const std::string& conditions)

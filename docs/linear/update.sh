@@ -1,0 +1,37 @@
+#!/bin/sh
+# Measures the tables and pictures of docs/linear.md anew: no number between its marks is typed by hand. Run
+# it on a machine that does nothing else; all parts together take some minutes.
+#
+#   docs/linear/update.sh build/release/tests/bench/taut_linear_bench [peers] [thesis] [residuals] [precision]
+set -eu
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM [PART...] (the built taut_linear_bench)" >&2; exit 2; }
+program=$(realpath "$1")
+shift
+[ $# -gt 0 ] || set -- peers thesis residuals precision
+cd "$(dirname "$0")/../.."
+page=docs/linear.md
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# What stands between "<!-- PART -->" and "<!-- end -->" becomes the program's table.
+put() # PART
+{
+    awk -v part="$1" -v table="$scratch/$1.md" '
+        $0 == "<!-- " part " -->" {
+            print; print ""
+            while ((getline line < table) > 0) print line
+            print ""; skip = 1
+        }
+        $0 == "<!-- end -->" { skip = 0 }
+        !skip && $0 != "<!-- " part " -->" { print }' "$page" > "$scratch/page.md"
+    mv "$scratch/page.md" "$page"
+}
+
+for part in "$@"; do
+    csv=tests/bench/results/linear_$part.csv
+    case $part in
+        precision) "$program" "$part" --csv "$csv" --pictures docs/linear > "$scratch/$part.md" ;;
+        *) "$program" "$part" --csv "$csv" > "$scratch/$part.md" ;;
+    esac
+    put "$part"
+done
