@@ -57,7 +57,7 @@ PackedMatrix::PackedMatrix(const std::shared_ptr<Device>& device, const SparseMa
       rows_(matrix.rows),
       precision_(options.precision),
       format_(options.format),
-      pairs_(options.pairs),
+      keeps_low_(options.pairs && !options.rewritable),
       exponent_(options.exponent)
 {}
 
@@ -144,7 +144,7 @@ void PackedMatrix::upload_values(const SparseMatrix& matrix, std::span<const std
         values_ = send(pack<double>(matrix, slots, count, exponent_, false).values, "matrix values");
         return;
     }
-    const Packed<float> packed = pack<float>(matrix, slots, count, exponent_, pairs_);
+    const Packed<float> packed = pack<float>(matrix, slots, count, exponent_, keeps_low_);
     values_ = send(packed.values, "matrix values");
     if (packed.needs_low)
         low_ = send(packed.low, "matrix low words");

@@ -43,7 +43,7 @@ protected:
     BufferPtr upload_table(std::span<const std::uint32_t> table, std::string_view what);
 
     /// values() of `count` entries, zero but for value k of the matrix times 2^exponent at slots[k]; low
-    /// words where options ask for pairs and any value needs one. Throws Error{limit} as above, and
+    /// words where options ask for pairs of values that stay, and any value needs one. Throws Error{limit} as above, and
     /// Error{bad_input} for a value that float cannot hold.
     void upload_values(const SparseMatrix&, std::span<const std::uint32_t> slots, std::uint64_t count);
 
@@ -72,7 +72,7 @@ private:
     const std::uint32_t rows_;
     const Precision precision_;
     const Format format_;
-    const bool pairs_;
+    const bool keeps_low_;
     const int exponent_;
     BufferPtr values_, low_;
     std::uint64_t bytes_ = 0;

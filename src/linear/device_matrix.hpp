@@ -13,9 +13,11 @@ struct UploadOptions
     bool pairs = false; ///< float only: keep the low words of values that float cannot hold (for `mixed`)
     int exponent = 0;   ///< values are multiplied by 2^exponent (exact); the solver chooses it
     bool rectangular = false; ///< csr only: products and residuals without partials; x has `columns` entries
+    bool rewritable = false;  ///< values() will be rewritten: no low words are kept, A is what values() hold
 };
 
-/// Packed once; the pattern stays. Values may be rewritten on the device by kernels of the caller.
+/// Packed once; the pattern stays. Values may be rewritten on the device by kernels of the caller, with `pairs`
+/// only if `rewritable` says so.
 class DeviceMatrix : public Operator
 {
 public:
@@ -29,7 +31,9 @@ public:
                                                 const UploadOptions&);
 
     virtual Format format() const = 0;
-    /// Values in the format's order: one buffer of reals that kernels of the caller may rewrite.
+    /// Values in the format's order: one buffer of reals that kernels of the caller may rewrite. A matrix that
+    /// keeps low words (`pairs` without `rewritable`) must not be: record_residual_pairs adds to every value
+    /// the low word that belongs to the uploaded one. Padding holds zeros and must go on doing so.
     virtual BufferPtr values() const = 0;
     /// For entry k of the host matrix (its order) the index in values(). For assembling on the device.
     virtual std::vector<std::uint32_t> slots(const SparseMatrix&) const = 0;

@@ -2,7 +2,9 @@
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"
+#include "taut/kernels/cg_collect.hpp"
 #include "taut/linear/device_matrix.hpp"
+#include "taut/linear/reals.hpp"
 
 #include <cmath>
 
@@ -166,6 +168,96 @@ TEST_CASE("values rewritten on the device are solved with the same recording", "
     recording->replay();
     CHECK(problem.cg->outcome().status == Status::converged);
     CHECK(problem.true_residual() <= 1e-10);
+}
+
+namespace {
+
+/// `values`, each rounded; with `pairs` a high and a low word in turn.
+template <typename Real>
+std::vector<Real> words_of(const std::vector<double>& values, bool pairs)
+{
+    std::vector<Real> out;
+    for (const double value : values)
+    {
+        out.push_back(static_cast<Real>(value));
+        if (pairs)
+            out.push_back(static_cast<Real>(value - static_cast<double>(out.back())));
+    }
+    return out;
+}
+
+template <typename Real>
+std::vector<double> from_words(const std::vector<Real>& words, bool pairs)
+{
+    std::vector<double> out;
+    for (std::size_t k = 0; k < words.size(); k += pairs ? 2 : 1)
+        out.push_back(static_cast<double>(words[k]) + (pairs ? static_cast<double>(words[k + 1]) : 0));
+    return out;
+}
+
+/// One recording adds to the values of a matrix, then solves with it. The values uploaded fit no float, so
+/// that low words of theirs would spoil the residual.
+template <typename Real>
+void check_rewritten(const std::shared_ptr<Device>& device, Format format, bool pairs, double tolerance)
+{
+    SparseMatrix a = poisson2d(12);
+    for (double& value : a.value)
+        value *= 1.1;
+    const Precision precision = sizeof(Real) == 4 ? Precision::float32 : Precision::float64;
+    const UploadOptions options{format, precision, pairs, 0, false, true};
+    const auto matrix = DeviceMatrix::upload(device, a, options);
+    const std::vector<std::uint32_t> slots = matrix->slots(a);
+    const auto count = static_cast<std::uint32_t>(matrix->values()->bytes() / sizeof(Real));
+    std::vector<Real> added(count, Real(0));
+    for (std::size_t k = 0; k < slots.size(); ++k)
+    {
+        const Real more = a.value[k] > 0 ? Real(0.7) : Real(0); // of the diagonal
+        added[slots[k]] = more;
+        a.value[k] = static_cast<double>(static_cast<Real>(a.value[k]) + more);
+    }
+    const BufferPtr increments = device->make_buffer(count * sizeof(Real), "increments");
+    device->write<Real>(increments, added);
+    const BufferPtr inverse = device->make_buffer(a.rows * sizeof(Real), "inverse");
+    write_reals(*device, inverse, jacobi_inverse(a), precision);
+    ConjugateGradient cg(device, matrix, {Preconditioner::jacobi, inverse, nullptr}, pairs);
+    std::vector<double> b;
+    for (std::uint32_t i = 0; i < a.rows; ++i)
+        b.push_back(std::sin(1.0 + i));
+    const std::vector<Real> b_words = words_of<Real>(b, pairs);
+    device->write<Real>(cg.b(), b_words);
+    cg.set({.tolerance = tolerance, .iteration_limit = 120});
+
+    Recorder recorder(device);
+    const std::uint32_t groups = group_count_for(count, device->info());
+    const Grid grid = make_grid(count, groups);
+    launch(recorder, {groups, nullptr, 0}, kernels::cg_collect::info("", precision),
+           {matrix->values(), increments}, kernels::cg_collect::Params{grid.count, grid.chunk, 1}, "rewrite");
+    cg.record_begin(recorder);
+    cg.record_iterations(recorder, 120);
+    cg.record_end(recorder);
+    recorder.finish()->replay();
+
+    const auto values = device->read<Real>(matrix->values(), count);
+    for (std::size_t k = 0; k < slots.size(); ++k)
+        REQUIRE(static_cast<double>(values[slots[k]]) == a.value[k]);
+    const auto x = from_words(device->read<Real>(cg.x(), a.rows * (pairs ? 2u : 1u)), pairs);
+    CHECK(cg.outcome().status == Status::converged);
+    CHECK(relative_residual(a, x, from_words(b_words, pairs)) <= tolerance);
+}
+
+} // namespace
+
+TEST_CASE("values that a kernel rewrites in the recording are those that are solved", "[linear][cg]")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    const Format format = GENERATE(Format::csr, Format::ell, Format::sell, Format::coo, Format::dense,
+                                   Format::bcsr3);
+    CAPTURE(selector, to_string(format));
+    const auto device = test_device(selector);
+    check_rewritten<float>(device, format, false, 1e-5);
+    check_rewritten<float>(device, format, true, 1e-11);
+    if (device->limits().float64)
+        check_rewritten<double>(device, format, false, 1e-11);
 }
 
 TEST_CASE("the history is the residual of every iteration", "[linear][cg]")
