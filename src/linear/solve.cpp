@@ -12,6 +12,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Of |b|: what a projection leaves below it is rounding.
+constexpr double kNothingLeft = 1e-15;
+
 SolvePrecision resolve(SolvePrecision wanted, const DeviceInfo& device)
 {
     if (wanted == SolvePrecision::float64 && !device.limits.float64)
@@ -40,6 +43,22 @@ void check_options(const SolveOptions& options, std::uint32_t rows)
                                                   std::to_string(rows - 1));
 }
 
+/// x0 at the rows whose x the system does not move, held ones and those of zeros alone, and 0 elsewhere.
+std::vector<double> resting(const SparseMatrix& a, std::span<const double> x0,
+                            std::span<const std::uint32_t> held)
+{
+    std::vector<double> rest(a.rows, 0.0);
+    if (x0.empty())
+        return rest;
+    for (const std::uint32_t row : held)
+        rest[row] = x0[row];
+    for (std::uint32_t i = 0; i < a.rows; ++i)
+        if (std::all_of(a.value.begin() + a.row_start[i], a.value.begin() + a.row_start[i + 1],
+                        [](double value) { return value == 0; }))
+            rest[i] = x0[i];
+    return rest;
+}
+
 bool all_zero(std::span<const double> v)
 {
     return std::all_of(v.begin(), v.end(), [](double entry) { return entry == 0; });
@@ -51,21 +70,16 @@ struct Problem
     std::vector<double> right, start, shift;
 };
 
-/// Held rows do not count in b. Where they alone drive the system (b = 0 elsewhere) the unknown is the change
-/// from x0, so that there is a right-hand side to compare residuals with.
+/// What rests (see above) is moved to the right-hand side: so it keeps every bit of its start.
 Problem pose(const SparseMatrix& a, std::span<const double> b, std::span<const double> x0,
              std::span<const std::uint32_t> held)
 {
-    Problem out{{b.begin(), b.end()}, {x0.begin(), x0.end()}, std::vector<double>(a.rows, 0)};
+    Problem out{{b.begin(), b.end()}, {x0.begin(), x0.end()}, resting(a, x0, held)};
     out.start.resize(a.rows, 0);
-    for (const std::uint32_t row : held)
-        out.right[row] = 0;
-    if (held.empty() || !all_zero(out.right))
-        return out;
-    std::swap(out.start, out.shift);
-    multiply(a, out.shift, out.right);
-    for (double& entry : out.right)
-        entry = -entry;
+    for (std::size_t i = 0; i < out.start.size(); ++i)
+        out.start[i] -= out.shift[i];
+    if (!all_zero(out.shift))
+        residual(a, out.shift, b, out.right);
     for (const std::uint32_t row : held)
         out.right[row] = 0;
     return out;
@@ -82,14 +96,22 @@ void choose(SolveReport& report, const SparseMatrix& a, const SolveOptions& opti
     report.format_reason = choice.reason;
 }
 
-/// What the start has of the null space stays.
-void project_change(const NullBasis& basis, const std::vector<double>& start, std::vector<double>& x)
+/// Takes out of x what the solve added along the null space (what the start has of it stays), unless rounding
+/// then makes the residual too large.
+void project_change(const NullBasis& basis, const SparseMatrix& a, const Problem& problem,
+                    const SolveOptions& options, std::vector<double>& x, SolveReport& report)
 {
+    std::vector<double> without(x);
     for (std::size_t i = 0; i < x.size(); ++i)
-        x[i] -= start[i];
-    basis.project(x);
+        without[i] -= problem.start[i];
+    basis.project(without);
     for (std::size_t i = 0; i < x.size(); ++i)
-        x[i] += start[i];
+        without[i] += problem.start[i];
+    const double now = relative_residual(a, without, problem.right, options.held);
+    if (report.status == Status::converged && !(now <= options.tolerance))
+        return;
+    report.relative_residual = now;
+    x = std::move(without);
 }
 
 } // namespace
@@ -134,18 +156,22 @@ Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std
     Problem problem = pose(a, b, x0, options.held);
     const double size = norm(problem.right);
     report.null_part = size > 0 ? basis.project(problem.right) / size : 0;
+    if (norm(problem.right) <= kNothingLeft * size)
+        problem.right.assign(a.rows, 0.0);
     if (all_zero(problem.right))
     {
         out.x = problem.shift;
         report.status = Status::zero_right_hand_side;
-        report.reason = "b is zero, so x is zero: nothing was iterated";
+        report.reason = report.null_part > 0
+                            ? "b lies in the null space that is taken out, so x is zero: nothing was iterated"
+                            : "b is zero, so x is zero: nothing was iterated";
         return out;
     }
     choose(report, a, options, device->info());
     report.setup_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     out.x = SystemSolver(device, a, problem.right, problem.start, options, report).run();
     if (!basis.empty())
-        project_change(basis, problem.start, out.x);
+        project_change(basis, a, problem, options, out.x, report);
     for (std::size_t i = 0; i < out.x.size(); ++i)
         out.x[i] += problem.shift[i];
     return out;

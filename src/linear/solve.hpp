@@ -35,7 +35,8 @@ struct SolveOptions
     Format format = Format::automatic;
     SolvePrecision precision = SolvePrecision::automatic;
     Preconditioner preconditioner = Preconditioner::jacobi;
-    double tolerance = 1e-8;          ///< of the true residual |b - A x| / |b|, in (0, 1)
+    /// Of the true residual |b - A x| / |b|, in (0, 1). b less what held rows give to the others.
+    double tolerance = 1e-8;
     std::uint32_t max_iterations = 0; ///< 0: 10 n, at least 1,000
     int chebyshev_degree = 4;
     /// A is singular and b consistent but for its part in the null space: that part is taken out of b and x.

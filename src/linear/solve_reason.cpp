@@ -36,8 +36,8 @@ std::string reason_of(const SolveReport& report, const CgOutcome& outcome, const
                shown(-outcome.curvature_ratio, 3) + " of the largest curvature, was met" + after +
                ": A is not positive definite";
     case Status::indefinite_preconditioner:
-        return "r.M^-1 r = " + shown(outcome.rz, 3) + " is not positive" + after +
-               ": the preconditioner is not";
+        return "r.M^-1 r was not positive" + after + ", at " + where +
+               ": the preconditioner is not positive definite";
     case Status::non_finite:
         return "a value that is not finite appeared" + after + "; the last finite iterate has " + where;
     case Status::stagnated: return stagnation(report, outcome, where) + after;

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace taut::linear {
 namespace {
@@ -22,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kChunk = 64; ///< iterations of a replay
 constexpr int kRounds = 4;           ///< times that a tolerance is made smaller
 constexpr int kProductTurns = 5;
+constexpr double kFarOff = 0.5; ///< a residual below this share of the last one's is worth going back for
 
 double seconds_since(Clock::time_point start)
 {
@@ -72,12 +74,20 @@ std::vector<double> SystemSolver::run()
     report_.relative_residual = relative_residual(a_, x_, b_, options_.held);
     prepare();
     report_.setup_seconds += seconds_since(start);
+    CgOutcome outcome;
     for (int round = 0; round < kRounds; ++round)
     {
-        const CgOutcome outcome = solve_once();
+        const std::vector<double> from = x_;
+        const double before = best_residual_;
+        outcome = solve_once();
+        if (best_residual_ < before)
+            start_ = from;
         if (settle(outcome))
             break;
     }
+    if (report_.status != Status::converged && report_.status != Status::iteration_limit)
+        go_back();
+    report_.reason = reason_of(report_, outcome, options_);
     report_.ms_per_iteration = report_.iterations > 0 ? report_.seconds * 1e3 / report_.iterations : 0;
     if (options_.measure_product)
         measure_product();
@@ -209,8 +219,9 @@ CgOutcome SystemSolver::solve_small(std::span<const double> b, std::span<const d
     batch_->run();
     report_.seconds += seconds_since(start);
     const CgOutcome outcome = batch_->outcome(0);
-    if (options_.keep_history)
-        append(batch_->history(0));
+    const std::vector<float> history = batch_->history(0);
+    watch(history, outcome.iterations + 1 - static_cast<std::uint32_t>(history.size()));
+    append(history);
     take(unscaled(batch_->x(0)));
     return outcome;
 }
@@ -228,14 +239,15 @@ CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const d
     {
         chunk_->replay();
         outcome = cg_->outcome();
-        if (options_.keep_history)
+        // While it runs, the last entry is written only when the next iteration begins.
+        const std::uint32_t upto = outcome.iterations + (outcome.running ? 0 : 1);
+        if (upto > told)
         {
-            // While it runs, the last entry is written only when the next iteration begins.
-            const std::uint32_t upto = outcome.iterations + (outcome.running ? 0 : 1);
-            if (upto > told)
-                append(cg_->history(told, upto - 1));
-            told = upto;
+            const std::vector<float> part = cg_->history(told, upto - 1);
+            watch(part, told);
+            append(part);
         }
+        told = upto;
     } while (outcome.running);
     report_.seconds += seconds_since(start);
     const std::vector<double> base = read(cg_->x());
@@ -250,7 +262,37 @@ CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const d
 
 void SystemSolver::append(const std::vector<float>& part)
 {
-    report_.history.insert(report_.history.end(), part.begin(), part.end());
+    if (options_.keep_history && !going_back_)
+        report_.history.insert(report_.history.end(), part.begin(), part.end());
+}
+
+void SystemSolver::watch(const std::vector<float>& part, std::uint32_t first)
+{
+    for (std::size_t k = 0; k < part.size(); ++k)
+        if (part[k] < best_residual_)
+        {
+            best_residual_ = part[k];
+            best_iteration_ = first + static_cast<std::uint32_t>(k);
+        }
+}
+
+void SystemSolver::go_back()
+{
+    if (!(best_residual_ < kFarOff * report_.relative_residual) || best_iteration_ == 0)
+        return;
+    going_back_ = true;
+    const double last = report_.relative_residual, seconds = report_.seconds;
+    std::vector<double> kept = std::exchange(x_, start_);
+    settings_.iteration_limit = best_iteration_;
+    solve_once();
+    report_.seconds = seconds; // of the iterations that are reported
+    if (!(report_.relative_residual < last))
+        x_ = std::move(kept);
+    else
+        report_.notes.push_back("x is that of iteration " + std::to_string(best_iteration_) +
+                                ", where the residual was smallest");
+    if (report_.relative_residual <= options_.tolerance)
+        report_.status = Status::converged;
 }
 
 std::vector<double> SystemSolver::read(const BufferPtr& buffer) const
@@ -276,7 +318,9 @@ std::vector<double> SystemSolver::unscaled(std::vector<double> x) const
 void SystemSolver::take(std::vector<double> candidate)
 {
     const double now = relative_residual(a_, candidate, b_, options_.held);
-    if (!(now < 0.99 * report_.relative_residual) || !std::isfinite(norm(candidate)))
+    const bool better = std::isnan(report_.relative_residual) || now < 0.99 * report_.relative_residual;
+    const bool enough = now <= options_.tolerance && !(report_.relative_residual <= options_.tolerance);
+    if (std::isnan(now) || !(better || enough) || !std::isfinite(norm(candidate)))
         return;
     report_.relative_residual = now;
     x_ = std::move(candidate);
@@ -303,7 +347,6 @@ bool SystemSolver::settle(const CgOutcome& outcome)
         if (again && settings_.tolerance > 1e-18)
             return false;
     }
-    report_.reason = reason_of(report_, outcome, options_);
     return true;
 }
 

@@ -32,6 +32,11 @@ private:
     CgOutcome solve_small(std::span<const double> b, std::span<const double> x);
     CgOutcome solve_large(std::span<const double> b, std::span<const double> x);
     void append(const std::vector<float>& part);
+    /// Notes the iteration with the smallest residual of a part of the history that begins at `first`.
+    void watch(const std::vector<float>& part, std::uint32_t first);
+    /// Solves again up to the iteration with the smallest residual, where the last one is far from it: the
+    /// same digits come again, so nothing needs to be kept on the device.
+    void go_back();
     std::vector<double> read(const BufferPtr& buffer) const;
     std::vector<double> unscaled(std::vector<double> x) const;
     /// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since
@@ -53,6 +58,10 @@ private:
     int vector_exponent_;
     double last_overshoot_ = std::numeric_limits<double>::infinity();
     CgSettings settings_;
+    std::vector<double> start_; ///< of the round that had the smallest residual
+    std::uint32_t best_iteration_ = 0;
+    bool going_back_ = false;
+    double best_residual_ = std::numeric_limits<double>::infinity();
     std::shared_ptr<DeviceMatrix> matrix_;
     std::unique_ptr<ConjugateGradient> cg_;
     std::unique_ptr<SmallBatch> batch_;
