@@ -132,10 +132,12 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
             SUM_LANES(sum)
             s = cg_measure(s, sum[0]);
             real along = s.step;
+            bool moving = along != real(0); // a product that is not finite is not touched
             EACH_BEGIN(0u, n)
             uint row = first + uint(i);
             real m = given[row];
-            real r = m > real(0) ? work[row] - along * work[2u * rows + row] : real(0);
+            real r = moving ? work[row] - along * work[2u * rows + row] : work[row];
+            r = m > real(0) ? r : real(0);
             work[row] = r;
             sum_rz[lane] += r * (m * r);
             sum_rr[lane] += r * r;

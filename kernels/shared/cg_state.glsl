@@ -64,7 +64,10 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
         replace = s.fresh == 0u;
     }
     else if (rz <= real(0))
+    {
         s.status = uint(TAUT_CG_INDEFINITE_PRECONDITIONER);
+        s.rz = rz;
+    }
     else if (s.iteration >= s.iteration_limit)
     {
         if (s.fresh != 0u)

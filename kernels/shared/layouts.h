@@ -78,7 +78,7 @@ LAYOUT_STRUCT(CgState)
     real curvature;  // p.Ap of the direction in hand
     real steepest;   // largest p.Ap / p.Mp so far
     real peak;       // largest rr since the residual was formed anew
-    real lowest;     // smallest recursive rr so far
+    real lowest;     // smallest recursive rr since the residual was formed anew
     real best;       // smallest rr of a residual formed anew
     uint iteration;
     uint iteration_limit;

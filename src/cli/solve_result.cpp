@@ -50,6 +50,7 @@ Json to_json(const SolveResult& result)
     json["n"] = report.n;
     json["nnz"] = report.nnz;
     json["null_part"] = report.null_part;
+    json["residual_of_given_b"] = report.residual_of_given_b;
     json["notes"] = report.notes;
     return json;
 }

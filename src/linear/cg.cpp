@@ -42,6 +42,18 @@ std::string_view variant_of(Preconditioner kind, bool masked = false)
 
 std::uint32_t word_bytes(std::uint32_t word) { return word * 4; }
 
+void check_preconditioning(const Preconditioning& given, std::uint64_t rows, std::uint64_t real)
+{
+    const bool block = given.kind == Preconditioner::block_jacobi;
+    const std::uint64_t wanted = block ? rows / 3 * 6 * real : rows * real;
+    if ((is_diagonal(given.kind) || block) && (!given.inverse || given.inverse->bytes() < wanted))
+        throw Error(ErrorCode::bad_input, "the preconditioner " + std::string(to_string(given.kind)) +
+                                              " needs an inverse of " + std::to_string(wanted) + " bytes");
+    if (is_stored(given.kind) && !given.stored)
+        throw Error(ErrorCode::bad_input, "the preconditioner " + std::string(to_string(given.kind)) +
+                                              " needs `stored`: the passes that apply it");
+}
+
 } // namespace
 
 ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared_ptr<const Operator> op,
@@ -63,6 +75,7 @@ ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared
                     "an operator that recomputes its product takes no preconditioner");
     const std::uint64_t real = real_bytes(precision_);
     const std::uint64_t rows = operator_->rows();
+    check_preconditioning(preconditioning_, rows, real);
     const std::uint64_t state = real == 4 ? sizeof(layout::CgState<float>) : sizeof(layout::CgState<double>);
     const auto vector = [&](std::string_view label) { return device_->make_buffer(rows * real, label); };
     b_ = device_->make_buffer(rows * real * (pairs_ ? 2 : 1), "cg b");

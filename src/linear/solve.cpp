@@ -1,19 +1,28 @@
+// Based on: linear/system_solver.hpp. Baraff, Witkin. Large Steps in Cloth Simulation. SIGGRAPH 1998, 5.3
+// (rows
+//   that are held are filtered, not removed).
+// Departures: the null space is taken out of b and of the change of x once, on the host, not in each
+// iteration:
+//   products with A never leave its range but by rounding, which the residual formed anew takes out again.
+
 #include "taut/linear/solve.hpp"
 
 #include "taut/linear/check.hpp"
 #include "taut/linear/null_space.hpp"
 #include "taut/linear/system_solver.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace taut::linear {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Of |b|: what a projection leaves below it is rounding.
-constexpr double kNothingLeft = 1e-15;
+/// Of |b|, times the root of n: what a projection leaves below it is rounding.
+constexpr double kNothingLeft = 0x1p-50;
 
 SolvePrecision resolve(SolvePrecision wanted, const DeviceInfo& device)
 {
@@ -36,6 +45,9 @@ void check_options(const SolveOptions& options, std::uint32_t rows)
     if (options.preconditioner == Preconditioner::multigrid && !options.held.empty())
         throw Error(ErrorCode::unsupported,
                     "multigrid takes no held rows: take jacobi, block_jacobi or chebyshev");
+    if (options.null_space != NullSpace::none && !options.held.empty())
+        throw Error(ErrorCode::unsupported,
+                    "held rows fix what a null space leaves open: give one or the other");
     for (const std::uint32_t row : options.held)
         if (row >= rows)
             throw Error(ErrorCode::bad_input, "held row " + std::to_string(row) +
@@ -151,12 +163,12 @@ Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std
     report.n = a.rows;
     report.nnz = a.nonzeros();
     const NullBasis basis(a, options.null_space, options.null_vectors);
-    if (basis.empty() && a.rows > 0 && maps_constants_to_zero(a))
+    if (basis.empty() && options.held.empty() && a.rows > 0 && maps_constants_to_zero(a))
         report.notes.push_back("A maps constants to zero: x is known up to a constant only");
     Problem problem = pose(a, b, x0, options.held);
     const double size = norm(problem.right);
     report.null_part = size > 0 ? basis.project(problem.right) / size : 0;
-    if (norm(problem.right) <= kNothingLeft * size)
+    if (norm(problem.right) <= kNothingLeft * std::sqrt(a.rows) * size)
         problem.right.assign(a.rows, 0.0);
     if (all_zero(problem.right))
     {
@@ -164,7 +176,8 @@ Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std
         report.status = Status::zero_right_hand_side;
         report.reason = report.null_part > 0
                             ? "b lies in the null space that is taken out, so x is zero: nothing was iterated"
-                            : "b is zero, so x is zero: nothing was iterated";
+                        : all_zero(out.x) ? "b is zero, so x is zero: nothing was iterated"
+                                          : "b drives nothing, so x stays at its start: nothing was iterated";
         return out;
     }
     choose(report, a, options, device->info());
@@ -174,6 +187,7 @@ Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std
         project_change(basis, a, problem, options, out.x, report);
     for (std::size_t i = 0; i < out.x.size(); ++i)
         out.x[i] += problem.shift[i];
+    report.residual_of_given_b = relative_residual(a, out.x, b, options.held);
     return out;
 }
 

@@ -57,7 +57,9 @@ struct SolveReport
     std::uint64_t nnz = 0;
     std::uint32_t iterations = 0;
     std::uint32_t replacements = 0; ///< times that the residual was formed anew
-    double relative_residual = 0;   ///< |b - A x| / |b|, true, fp64 on the host
+    /// |b - A x| / |b|, true, fp64 on the host; b is what is left of it without its part in the null space.
+    double relative_residual = 0;
+    double residual_of_given_b = 0; ///< the same with b as it was given: differs where null_part > 0
     double recursive_residual = 0;  ///< what the recurrence believed before it was checked
     double seconds = 0;             ///< iterations only, wall time with all waits
     double setup_seconds = 0;       ///< checks, packing, preconditioner

@@ -5,20 +5,31 @@
 namespace taut::linear {
 namespace {
 
-std::string stagnation(const SolveReport& report, const CgOutcome& outcome, const std::string& where)
+/// What goes further than the precision in hand.
+std::string advice(SolvePrecision precision)
+{
+    if (precision == SolvePrecision::float32)
+        return "; \"mixed\" or \"double\" go further";
+    return precision == SolvePrecision::mixed ? "; \"double\" may go further" : "";
+}
+
+std::string stagnation(const SolveReport& report, const CgOutcome& outcome, const std::string& where,
+                       const std::string& after)
 {
     const std::string precision(to_string(report.precision));
     if (outcome.cause == TAUT_CG_EXHAUSTED)
-        return "the steepest descent from " + where + " has a curvature of " +
+        return "the steepest descent from " + where + after + " has a curvature of " +
                shown(outcome.curvature_ratio, 3) + " of the largest, which " + precision +
                " cannot tell from zero: A is singular, or too ill-conditioned for this precision";
     if (outcome.cause == TAUT_CG_RAN_AWAY)
-        return "the residual grew to " + shown(outcome.residual, 3) + " |b|: the best iterate has " + where;
+        return "the residual grew to " + shown(outcome.residual, 3) + " |b|" + after +
+               ": the best iterate has " + where;
     if (outcome.cause == TAUT_CG_CONVERGED)
-        return "the device's residual of " + shown(outcome.residual, 3) + " is below the tolerance, but " +
-               where + " is not: " + precision + " holds no better x, take \"mixed\" or \"double\"";
-    return "three checks of the true residual in a row found it not halved: it stays at " + where +
-           (report.precision == SolvePrecision::float32 ? "; \"mixed\" or \"double\" go further" : "");
+        return "the device's residual of " + shown(outcome.residual, 3) + after +
+               " is below the tolerance, but " + where + " is not: " + precision + " holds no better x" +
+               advice(report.precision);
+    return "three residuals formed anew in a row were not half of the best before" + after +
+           ": it stays at " + where + advice(report.precision);
 }
 
 } // namespace
@@ -26,7 +37,8 @@ std::string stagnation(const SolveReport& report, const CgOutcome& outcome, cons
 std::string reason_of(const SolveReport& report, const CgOutcome& outcome, const SolveOptions& options)
 {
     const std::string where = "a true residual of " + shown(report.relative_residual, 3);
-    const std::string after = " after " + std::to_string(report.iterations) + " iterations";
+    const std::string after = " after " + std::to_string(report.iterations) +
+                              (report.iterations == 1 ? " iteration" : " iterations");
     switch (report.status)
     {
     case Status::converged:
@@ -40,7 +52,7 @@ std::string reason_of(const SolveReport& report, const CgOutcome& outcome, const
                ": the preconditioner is not positive definite";
     case Status::non_finite:
         return "a value that is not finite appeared" + after + "; the last finite iterate has " + where;
-    case Status::stagnated: return stagnation(report, outcome, where) + after;
+    case Status::stagnated: return stagnation(report, outcome, where, after);
     case Status::zero_right_hand_side: return "b is zero, so x is zero";
     default:
         return std::to_string(report.iterations) + " iterations were allowed and " + where +

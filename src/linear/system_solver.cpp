@@ -8,6 +8,7 @@
 #include "taut/linear/multigrid.hpp"
 #include "taut/linear/reals.hpp"
 #include "taut/linear/solve_reason.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +24,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint32_t kChunk = 64; ///< iterations of a replay
 constexpr int kRounds = 4;           ///< times that a tolerance is made smaller
 constexpr int kProductTurns = 5;
-constexpr double kFarOff = 0.5; ///< a residual below this share of the last one's is worth going back for
+constexpr double kFarOff = 0.5;   ///< a residual below this share of the last one's is worth going back for
+constexpr double kFarStart = 1e6; ///< |b - A x0| / |b| beyond which a start is no help
+constexpr std::uint64_t kSmallEntries = 20000; ///< of a system of one group: more is read faster by many
 
 double seconds_since(Clock::time_point start)
 {
@@ -72,6 +75,7 @@ std::vector<double> SystemSolver::run()
 {
     const Clock::time_point start = Clock::now();
     report_.relative_residual = relative_residual(a_, x_, b_, options_.held);
+    drop_far_start();
     prepare();
     report_.setup_seconds += seconds_since(start);
     CgOutcome outcome;
@@ -101,12 +105,23 @@ std::uint32_t SystemSolver::report_limit() const
     return std::max(1000u, static_cast<std::uint32_t>(std::min<std::uint64_t>(10ull * a_.rows, 1u << 30)));
 }
 
+/// A start that is worse than zero by many digits costs them all; in float it may not even be held.
+void SystemSolver::drop_far_start()
+{
+    if (!(report_.relative_residual > kFarStart) || !options_.held.empty())
+        return;
+    report_.notes.push_back("x0 was dropped: its residual is " + shown(report_.relative_residual, 3) +
+                            " |b|, that of zero is 1");
+    x_.assign(a_.rows, 0.0);
+    report_.relative_residual = 1;
+}
+
 bool SystemSolver::small() const
 {
     const Preconditioner kind = options_.preconditioner;
     return options_.one_group && options_.format == Format::automatic && a_.rows <= kSmallRows &&
-           kind != Preconditioner::block_jacobi && kind != Preconditioner::chebyshev &&
-           kind != Preconditioner::multigrid;
+           a_.nonzeros() <= kSmallEntries && kind != Preconditioner::block_jacobi &&
+           kind != Preconditioner::chebyshev && kind != Preconditioner::multigrid;
 }
 
 std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
@@ -220,8 +235,9 @@ CgOutcome SystemSolver::solve_small(std::span<const double> b, std::span<const d
     report_.seconds += seconds_since(start);
     const CgOutcome outcome = batch_->outcome(0);
     const std::vector<float> history = batch_->history(0);
-    watch(history, outcome.iterations + 1 - static_cast<std::uint32_t>(history.size()));
-    append(history);
+    const std::uint32_t first = outcome.iterations + 1 - static_cast<std::uint32_t>(history.size());
+    watch(history, first);
+    append(history, first);
     take(unscaled(batch_->x(0)));
     return outcome;
 }
@@ -245,7 +261,7 @@ CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const d
         {
             const std::vector<float> part = cg_->history(told, upto - 1);
             watch(part, told);
-            append(part);
+            append(part, told);
         }
         told = upto;
     } while (outcome.running);
@@ -260,10 +276,13 @@ CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const d
     return outcome;
 }
 
-void SystemSolver::append(const std::vector<float>& part)
+void SystemSolver::append(const std::vector<float>& part, std::uint32_t first)
 {
-    if (options_.keep_history && !going_back_)
-        report_.history.insert(report_.history.end(), part.begin(), part.end());
+    if (!options_.keep_history || going_back_)
+        return;
+    // Taken up again: where it starts is the last entry, formed anew.
+    const bool known = first == 0 && !part.empty() && !report_.history.empty();
+    report_.history.insert(report_.history.end(), part.begin() + (known ? 1 : 0), part.end());
 }
 
 void SystemSolver::watch(const std::vector<float>& part, std::uint32_t first)
@@ -313,8 +332,8 @@ std::vector<double> SystemSolver::unscaled(std::vector<double> x) const
     return x;
 }
 
-/// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since
-/// where the iteration ran along a null space a larger x is no better one.
+/// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker unless it
+/// decides, since where the iteration ran along a null space a larger x is no better one.
 void SystemSolver::take(std::vector<double> candidate)
 {
     const double now = relative_residual(a_, candidate, b_, options_.held);

@@ -22,6 +22,7 @@ public:
 
 private:
     std::uint32_t report_limit() const;
+    void drop_far_start();
     bool small() const;
     std::vector<double> inverse_diagonal(Preconditioner kind) const;
     BufferPtr upload(std::span<const double> values, std::string_view label) const;
@@ -31,7 +32,7 @@ private:
     CgOutcome solve_once();
     CgOutcome solve_small(std::span<const double> b, std::span<const double> x);
     CgOutcome solve_large(std::span<const double> b, std::span<const double> x);
-    void append(const std::vector<float>& part);
+    void append(const std::vector<float>& part, std::uint32_t first);
     /// Notes the iteration with the smallest residual of a part of the history that begins at `first`.
     void watch(const std::vector<float>& part, std::uint32_t first);
     /// Solves again up to the iteration with the smallest residual, where the last one is far from it: the

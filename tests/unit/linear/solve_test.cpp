@@ -1,0 +1,161 @@
+#include "taut/linear/solve.hpp"
+
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+
+#include <cmath>
+
+using namespace taut;
+using namespace taut::linear;
+
+namespace {
+
+std::vector<double> waves(std::uint32_t n)
+{
+    std::vector<double> v;
+    for (std::uint32_t i = 0; i < n; ++i)
+        v.push_back(std::sin(1 + 0.7 * i) + 0.1);
+    return v;
+}
+
+/// 2 and -1 with free ends: constants are mapped to zero.
+SparseMatrix free_chain(std::uint32_t n)
+{
+    std::vector<Triplet> entries;
+    for (std::uint32_t i = 0; i < n; ++i)
+    {
+        entries.push_back({i, i, i == 0 || i + 1 == n ? 1.0 : 2.0});
+        if (i + 1 < n)
+            entries.insert(entries.end(), {{i, i + 1, -1.0}, {i + 1, i, -1.0}});
+    }
+    return from_triplets(n, n, entries);
+}
+
+SolveOptions big(Preconditioner kind = Preconditioner::jacobi)
+{
+    SolveOptions options;
+    options.preconditioner = kind;
+    options.one_group = GENERATE(true, false);
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("solve on every executor, in every precision", "[linear][solve]")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    SolveOptions options = big();
+    options.precision = GENERATE(SolvePrecision::float64, SolvePrecision::mixed);
+    CAPTURE(selector, to_string(options.precision), options.one_group);
+    const SparseMatrix a = poisson2d(16);
+    const std::vector<double> exact = waves(a.rows);
+    std::vector<double> b(a.rows);
+    multiply(a, exact, b);
+    const Solution solution = solve(test_device(selector), a, b, options);
+    CHECK(solution.report.status == Status::converged);
+    CHECK(solution.report.one_group == options.one_group);
+    CHECK(relative_residual(a, solution.x, b) <= 1e-8);
+    CHECK(forward_error(solution.x, exact) < 1e-6);
+}
+
+TEST_CASE("a null space is taken out of b and of the change of x, nothing else", "[linear][solve]")
+{
+    const SparseMatrix a = free_chain(64);
+    SolveOptions options = big();
+    options.null_space = NullSpace::constants;
+    const auto device = test_device("cpu:serial");
+    std::vector<double> image(64), b(64);
+    multiply(a, waves(64), image);
+    b = image;
+    for (double& entry : b)
+        entry += 0.5;
+    const std::vector<double> start(64, 3.0);
+    const Solution solution = solve(device, a, b, options, start);
+    CAPTURE(solution.report.reason);
+    CHECK(solution.report.status == Status::converged);
+    double mean = 0;
+    for (const double entry : solution.x)
+        mean += entry / 64;
+    CHECK(mean == Approx(3).epsilon(1e-12));
+    CHECK(relative_residual(a, solution.x, image) <= 1e-8);
+    CHECK(solution.report.null_part == Approx(0.5 * 8 / norm(b)));
+    CHECK(solution.report.residual_of_given_b == Approx(relative_residual(a, solution.x, b)));
+
+    SECTION("a b that lies in it has no part outside")
+    {
+        const Solution none = solve(device, a, std::vector<double>(64, 1.1), options);
+        CHECK(none.report.status == Status::zero_right_hand_side);
+        CHECK(none.report.iterations == 0);
+        CHECK(norm(none.x) == 0);
+    }
+    SECTION("and it is not mixed with held rows")
+    {
+        options.held = {0};
+        CHECK_THROWS_AS(solve(device, a, b, options), Error);
+    }
+    SECTION("a vector that is not in the null space is refused")
+    {
+        options.null_space = NullSpace::given;
+        options.null_vectors = {waves(64)};
+        CHECK_THROWS_WITH(solve(device, a, b, options), Catch::Matchers::Contains("not in the null space"));
+    }
+}
+
+TEST_CASE("held rows keep their start to the last bit, also where they alone drive the system", "[linear][solve]")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    const Preconditioner kind = GENERATE(Preconditioner::none, Preconditioner::jacobi, Preconditioner::chebyshev);
+    SolveOptions options = big(kind);
+    options.held = {0, 17, 63};
+    CAPTURE(selector, to_string(kind), options.one_group);
+    const SparseMatrix a = poisson2d(8);
+    std::vector<double> start(64, 0), b(64, 0);
+    start[0] = 0.1;
+    start[17] = -3;
+    start[63] = 1e-3;
+    const double load = GENERATE(0.0, 1.0);
+    for (double& entry : b)
+        entry = load;
+    const Solution solution = solve(test_device(selector), a, b, options, start);
+    CAPTURE(solution.report.reason);
+    CHECK(solution.report.status == Status::converged);
+    for (const std::uint32_t row : options.held)
+        CHECK(solution.x[row] == start[row]);
+    std::vector<double> r(64);
+    residual(a, solution.x, b, r);
+    for (std::uint32_t row = 0; row < 64; ++row)
+        if (row != 0 && row != 17 && row != 63)
+            CHECK(std::abs(r[row]) < 1e-6);
+}
+
+TEST_CASE("a start that is far off is dropped with a note", "[linear][solve]")
+{
+    const SparseMatrix a = poisson2d(40);
+    const std::vector<double> b = waves(a.rows);
+    SolveOptions options = big();
+    options.precision = GENERATE(SolvePrecision::float32, SolvePrecision::mixed, SolvePrecision::float64);
+    options.tolerance = 1e-5;
+    std::vector<double> start = waves(a.rows);
+    for (double& entry : start)
+        entry *= 1e25;
+    const Solution solution = solve(test_device("cpu:serial"), a, b, options, start);
+    CAPTURE(solution.report.reason);
+    CHECK(solution.report.status == Status::converged);
+    CHECK(solution.report.notes.size() == 1);
+}
+
+TEST_CASE("options that make no sense are refused in words", "[linear][solve]")
+{
+    const SparseMatrix a = poisson2d(4);
+    const std::vector<double> b = waves(16);
+    const auto device = test_device("cpu:serial");
+    SolveOptions options;
+    options.tolerance = GENERATE(0.0, 1.0, -1.0, std::nan(""));
+    CHECK_THROWS_WITH(solve(device, a, b, options), Catch::Matchers::Contains("between 0 and 1"));
+    options.tolerance = 1e-3;
+    options.held = {16};
+    CHECK_THROWS_WITH(solve(device, a, b, options), Catch::Matchers::Contains("held row 16"));
+    options.held.clear();
+    options.chebyshev_degree = 17;
+    CHECK_THROWS_WITH(solve(device, a, b, options), Catch::Matchers::Contains("1 to 16"));
+}
