@@ -37,6 +37,12 @@ std::string try_to_write(const fs::path& file, const fs::path& temporary, std::s
     return code ? code.message() : std::string();
 }
 
+[[noreturn]] void refuse(const fs::path& file, const std::string& why)
+{
+    throw Error(ErrorCode::io, "cannot write " + file.string() + ": " + why +
+                                   "; the folder must exist, be writable and have room.");
+}
+
 } // namespace
 
 void write_file(const fs::path& file, std::string_view contents)
@@ -47,8 +53,18 @@ void write_file(const fs::path& file, std::string_view contents)
         return;
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    throw Error(ErrorCode::io, "cannot write " + file.string() + ": " + why +
-                                   "; the folder must exist, be writable and have room.");
+    refuse(file, why);
+}
+
+void check_writable(const fs::path& file)
+{
+    const fs::path temporary = temporary_name(file);
+    const bool made = std::ofstream(temporary, std::ios::binary).is_open();
+    const int why = errno;
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    if (!made)
+        refuse(file, std::strerror(why));
 }
 
 } // namespace taut

@@ -11,4 +11,8 @@ namespace taut {
 /// file is as it was. Throws Error{io} naming the file and the reason.
 void write_file(const std::filesystem::path& file, std::string_view contents);
 
+/// Throws what write_file would when its folder takes no file; for asking before long work. Makes an empty
+/// file beside the named one, under a temporary name, and removes it.
+void check_writable(const std::filesystem::path& file);
+
 } // namespace taut

@@ -50,7 +50,10 @@ cli::Command parse(int argc, char** argv, int& status)
         const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands(named).empty();
         const std::string what =
             unknown ? "there is no command \"" + std::string(argv[1]) + "\"" : error.what();
-        status = complain(what + " (taut --help lists commands and options)", cli::kBadInput);
+        const bool chose = !unknown && argc > 1 && !app.get_subcommands(named).empty();
+        const std::string where = chose ? "taut " + std::string(argv[1]) + " --help lists its options"
+                                        : "taut --help lists commands";
+        status = complain(what + " (" + where + ")", cli::kBadInput);
         return {};
     }
     return chosen;

@@ -12,14 +12,15 @@ namespace fs = std::filesystem;
 
 namespace taut::cli {
 
-void make_folder(const fs::path& folder)
+void make_folder(const fs::path& folder, const std::string& option)
 {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error || !fs::is_directory(folder))
+    std::error_code ignored;
+    if (error || !fs::is_directory(folder, ignored))
         throw Error(ErrorCode::io, "cannot make the folder " + folder.string() + ": " +
                                        (error ? error.message() : "a file of this name is in the way") +
-                                       "; choose another with --out.");
+                                       "; choose another with " + option + ".");
 }
 
 std::string to_text(const Json& json)

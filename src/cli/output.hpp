@@ -12,8 +12,9 @@ namespace taut::cli {
 /// Keys stay in the order in which they are set.
 using Json = nlohmann::ordered_json;
 
-/// Makes the folder and its parents. Throws Error{io} when that cannot be done.
-void make_folder(const std::filesystem::path& folder);
+/// Makes the folder and its parents. Throws Error{io} when that cannot be done; `option` is the one that
+/// named it.
+void make_folder(const std::filesystem::path& folder, const std::string& option = "--out");
 
 /// Indented, with a line end. Text that is not UTF-8 is replaced, numbers that are not finite become null.
 std::string to_text(const Json& json);

@@ -9,8 +9,10 @@
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 
+#include <charconv>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 
 namespace fs = std::filesystem;
 
@@ -22,8 +24,9 @@ struct SolveCommand
     std::string matrix, right_hand_side, device, out, history;
     std::string format = "auto", precision = "auto", preconditioner = "jacobi", null_space = "none";
     double tolerance = 1e-8;
-    std::uint32_t max_iterations = 0;
-    bool json = false;
+    std::uint32_t max_iterations = 0; ///< 0: not given
+    int chebyshev_degree = 4;
+    bool json = false, no_one_group = false;
 };
 
 linear::SolveOptions solve_options(const SolveCommand& command)
@@ -36,29 +39,83 @@ linear::SolveOptions solve_options(const SolveCommand& command)
         command.null_space == "none" ? linear::NullSpace::none : linear::NullSpace::constants;
     options.tolerance = command.tolerance;
     options.max_iterations = command.max_iterations;
+    options.chebyshev_degree = command.chebyshev_degree;
+    options.one_group = !command.no_one_group;
     options.keep_history = !command.history.empty();
     options.measure_product = true;
-    if (!(command.tolerance > 0 && command.tolerance < 1))
-        throw Error(ErrorCode::bad_input, "--tolerance is " + number(command.tolerance) +
-                                              "; it is a share of |b| and must lie between 0 and 1.");
     return options;
 }
 
-/// Before minutes of work: there is a folder for the file, and the file is not one that is read.
-void prepare_output(const SolveCommand& command, const std::string& file, const char* option)
+/// Whether two paths name one file, also where neither is there yet.
+bool same_file(const std::string& a, const std::string& b)
+{
+    std::error_code error;
+    if (fs::equivalent(a, b, error))
+        return true;
+    const fs::path first = fs::weakly_canonical(fs::absolute(a, error), error);
+    const fs::path second = fs::weakly_canonical(fs::absolute(b, error), error);
+    return !first.empty() && first == second;
+}
+
+/// Before anything is read: no file is to be written over another one.
+void check_names(const SolveCommand& command)
+{
+    const auto check = [&](const std::string& file, const char* option) {
+        for (const std::string& input : {command.matrix, command.right_hand_side})
+            if (!file.empty() && !input.empty() && same_file(input, file))
+                throw Error(ErrorCode::bad_input, std::string(option) + " names " + file +
+                                                      ", which is an input; choose another name.");
+        std::error_code error;
+        if (fs::is_directory(file, error))
+            throw Error(ErrorCode::bad_input,
+                        std::string(option) + " names the folder " + file + "; name a file.");
+    };
+    check(command.out, "--out");
+    check(command.history, "--history");
+    if (!command.out.empty() && !command.history.empty() && same_file(command.out, command.history))
+        throw Error(ErrorCode::bad_input, "--out and --history both name " + command.history +
+                                              "; x and its history need a file each, choose another name.");
+}
+
+/// Before minutes of work: there is a folder for the file, and it takes files.
+void prepare_output(const std::string& file, const char* option)
 {
     if (file.empty())
         return;
-    std::error_code error;
-    for (const std::string& input : {command.matrix, command.right_hand_side})
-        if (!input.empty() && fs::equivalent(input, file, error))
-            throw Error(ErrorCode::bad_input,
-                        std::string(option) + " names " + file + ", which is an input; choose another name.");
-    if (fs::is_directory(file, error))
-        throw Error(ErrorCode::bad_input,
-                    std::string(option) + " names the folder " + file + "; name a file.");
     if (fs::path(file).has_parent_path())
-        make_folder(fs::path(file).parent_path());
+        make_folder(fs::path(file).parent_path(), option);
+    check_writable(file);
+}
+
+/// Refuses text that is no number in the open interval from 0 to 1, before it is converted.
+CLI::Validator share()
+{
+    return {[](std::string& text) {
+                double value = 0;
+                const char* const end = text.data() + text.size();
+                const auto [stop, error] = std::from_chars(text.data(), end, value);
+                return error == std::errc() && stop == end && value > 0 && value < 1
+                           ? std::string()
+                           : "\"" + text + "\" is not right: it is a share of |b|, a number between 0 and 1";
+            },
+            ""};
+}
+
+/// Refuses text that is no whole number of `least` to `most`, before it is converted.
+CLI::Validator whole_number(std::uint32_t least, std::uint32_t most)
+{
+    const bool open = most == std::numeric_limits<std::uint32_t>::max();
+    const std::string wanted = std::to_string(least) + (open ? " or more, up to " + std::to_string(most)
+                                                             : " to " + std::to_string(most));
+    return {[=](std::string& text) {
+                std::uint32_t value = 0;
+                const char* const end = text.data() + text.size();
+                const auto [stop, error] = std::from_chars(text.data(), end, value);
+                return error == std::errc() && stop == end && value >= least && value <= most
+                           ? std::string()
+                           : "\"" + text + "\" is not right: give a whole number of " + wanted;
+            },
+            ""};
 }
 
 void take_mean_out(std::vector<double>& x)
@@ -135,6 +192,7 @@ linear::Solution solve_files(const SolveCommand& command, const std::shared_ptr<
 int solve(const SolveCommand& command)
 {
     const linear::SolveOptions options = solve_options(command);
+    check_names(command);
     const linear::MatrixFile file = linear::read_matrix_market(command.matrix);
     const bool manufactured = command.right_hand_side.empty();
     const std::vector<double> exact =
@@ -142,8 +200,8 @@ int solve(const SolveCommand& command)
     const std::vector<double> b =
         manufactured ? exact_product(file.matrix, exact) : linear::read_vector(command.right_hand_side);
     const auto device = open_device(command.device);
-    prepare_output(command, command.out, "--out");
-    prepare_output(command, command.history, "--history");
+    prepare_output(command.out, "--out");
+    prepare_output(command.history, "--history");
     linear::Solution solution = solve_files(command, device, file.matrix, b, options);
     SolveResult result;
     result.matrix = command.matrix;
@@ -188,12 +246,23 @@ void add_solve(CLI::App& app, Command& chosen)
         ->add_option("--preconditioner", options->preconditioner,
                      "none, jacobi, block_jacobi, chebyshev, multigrid, spai0 (default: jacobi)")
         ->check(CLI::IsMember({"none", "jacobi", "block_jacobi", "chebyshev", "multigrid", "spai0"}));
-    command->add_option("--tolerance", options->tolerance, "Of the true |b - A x| / |b| (default: 1e-8)");
-    command->add_option("--max-iterations", options->max_iterations,
-                        "At most (default: 0, ten times the unknowns, at least 1,000)");
+    command
+        ->add_option("--chebyshev-degree", options->chebyshev_degree,
+                     "Of the polynomial of --preconditioner chebyshev, 1 to 16 (default: 4)")
+        ->check(whole_number(1, 16));
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "Of the true |b - A x| / |b|, between 0 and 1 (default: 1e-8)")
+        ->check(share());
+    command
+        ->add_option("--max-iterations", options->max_iterations,
+                     "At most, 1 or more (default: ten times the unknowns, at least 1,000)")
+        ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()));
     command
         ->add_option("--null-space", options->null_space, "none, or constants: A is singular (default: none)")
         ->check(CLI::IsMember({"none", "constants"}));
+    command->add_flag("--no-one-group", options->no_one_group,
+                      "Solve a small system as a large one: not by one work group in one dispatch");
     command->add_option("--history", options->history, "CSV file for the residual of every iteration");
     command->add_option("--out", options->out, "Matrix Market file for x");
     command->add_flag("--json", options->json, "Print one JSON object");

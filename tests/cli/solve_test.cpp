@@ -274,10 +274,19 @@ TEST_CASE("solve refuses wrong arguments and wrong files with one sentence", "[s
     refused({good, "--precision", "half"}, 2, "half");
     refused({good, "--preconditioner", "ilu"}, 2, "ilu");
     refused({good, "--null-space", "all"}, 2, "all");
-    for (const char* tolerance : {"0", "1", "-1e-8", "nan", "2"})
-        refused({good, "--tolerance", tolerance}, 2, "--tolerance");
-    refused({good, "--tolerance", "small"}, 2, "small");
-    refused({good, "--max-iterations", "-1"}, 2, "-1");
+    for (const std::string tolerance : {"0", "1", "-1e-8", "nan", "2", "small", "1e-8x", ""})
+    {
+        refused({good, "--tolerance", tolerance}, 2, "--tolerance: \"" + tolerance + "\"");
+        refused({good, "--tolerance", tolerance}, 2, "a number between 0 and 1");
+    }
+    for (const std::string limit : {"-1", "0", "2.5", "many", "4294967296"})
+    {
+        refused({good, "--max-iterations", limit}, 2, "--max-iterations: \"" + limit + "\"");
+        refused({good, "--max-iterations", limit}, 2, "a whole number of 1 or more");
+    }
+    for (const char* degree : {"0", "17", "-2", "four"})
+        refused({good, "--chebyshev-degree", degree}, 2, "a whole number of 1 to 16");
+    refused({good, "--bogus"}, 2, "(taut solve --help lists its options)");
     refused({good, "--device", "abacus"}, 3, "abacus");
     refused({folder / "none.mtx"}, 2, "none.mtx");
     refused({folder.path()}, 2, "not a regular file");
@@ -296,6 +305,75 @@ TEST_CASE("solve refuses wrong arguments and wrong files with one sentence", "[s
     refused({good, "--out", good}, 2, "which is an input");
     refused({good, "--history", folder.path()}, 2, "name a file");
     CHECK(program::read(good) == path_matrix(4));
+}
+
+TEST_CASE("the degree of the polynomial changes the solve", "[solve]")
+{
+    const Folder folder;
+    const std::string matrix = folder.file("a.mtx", path_matrix(900));
+    const auto iterations = [&](const char* degree) {
+        const auto json =
+            solved(folder, {matrix, "--preconditioner", "chebyshev", "--chebyshev-degree", degree});
+        CHECK(json["status"] == "converged");
+        return json["iterations"].get<int>();
+    };
+    CHECK(iterations("16") < iterations("1"));
+    const auto usual = solved(folder, {matrix, "--preconditioner", "chebyshev"});
+    CHECK(usual["iterations"] == iterations("4"));
+}
+
+TEST_CASE("a small system is solved by the large solver on demand", "[solve]")
+{
+    const Folder folder;
+    const std::string matrix = folder.file("a.mtx", path_matrix(100));
+    const auto small = solved(folder, {matrix}), large = solved(folder, {matrix, "--no-one-group"});
+    for (const auto& json : {small, large})
+        CHECK(json["status"] == "converged");
+    CHECK(small["format_reason"].get<std::string>().find("one work group") != std::string::npos);
+    CHECK(large["format_reason"].get<std::string>().find("one work group") == std::string::npos);
+    CHECK(small["spmv_gb_per_s"].is_null()); // docs/program.md
+    CHECK(large["spmv_gb_per_s"].get<double>() > 0);
+}
+
+TEST_CASE("solve refuses to write one file over another before it solves", "[solve]")
+{
+    const Folder folder;
+    const std::string text = path_matrix(4), matrix = folder.file("a.mtx", text);
+    const std::string column = vector({1, 2, 3, 4}), b = folder.file("b.mtx", column);
+    const std::string there = folder.file("there.csv", "old");
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
+        std::vector<std::string> all = {"solve", matrix, b};
+        all.insert(all.end(), more.begin(), more.end());
+        check_refused(folder.taut(all), 2, part);
+    };
+    const std::string detour = folder / "below/../new.csv";
+    for (const auto& [out, history] : {std::pair<std::string, std::string>{folder / "new.csv", detour},
+                                       {there, there},
+                                       {"new.csv", folder / "new.csv"}, // run in the folder
+                                       {"./there.csv", there}})
+        refused({"--out", out, "--history", history}, "--out and --history both name");
+    for (const char* option : {"--out", "--history"})
+    {
+        refused({option, matrix}, std::string(option) + " names " + matrix + ", which is an input");
+        refused({option, b}, "which is an input");
+        refused({option, "./b.mtx"}, "which is an input");
+    }
+    CHECK(program::read(matrix) == text);
+    CHECK(program::read(b) == column);
+    CHECK(program::read(there) == "old");
+    CHECK(folder.list("").size() == 5); // three files and the two captured streams
+}
+
+TEST_CASE("a folder that takes no file is refused before it is solved", "[solve]")
+{
+    const Folder folder;
+    // Were it solved first, the negative diagonal would be what is found.
+    const std::string wrong =
+        folder.file("a.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 -1\n");
+    for (const char* option : {"--out", "--history"})
+        check_refused(folder.taut({"solve", wrong, option, "/proc/x.mtx"}), 2, "cannot write /proc/x.mtx");
+    check_refused(folder.taut({"solve", wrong, "--history", wrong + "/x.csv"}), 2, "with --history");
+    CHECK(folder.list("").size() == 3);
 }
 
 TEST_CASE("a file that cannot be written leaves none", "[solve]")

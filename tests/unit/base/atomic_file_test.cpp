@@ -84,3 +84,23 @@ TEST_CASE("writers of one file at one time leave one of their texts whole")
     CHECK(text == std::string(20'000, text[0]));
     CHECK(folder.entries() == 1);
 }
+
+TEST_CASE("whether a file could be written is asked without a trace")
+{
+    const Folder folder;
+    taut::write_file(folder / "a", "old");
+    taut::check_writable(folder / "a");
+    taut::check_writable(folder / "b");
+    CHECK(text_of(folder / "a") == "old");
+    CHECK(folder.entries() == 1);
+    try
+    {
+        taut::check_writable(folder / "missing" / "a");
+        FAIL("a folder that is not there takes files");
+    }
+    catch (const taut::Error& error)
+    {
+        CHECK(error.code() == taut::ErrorCode::io);
+        CHECK(std::string(error.what()).find((folder / "missing" / "a").string()) != std::string::npos);
+    }
+}
