@@ -34,7 +34,8 @@ const std::vector<std::string> kKeys = {"status",
                                         "tolerance",
                                         "replacements",
                                         "setup_seconds",
-                                        "null_part"};
+                                        "null_part",
+                                        "residual_of_given_b"};
 
 /// The Laplacian of a path: ends held (definite) or free (constants in the null space), lower triangle.
 std::string path_matrix(int n, bool free_ends = false)
