@@ -120,6 +120,13 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
 }
 
 #if !STREAM
+#undef ADD_ENTRY
+#if PAIRS
+#define ADD_ENTRY(s, k) s = add_term(s, term(k, column[k]))
+#else
+#define ADD_ENTRY(s, k) s = add_term(s, term(k, column[k])); ONE_AT_A_TIME(s)
+#endif
+
 APART void add_rows(uint begin, uint end)
 {
     EACH_BEGIN(begin, end)
@@ -130,8 +137,16 @@ APART void add_rows(uint begin, uint end)
     if (first < after)
     {
         Term s = no_term();
-        for (uint k = first; k < after; ++k)
-            s = add_term(s, term(k, column[k]));
+        uint k = first;
+        for (; k + 4u <= after; k += 4u)
+        {
+            ADD_ENTRY(s, k);
+            ADD_ENTRY(s, k + 1u);
+            ADD_ENTRY(s, k + 2u);
+            ADD_ENTRY(s, k + 3u);
+        }
+        for (; k < after; ++k)
+            ADD_ENTRY(s, k);
         y[i] = row_result(i, s);
     }
 #if DOT

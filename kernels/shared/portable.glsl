@@ -30,6 +30,8 @@
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
 //   PREFETCH(name, first, last, ahead) name[first + ahead .. last + ahead) is wanted soon; past the end is
 //                                      allowed
+//   ONE_AT_A_TIME(sum)                 keeps the native compiler from gathering products of a sum whose order is
+//                                      fixed in vectors, only to take them apart again
 //   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
 //                                      it can hold phases; the native build never inlines it, which leaves
 //                                      a hot loop the registers
@@ -81,6 +83,7 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #define COUNTERS(slot, name) layout(std430, binding = slot) buffer name##_counters { uint name[]; }
 #define SHARED(T, name, n) shared T name[n]
 #define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
+#define ONE_AT_A_TIME(value)
 #define PREFETCH(buffer, first, last, ahead)
 
 // Groups beyond the limit of one dimension are folded into y (runtime: fold_groups).

@@ -168,6 +168,16 @@ void prefetch(const T* buffer, std::uint64_t first, std::uint64_t last)
         __builtin_prefetch(reinterpret_cast<const void*>(at));
 }
 
+/// A product of floats is exact in double: high is what float makes of it, low the rest. False: no wider type.
+inline bool wider_product(float a, float b, float& high, float& low)
+{
+    const double exact = static_cast<double>(a) * static_cast<double>(b);
+    high = static_cast<float>(exact);
+    low = static_cast<float>(exact - static_cast<double>(high));
+    return true;
+}
+inline bool wider_product(double, double, double&, double&) { return false; }
+
 inline void count_event(std::uint32_t& counter)
 {
     std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
@@ -191,6 +201,12 @@ inline void count_event(std::uint32_t& counter)
 #define COUNTERS(slot, name) std::uint32_t* __restrict name
 #define SHARED(T, name, n) T name[n]
 #define COUNT_EVENT(buffer, index) taut::native::count_event(buffer[index])
+#define WIDER_PRODUCT(a, b, high, low) taut::native::wider_product(a, b, high, low)
+#if defined(__GNUC__) && defined(__x86_64__)
+#define ONE_AT_A_TIME(value) asm("" : "+x"(value))
+#else
+#define ONE_AT_A_TIME(value) static_cast<void>(0)
+#endif
 #define PREFETCH(buffer, first, last, ahead)                                                                 \
     taut::native::prefetch(buffer, std::uint64_t(first) + (ahead), std::uint64_t(last) + (ahead))
 

@@ -42,13 +42,26 @@ int vector_exponent(std::span<const double> v)
     return largest > 0 ? -std::ilogb(largest) : 0;
 }
 
-/// An inverse must not become 0, which would hold its row, nor infinite: a preconditioner may be coarse.
-double within_range(double inverse, Precision precision)
+constexpr double kSmallestInverse = 1e-30; ///< 0 would hold its row
+constexpr double kLargestInverse = 1e30;
+
+/// Into float's range, where a preconditioner may be coarse, but not indefinite: blocks (of 6 values) are
+/// scaled as a whole, and only their diagonals raised.
+void fit_to_float(std::vector<double>& inverse, std::size_t block)
 {
-    if (precision == Precision::float64 || inverse == 0)
-        return inverse;
-    const double sign = inverse < 0 ? -1 : 1; // off the diagonal of a block
-    return sign * std::clamp(std::abs(inverse), 1e-30, 1e30);
+    for (std::size_t at = 0; at + block <= inverse.size(); at += block)
+    {
+        const std::span<double> part(inverse.data() + at, block);
+        double largest = 0;
+        for (const double value : part)
+            largest = std::max(largest, std::abs(value));
+        if (largest > kLargestInverse)
+            for (double& value : part)
+                value *= kLargestInverse / largest;
+        for (const std::size_t k : {0, 3, 5})
+            if (k < block && part[k] > 0)
+                part[k] = std::max(part[k], kSmallestInverse);
+    }
 }
 
 } // namespace
@@ -142,7 +155,9 @@ std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
     else
         inverse = jacobi_inverse(a_, options_.held);
     for (double& value : inverse)
-        value = within_range(std::ldexp(value, -matrix_exponent_), precision_);
+        value = std::ldexp(value, -matrix_exponent_);
+    if (precision_ == Precision::float32)
+        fit_to_float(inverse, kind == Preconditioner::block_jacobi ? 6 : 1);
     return inverse;
 }
 
