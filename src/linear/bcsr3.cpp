@@ -111,10 +111,7 @@ Bcsr3Layout bcsr3_layout(const SparseMatrix& matrix)
                 const bool there = r < rows.size() && k < rows[r].size();
                 layout.column.push_back(there ? rows[r][k] : std::min(first + r, block_rows - 1));
             }
-        if (layout.values() >= std::uint64_t{1} << 32)
-            throw Error(ErrorCode::limit, "format bcsr3 would store " + std::to_string(layout.values()) +
-                                              " values up to block row " + std::to_string(first) +
-                                              ", and numbers fewer than 2^32: take csr");
+        check_entry_count(layout.values(), "format bcsr3");
         layout.slice_start.push_back(static_cast<std::uint32_t>(layout.column.size() / kSlice));
     }
     return layout;

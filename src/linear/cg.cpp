@@ -65,6 +65,7 @@ ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared
       precision_(operator_->precision()),
       groups_(group_count_for(operator_->rows(), device_->info()))
 {
+    check_row_count(operator_->rows());
     if (pairs_ && precision_ != Precision::float32)
         throw Error(ErrorCode::bad_input, "pairs are made of floats: take an operator in float");
     if (preconditioning_.kind == Preconditioner::block_jacobi && operator_->rows() % 3 != 0)

@@ -47,7 +47,7 @@ class ConjugateGradient
 {
 public:
     /// With `pairs` (float only) b and x are pairs and the residual is formed in two floats: `mixed`.
-    /// Throws Error{unsupported} where the operator cannot.
+    /// Throws Error{unsupported} where the operator cannot, Error{limit} for more than kMostRows rows.
     ConjugateGradient(std::shared_ptr<Device>, std::shared_ptr<const Operator>, Preconditioning, bool pairs);
 
     /// Right-hand side and solution (start value before begin, result after end): rows reals, or rows pairs.

@@ -25,6 +25,25 @@ std::string entry(std::uint32_t row, std::uint32_t column, double value)
     return place(row, column) + " = " + shown(value);
 }
 
+void check_row_starts(const SparseMatrix& a)
+{
+    const std::uint64_t starts = a.row_start.size();
+    if (starts != std::uint64_t{a.rows} + 1)
+        refuse("row_start has " + std::to_string(starts) + " entries, but a matrix of " +
+               std::to_string(a.rows) + " rows has " + std::to_string(std::uint64_t{a.rows} + 1));
+    if (a.row_start.front() != 0)
+        refuse("row_start begins with " + std::to_string(a.row_start.front()) + " instead of 0");
+    for (std::uint32_t i = 0; i < a.rows; ++i)
+        if (a.row_start[i + 1] < a.row_start[i])
+            refuse("row " + std::to_string(i) + " (from 0) begins at entry " +
+                   std::to_string(a.row_start[i]) + " and ends before entry " +
+                   std::to_string(a.row_start[i + 1]) + ": row_start must not fall");
+    if (a.row_start.back() != a.column.size() || a.column.size() != a.value.size())
+        refuse("row_start ends at " + std::to_string(a.row_start.back()) + ", and there are " +
+               std::to_string(a.column.size()) + " columns and " + std::to_string(a.value.size()) +
+               " values of entries: the three must be equal");
+}
+
 void check_sizes(const SparseMatrix& a, std::span<const double> b, std::span<const double> x0,
                  std::span<const std::uint32_t> held)
 {
@@ -222,9 +241,29 @@ void check_consistency(const SparseMatrix& a, std::span<const double> b, double 
 
 } // namespace
 
+void check_structure(const SparseMatrix& a)
+{
+    check_row_starts(a);
+    for (std::uint32_t i = 0; i < a.rows; ++i)
+        for (std::uint32_t k = a.row_start[i]; k < a.row_start[i + 1]; ++k)
+        {
+            if (a.column[k] >= a.columns)
+                refuse("entry " + std::to_string(k) + " in row " + std::to_string(i) + " is in column " +
+                       std::to_string(a.column[k]) + ", but the matrix has " + std::to_string(a.columns) +
+                       " columns (entries, rows and columns are counted from 0)");
+            if (k > a.row_start[i] && a.column[k] <= a.column[k - 1])
+                refuse("entry " + std::to_string(k) + " in row " + std::to_string(i) + " is in column " +
+                       std::to_string(a.column[k]) + " behind one in column " +
+                       std::to_string(a.column[k - 1]) +
+                       " (all counted from 0): within a row columns ascend and none appears twice, as "
+                       "from_triplets makes them");
+        }
+}
+
 void check_system(const SparseMatrix& a, std::span<const double> b, std::span<const double> x0,
                   const CheckOptions& options)
 {
+    check_structure(a);
     check_sizes(a, b, x0, options.held);
     std::vector<bool> held(a.rows, false);
     for (const std::uint32_t row : options.held)

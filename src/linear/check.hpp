@@ -16,7 +16,14 @@ struct CheckOptions
     std::span<const std::uint32_t> held = {};
 };
 
-/// Throws Error{bad_input} that names row and column, counted from 0, and values for: a matrix that is not
+/// Throws Error{bad_input} that names the row and the entry, counted from 0, unless the matrix is laid out
+/// as SparseMatrix says: row_start of rows + 1 entries from 0 up to the number of columns stored, never
+/// falling, as many values, and in every row columns that ascend strictly and are below `columns`. After it
+/// every index in the matrix is safe to follow.
+void check_structure(const SparseMatrix&);
+
+/// Throws what check_structure throws, and Error{bad_input} that names row and column, counted from 0, and
+/// values for: a matrix that is not
 /// square or has no fitting b or x0, entries that are not finite, an entry without an equal mirror (the worst
 /// one), a diagonal that is zero (unless the row is empty or zero and b is 0 there) or negative, an empty row
 /// with b != 0 there (no solution), and a matrix that maps constants to zero with a b that is not orthogonal

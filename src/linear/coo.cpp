@@ -22,9 +22,7 @@ public:
         : PackedMatrix(device, matrix, options),
           groups_(group_count_for(matrix.rows, device->info()))
     {
-        if (matrix.nonzeros() >= std::uint64_t{1} << 31)
-            throw Error(ErrorCode::limit, "format coo numbers entries below 2^31, but there are " +
-                                              std::to_string(matrix.nonzeros()));
+        check_entry_count(matrix.nonzeros(), "format coo");
         entries_ = make_grid(static_cast<std::uint32_t>(matrix.nonzeros()), groups_);
         check_trips();
         std::vector<std::uint32_t> row;

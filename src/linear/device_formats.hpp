@@ -43,8 +43,8 @@ protected:
     BufferPtr upload_table(std::span<const std::uint32_t> table, std::string_view what);
 
     /// values() of `count` entries, zero but for value k of the matrix times 2^exponent at slots[k]; low
-    /// words where options ask for pairs of values that stay, and any value needs one. Throws Error{limit} as above, and
-    /// Error{bad_input} for a value that float cannot hold.
+    /// words where options ask for pairs of values that stay, and any value needs one. Throws Error{limit} as
+    /// above, and Error{bad_input} for a value that float cannot hold.
     void upload_values(const SparseMatrix&, std::span<const std::uint32_t> slots, std::uint64_t count);
 
     /// tables, values, x, result, and what the variant asks for behind it: the bindings of a pass.

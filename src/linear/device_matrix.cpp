@@ -1,5 +1,6 @@
 #include "taut/linear/device_matrix.hpp"
 
+#include "taut/linear/check.hpp"
 #include "taut/linear/device_formats.hpp"
 
 #include <algorithm>
@@ -10,6 +11,8 @@ namespace {
 
 void check(const Device& device, const SparseMatrix& matrix, const UploadOptions& options)
 {
+    check_row_count(std::max(matrix.rows, matrix.columns)); // before anything is done for each of them
+    check_structure(matrix);
     const bool may_be_long = options.rectangular && options.format == Format::csr;
     if (matrix.rows != matrix.columns && !may_be_long)
         throw Error(ErrorCode::bad_input,

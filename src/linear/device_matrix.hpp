@@ -16,24 +16,25 @@ struct UploadOptions
     bool rewritable = false;  ///< values() will be rewritten: no low words are kept, A is what values() hold
 };
 
-/// Packed once; the pattern stays. Values may be rewritten on the device by kernels of the caller, with `pairs`
-/// only if `rewritable` says so.
+/// Packed once; the pattern stays. Values may be rewritten on the device by kernels of the caller, with
+/// `pairs` only if `rewritable` says so.
 class DeviceMatrix : public Operator
 {
 public:
     /// Largest |value| of the matrix has exponent 0 after 2^exponent: the way to solve 1e30 as well as 1e-30.
     static int scale_exponent(const SparseMatrix&);
 
-    /// Throws Error{limit} naming format and bytes when a buffer would be larger than the device allows, ELL
-    /// would waste more than kLargestEllWaste, or a row is longer than the kernel's loops may go;
+    /// Throws what check_structure throws; Error{limit} for more than kMostRows rows or, with padding, more
+    /// than kMostEntries entries, and naming format and bytes when a buffer would be larger than the device
+    /// allows, ELL would waste more than kLargestEllWaste, or a row is longer than the kernel's loops may go;
     /// Error{bad_input} for a matrix that is not square, or bcsr3 with rows no multiple of 3.
     static std::shared_ptr<DeviceMatrix> upload(const std::shared_ptr<Device>&, const SparseMatrix&,
                                                 const UploadOptions&);
 
     virtual Format format() const = 0;
-    /// Values in the format's order: one buffer of reals that kernels of the caller may rewrite. A matrix that
-    /// keeps low words (`pairs` without `rewritable`) must not be: record_residual_pairs adds to every value
-    /// the low word that belongs to the uploaded one. Padding holds zeros and must go on doing so.
+    /// Values in the format's order: one buffer of reals that kernels of the caller may rewrite; padding is
+    /// zero and must stay so. Not with low words (`pairs` without `rewritable`): record_residual_pairs adds to
+    /// every value the low word of the one that was uploaded.
     virtual BufferPtr values() const = 0;
     /// For entry k of the host matrix (its order) the index in values(). For assembling on the device.
     virtual std::vector<std::uint32_t> slots(const SparseMatrix&) const = 0;

@@ -48,9 +48,7 @@ private:
                                               " entries and store " +
                                               std::to_string(static_cast<std::uint64_t>(stored)) + " for " +
                                               std::to_string(matrix.nonzeros()) + ": take sell or csr");
-        if (std::uint64_t{stride_} * width_ >= std::uint64_t{1} << 32)
-            throw Error(ErrorCode::limit, "format ell numbers entries with 32 bits, but would store " +
-                                              std::to_string(std::uint64_t{stride_} * width_) + ": take csr");
+        check_entry_count(std::uint64_t{stride_} * width_, "format ell");
     }
 
     /// Padding is in the row's own column.

@@ -9,6 +9,16 @@
 
 namespace taut::linear {
 
+/// Rows of a system: 2 * rows and 3 * rows, which kernels number with 32 bits, and the groups behind the last
+/// row stay below 2^32.
+inline constexpr std::uint64_t kMostRows = std::uint64_t{1} << 30;
+/// Stored entries of a sparse format, padding included.
+inline constexpr std::uint64_t kMostEntries = std::uint64_t{1} << 31;
+/// Throws Error{limit} with both numbers for more than kMostRows (or columns).
+void check_row_count(std::uint64_t rows);
+/// Throws Error{limit} with both numbers, naming `what` ("format ell"), for more than kMostEntries.
+void check_entry_count(std::uint64_t entries, std::string_view what);
+
 /// `count` units (rows, block rows, entries) among `groups` work groups of TAUT_LINEAR_GROUP lanes: group g
 /// takes units g*chunk up to (g+1)*chunk. Trailing groups may be empty.
 struct Grid
@@ -22,6 +32,7 @@ struct Grid
 /// on a hardware GPU). Fixed by these two alone: sums then come in one order on all software executors.
 std::uint32_t group_count_for(std::uint32_t rows, const DeviceInfo&);
 
+/// Throws Error{limit} where groups * chunk would not fit 32 bits.
 Grid make_grid(std::uint32_t count, std::uint32_t groups, std::uint32_t multiple = TAUT_LINEAR_GROUP);
 
 /// When a pass runs: always, or with as many groups as a word of the solver's control buffer says (0: not at

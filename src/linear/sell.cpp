@@ -21,9 +21,7 @@ public:
         : PackedMatrix(device, matrix, options)
     {
         const SellLayout layout = sell_layout(matrix);
-        if (layout.entries() >= std::uint64_t{1} << 32)
-            throw Error(ErrorCode::limit, "format sell numbers entries with 32 bits, but would store " +
-                                              std::to_string(layout.entries()) + ": take csr");
+        check_entry_count(layout.entries(), "format sell");
         check_bytes(layout.entries() * std::max(real_bytes(precision()), 4u), "entries");
         check_trips(rows(), [&](std::uint32_t begin, std::uint32_t end) {
             std::uint64_t widest = 0;

@@ -7,6 +7,7 @@
 #include "support/random.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 using namespace taut;
@@ -262,4 +263,38 @@ TEST_CASE("differences and scales near the ends of the range do not overflow", "
     CHECK(refusal(matrix(2, {{0, 0, big}, {0, 1, big}, {1, 0, big}, {1, 1, big}}), ones(2)).empty());
     const SparseMatrix opposite = matrix(2, {{0, 0, big}, {0, 1, big}, {1, 0, -big}, {1, 1, big}});
     CHECK(contains(refusal(opposite, ones(2)), "a difference of 2 of"));
+}
+
+TEST_CASE("a matrix that is not laid out as compressed rows is refused with row and entry", "[linear][check]")
+{
+    const SparseMatrix good = neumann(5); // rows of 2, 3, 3, 3 and 2 entries
+    CheckOptions options;
+    options.project_constants = true;
+    const auto refused = [&](const std::function<void(SparseMatrix&)>& spoil) {
+        SparseMatrix a = good;
+        spoil(a);
+        CHECK_THROWS_AS(check_structure(a), Error);
+        return refusal(a, ones(a.rows), {}, options); // check_system looks there first
+    };
+    CHECK_NOTHROW(check_structure(good));
+    CHECK_NOTHROW(check_structure(SparseMatrix()));
+    CHECK(refusal(good, ones(5), {}, options).empty());
+    CHECK(contains(refused([](SparseMatrix& a) { a.column[4] = 4'000'000'000u; }),
+                   "entry 4 in row 1 is in column 4000000000, but the matrix has 5 columns"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.column[4] = 5; }), "column 5, but the matrix has 5"));
+    CHECK(contains(refused([](SparseMatrix& a) { std::swap(a.column[2], a.column[3]); }),
+                   "entry 3 in row 1 is in column 0 behind one in column 1"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.column[3] = a.column[2]; }), "none appears twice"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.row_start.pop_back(); }),
+                   "row_start has 5 entries, but a matrix of 5 rows has 6"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.row_start.clear(); }), "row_start has 0 entries"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.row_start.push_back(13); }), "row_start has 7 entries"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.row_start[0] = 1; }), "begins with 1 instead of 0"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.row_start[2] = 1; }),
+                   "row 1 (from 0) begins at entry 2 and ends before entry 1"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.row_start[2] = 4'000'000'000u; }),
+                   "row 2 (from 0) begins at entry 4000000000"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.row_start[5] = 4'000'000'000u; }),
+                   "row_start ends at 4000000000, and there are 13 columns and 13 values"));
+    CHECK(contains(refused([](SparseMatrix& a) { a.value.pop_back(); }), "13 columns and 12 values"));
 }

@@ -3,6 +3,7 @@
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 #include "support/random.hpp"
+#include "taut/linear/grid.hpp"
 
 #include <cmath>
 #include <limits>
@@ -343,16 +344,76 @@ TEST_CASE("a row that would loop too often is refused where loops are cut short"
 TEST_CASE("a matrix that does not fit the device's largest buffer is refused with its bytes",
           "[linear][formats]")
 {
-    for (const std::string& selector : test_devices())
+    const std::string selector = GENERATE(from_range(test_devices()));
+    const auto device = test_device(selector);
+    const std::uint64_t most = device->limits().max_buffer_bytes;
+    CAPTURE(selector, most);
+    SECTION("4 TiB, found by arithmetic alone: no device here or elsewhere has such a buffer")
     {
-        const auto device = test_device(selector);
-        const std::uint64_t most = device->limits().max_buffer_bytes;
+        REQUIRE(most < std::uint64_t{1} << 42);
+        const std::uint32_t rows = 1u << 20;
+        CHECK_THROWS_WITH(
+            DeviceMatrix::upload(device, arrow(rows, {}), {Format::dense, Precision::float32, false, 0}),
+            Contains("format dense needs 4398046511104 bytes") && Contains(std::to_string(most)));
+    }
+    SECTION("padding that goes beyond a small largest buffer")
+    {
         if (most > std::uint64_t{1} << 28)
-            continue; // the host would need more than is worth a test
-        CAPTURE(selector, most);
+        {
+            WARN("skipped on " << selector << ": the host would need more than is worth a test");
+            return;
+        }
         const auto rows = static_cast<std::uint32_t>(most / (32 * 4) + 1000);
         const UploadOptions options{Format::sell, Precision::float32, false, 0};
         CHECK_THROWS_WITH(DeviceMatrix::upload(device, arrow(rows, {{5, rows}}), options),
                           Contains("format sell needs") && Contains(std::to_string(most)));
     }
+}
+
+TEST_CASE("more rows or entries than kernels can number are refused before any work", "[linear][formats]")
+{
+    const auto device = test_device("cpu:serial");
+    SparseMatrix large;
+    large.rows = large.columns = (1u << 30) + 1; // no row starts: the count is looked at first
+    for (const Format format : formats())
+        CHECK_THROWS_WITH(DeviceMatrix::upload(device, large, {format, Precision::float32, false, 0}),
+                          Contains("1073741825 rows") && Contains("1073741824"));
+    CHECK_NOTHROW(check_row_count(std::uint64_t{1} << 30));
+    CHECK_NOTHROW(check_entry_count(std::uint64_t{1} << 31, "format ell"));
+    CHECK_THROWS_WITH(check_entry_count((std::uint64_t{1} << 31) + 1, "format ell"),
+                      Contains("format ell") && Contains("2147483649") && Contains("2147483648"));
+    CHECK(make_grid(1u << 30, 1024).chunk == 1u << 20);
+    CHECK(make_grid(3u << 30, 256).chunk == 12u << 20);
+    CHECK_THROWS_WITH(make_grid(0xffffffffu, 1), Contains("4294967295"));
+}
+
+TEST_CASE("a matrix whose indices lie is refused before it goes to a device", "[linear][formats]")
+{
+    const Format format = GENERATE(from_range(formats()));
+    const auto device = test_device("cpu:serial");
+    SparseMatrix a = poisson2d(6);
+    a.column[7] = 4'000'000'000u;
+    CHECK_THROWS_WITH(DeviceMatrix::upload(device, a, {format, Precision::float32, false, 0}),
+                      Contains("column 4000000000") && Contains("36 columns"));
+}
+
+TEST_CASE("a rectangular matrix with rows without entries reads no further than x goes", "[linear][formats]")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    CAPTURE(selector);
+    const auto device = test_device(selector);
+    const SparseMatrix a = from_triplets(300, 2, std::vector<Triplet>{{0, 0, 2}, {299, 1, 3}});
+    const auto matrix = DeviceMatrix::upload(device, a, {Format::csr, Precision::float32, false, 0, true});
+    // Behind the two entries of x there is what no zero can be multiplied with.
+    std::vector<float> x(300, std::numeric_limits<float>::quiet_NaN());
+    x[0] = 5;
+    x[1] = 7;
+    const BufferPtr xs = upload(*device, x), y = upload(*device, std::vector<float>(300, -77.0f));
+    Recorder recorder(device);
+    matrix->record_product(recorder, {3, nullptr, 0}, xs, y, BufferPtr());
+    recorder.finish()->replay();
+    std::vector<float> want(300, 0);
+    want[0] = 10;
+    want[299] = 21;
+    CHECK(device->read<float>(y, 300) == want);
 }
