@@ -21,10 +21,21 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::uint32_t kMostCoarse = 1024;
 constexpr double kLeastShrinking = 2.0 / 3.0;
+constexpr std::uint64_t kMostIndices = 0x7fffffff; ///< rows or entries that Eigen numbers with int
 constexpr double kSmoothing = 4.0 / 3.0; ///< omega, over the largest eigenvalue of D^-1 A
+
+void check_indices(std::uint64_t count, const char* what)
+{
+    if (count >= kMostIndices)
+        throw Error(ErrorCode::limit, "aggregation numbers fewer than " + std::to_string(kMostIndices) + " " +
+                                          what + ", but there are " + std::to_string(count) +
+                                          ": take another preconditioner");
+}
 
 Rows to_eigen(const SparseMatrix& a)
 {
+    check_indices(a.rows, "rows");
+    check_indices(a.nonzeros(), "entries");
     Rows out(a.rows, a.columns);
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(a.nonzeros());
@@ -69,7 +80,17 @@ Rows filtered(const Rows& a, double strength)
     return out;
 }
 
-/// Number of the aggregate of every row; rows without strong neighbours make aggregates of their own.
+/// The diagonal by which rows are divided. A zero row has 1: it couples to nothing, so any number serves.
+Eigen::VectorXd divisor(const Rows& a)
+{
+    Eigen::VectorXd diagonal = a.diagonal();
+    for (double& value : diagonal)
+        value = value == 0 ? 1 : value;
+    return diagonal;
+}
+
+/// Number of the aggregate of every row; rows without strong neighbours make aggregates of their own. Zero
+/// rows are in none: no coarser matrix has anything to say of them.
 class Aggregates
 {
 public:
@@ -77,18 +98,21 @@ public:
         : strong_(strong),
           of_(static_cast<std::size_t>(strong.rows()), kNone)
     {
+        const Eigen::VectorXd diagonal = strong_.diagonal();
         for (int row = 0; row < strong_.rows(); ++row)
-            seed(row);
+            if (diagonal[row] != 0)
+                seed(row);
         const std::vector<std::uint32_t> seeded = of_;
         for (int row = 0; row < strong_.rows(); ++row)
             if (at(row) == kNone)
                 join(row, seeded);
         for (int row = 0; row < strong_.rows(); ++row)
-            if (at(row) == kNone)
+            if (at(row) == kNone && diagonal[row] != 0)
                 gather(row);
     }
 
     std::uint32_t count() const { return count_; }
+    /// kNone for a zero row.
     std::uint32_t of(int row) const { return of_[static_cast<std::size_t>(row)]; }
 
 private:
@@ -135,10 +159,12 @@ Rows tentative(const Aggregates& aggregates, int rows)
 {
     std::vector<double> size(aggregates.count(), 0);
     for (int row = 0; row < rows; ++row)
-        size[aggregates.of(row)] += 1;
+        if (aggregates.of(row) != kNone)
+            size[aggregates.of(row)] += 1;
     std::vector<Eigen::Triplet<double>> entries;
     for (int row = 0; row < rows; ++row)
-        entries.emplace_back(row, static_cast<int>(aggregates.of(row)),
+        if (aggregates.of(row) != kNone)
+            entries.emplace_back(row, static_cast<int>(aggregates.of(row)),
                              1 / std::sqrt(size[aggregates.of(row)]));
     Rows out(rows, static_cast<int>(aggregates.count()));
     out.setFromTriplets(entries.begin(), entries.end());
@@ -148,7 +174,7 @@ Rows tentative(const Aggregates& aggregates, int rows)
 /// Largest absolute row sum of D^-1 A: no eigenvalue is beyond it.
 double gershgorin(const Rows& a)
 {
-    const Eigen::VectorXd diagonal = a.diagonal();
+    const Eigen::VectorXd diagonal = divisor(a);
     double largest = 0;
     for (int row = 0; row < a.outerSize(); ++row)
     {
@@ -162,7 +188,7 @@ double gershgorin(const Rows& a)
 
 Rows smoothed(const Rows& tentative, const Rows& strong)
 {
-    const Eigen::VectorXd scale = (-kSmoothing / gershgorin(strong)) * strong.diagonal().cwiseInverse();
+    const Eigen::VectorXd scale = (-kSmoothing / gershgorin(strong)) * divisor(strong).cwiseInverse();
     Rows image = strong * tentative;
     for (int row = 0; row < image.outerSize(); ++row)
         for (Rows::InnerIterator it(image, row); it; ++it)
@@ -205,7 +231,7 @@ AggregationHierarchy aggregate(const SparseMatrix& matrix, const AggregationOpti
     {
         const Rows strong = filtered(a, strength);
         const Aggregates aggregates(strong);
-        if (aggregates.count() > kLeastShrinking * static_cast<double>(a.rows()))
+        if (aggregates.count() == 0 || aggregates.count() > kLeastShrinking * static_cast<double>(a.rows()))
             break;
         const Rows prolongation = smoothed(tentative(aggregates, static_cast<int>(a.rows())), strong);
         const Rows restriction = prolongation.transpose();

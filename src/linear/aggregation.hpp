@@ -32,8 +32,10 @@ struct AggregationHierarchy
     double operator_complexity() const;
 };
 
-/// For symmetric matrices with a positive diagonal. Vanek, Mandel, Brezina. Algebraic Multigrid by Smoothed
-/// Aggregation for Second and Fourth Order Elliptic Problems. Computing 56, 1996: algorithm 5.1 (aggregates),
+/// For symmetric matrices with a positive diagonal; rows that are zero throughout are left out of the
+/// smaller matrices. Error{limit} at 2^31 - 1 rows or entries.
+/// Vanek, Mandel, Brezina. Algebraic Multigrid by Smoothed Aggregation for Second and Fourth Order Elliptic
+/// Problems. Computing 56, 1996: algorithm 5.1 (aggregates),
 /// section 4 (the smoothed prolongation, here of constants). Stops early where aggregates no longer shrink
 /// the system to two thirds; the last matrix may then be larger than `coarsest`, but Error{limit} beyond
 /// 1,024 rows.

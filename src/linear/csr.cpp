@@ -56,7 +56,7 @@ std::vector<std::uint32_t> columns_of(const SparseMatrix& matrix, const Layout& 
         column[layout.slots[k]] = matrix.column[k];
     for (std::uint32_t row = 0; row < matrix.rows; ++row)
         if (matrix.row_length(row) == 0)
-            column[layout.row_start[row]] = row;
+            column[layout.row_start[row]] = std::min(row, matrix.columns - 1); // x may be shorter
     return column;
 }
 
@@ -71,10 +71,7 @@ public:
           // On the CPU straight from memory, elsewhere through shared memory: the same bits.
           stream_(!is_native())
     {
-        if (matrix.nonzeros() + matrix.rows >= std::uint64_t{1} << 31)
-            throw Error(ErrorCode::limit, "format csr numbers entries below 2^31, but there are " +
-                                              std::to_string(matrix.nonzeros()) + " in " +
-                                              std::to_string(matrix.rows) + " rows");
+        check_entry_count(matrix.nonzeros() + matrix.rows, "format csr"); // an empty row holds a zero
         const Layout layout = lay_out(matrix);
         check_short_rows(layout);
         cut_long_rows(layout);

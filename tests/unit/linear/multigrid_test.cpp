@@ -150,3 +150,39 @@ TEST_CASE("multigrid refuses held rows", "[linear][multigrid]")
     CHECK_THROWS_WITH(solve(test_device("cpu:serial"), a, waves(25, 1), options),
                       Catch::Matchers::Contains("no held rows"));
 }
+
+TEST_CASE("multigrid solves a system with rows that are zero", "[linear][multigrid]")
+{
+    const std::string selector = GENERATE(from_range(test_devices()));
+    const std::uint32_t n = GENERATE(12u, 48u); // a direct solve alone, and a hierarchy
+    CAPTURE(selector, n);
+    const SparseMatrix full = poisson2d(n);
+    std::vector<Triplet> entries;
+    for (Triplet t : to_triplets(full)) // every third row holds zeros, or nothing at all
+        entries.push_back({t.row / 2 * 3 + t.row % 2, t.column / 2 * 3 + t.column % 2, t.value});
+    const std::uint32_t rows = full.rows / 2 * 3;
+    for (std::uint32_t row = 2; row < rows; row += 6)
+        entries.push_back({row, row, 0});
+    const SparseMatrix a = from_triplets(rows, rows, entries);
+    std::vector<double> b = waves(rows, 0.4);
+    for (std::uint32_t row = 2; row < rows; row += 3)
+        b[row] = 0;
+    SolveOptions options;
+    options.preconditioner = Preconditioner::multigrid;
+    options.tolerance = 1e-9;
+    const Solution result = solve(test_device(selector), a, b, options);
+    CHECK(result.report.status == Status::converged);
+    CHECK(result.report.iterations < 25);
+    CHECK(relative_residual(a, result.x, b) <= 1e-9);
+    for (const AggregationLevel& level : aggregate(a).levels)
+        for (const double value : level.prolongation.value)
+            REQUIRE(std::isfinite(value));
+}
+
+TEST_CASE("aggregation refuses what its indices cannot number", "[linear][multigrid]")
+{
+    SparseMatrix a;
+    a.rows = a.columns = 0x7fffffffu;
+    CHECK_THROWS_WITH(aggregate(a), Catch::Matchers::Contains("2147483647 rows") &&
+                                        Catch::Matchers::Contains("there are 2147483647"));
+}
