@@ -107,7 +107,8 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         control[TAUT_CONTROL_ITERATE + 1] = 1u;
         control[TAUT_CONTROL_ITERATE + 2] = 1u;
 #if STORED
-        if (begin_solve != 0u) // else the passes behind this one, that make z of the new residual, still need it
+        // Else the passes behind this one, which make z of the new residual, still need it.
+        if (begin_solve != 0u)
 #endif
             control[TAUT_CONTROL_REPLACE] = 0u;
         control[TAUT_CONTROL_REPLACE + 1] = 1u;

@@ -30,8 +30,8 @@
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
 //   PREFETCH(name, first, last, ahead) name[first + ahead .. last + ahead) is wanted soon; past the end is
 //                                      allowed
-//   ONE_AT_A_TIME(sum)                 keeps the native compiler from gathering products of a sum whose order is
-//                                      fixed in vectors, only to take them apart again
+//   ONE_AT_A_TIME(sum)                 keeps the native compiler from gathering the products of a sum of
+//                                      fixed order in vectors, only to take them apart again
 //   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
 //                                      it can hold phases; the native build never inlines it, which leaves
 //                                      a hot loop the registers

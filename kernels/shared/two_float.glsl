@@ -49,7 +49,7 @@ TwoFloat two_sum_ordered(real a, real b)
     return two_float(sum, low);
 }
 
-/// Where the native build has a wider type (WIDER_PRODUCT), it gives the same two numbers in a third of the time.
+/// Where the native build has a wider type (WIDER_PRODUCT), it gives the same two numbers sooner.
 TwoFloat two_product(real a, real b)
 {
 #ifdef WIDER_PRODUCT

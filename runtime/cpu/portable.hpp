@@ -168,7 +168,8 @@ void prefetch(const T* buffer, std::uint64_t first, std::uint64_t last)
         __builtin_prefetch(reinterpret_cast<const void*>(at));
 }
 
-/// A product of floats is exact in double: high is what float makes of it, low the rest. False: no wider type.
+/// A product of floats is exact in double: high is what float makes of it, low the rest. False: nothing is
+/// wider.
 inline bool wider_product(float a, float b, float& high, float& low)
 {
     const double exact = static_cast<double>(a) * static_cast<double>(b);

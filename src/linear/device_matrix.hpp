@@ -33,8 +33,8 @@ public:
 
     virtual Format format() const = 0;
     /// Values in the format's order: one buffer of reals that kernels of the caller may rewrite; padding is
-    /// zero and must stay so. Not with low words (`pairs` without `rewritable`): record_residual_pairs adds to
-    /// every value the low word of the one that was uploaded.
+    /// zero and must stay so. Not with low words (`pairs` without `rewritable`): record_residual_pairs adds
+    /// to every value the low word of the one that was uploaded.
     virtual BufferPtr values() const = 0;
     /// For entry k of the host matrix (its order) the index in values(). For assembling on the device.
     virtual std::vector<std::uint32_t> slots(const SparseMatrix&) const = 0;

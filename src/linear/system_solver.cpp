@@ -5,7 +5,7 @@
 
 #include "taut/linear/system_solver.hpp"
 
-#include "taut/linear/multigrid.hpp"
+#include "taut/linear/device_preconditioner.hpp"
 #include "taut/linear/reals.hpp"
 #include "taut/linear/solve_reason.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -40,28 +40,6 @@ int vector_exponent(std::span<const double> v)
     for (const double entry : v)
         largest = std::max(largest, std::abs(entry));
     return largest > 0 ? -std::ilogb(largest) : 0;
-}
-
-constexpr double kSmallestInverse = 1e-30; ///< 0 would hold its row
-constexpr double kLargestInverse = 1e30;
-
-/// Into float's range, where a preconditioner may be coarse, but not indefinite: blocks (of 6 values) are
-/// scaled as a whole, and only their diagonals raised.
-void fit_to_float(std::vector<double>& inverse, std::size_t block)
-{
-    for (std::size_t at = 0; at + block <= inverse.size(); at += block)
-    {
-        const std::span<double> part(inverse.data() + at, block);
-        double largest = 0;
-        for (const double value : part)
-            largest = std::max(largest, std::abs(value));
-        if (largest > kLargestInverse)
-            for (double& value : part)
-                value *= kLargestInverse / largest;
-        for (const std::size_t k : {0, 3, 5})
-            if (k < block && part[k] > 0)
-                part[k] = std::max(part[k], kSmallestInverse);
-    }
 }
 
 } // namespace
@@ -137,69 +115,12 @@ bool SystemSolver::small() const
            kind != Preconditioner::chebyshev && kind != Preconditioner::multigrid;
 }
 
-std::vector<double> SystemSolver::inverse_diagonal(Preconditioner kind) const
-{
-    std::vector<double> inverse;
-    if (kind == Preconditioner::spai0)
-        inverse = spai0_inverse(a_, options_.held);
-    else if (kind == Preconditioner::block_jacobi)
-        inverse =
-            block_jacobi_inverse(a_, options_.held, precision_ == Precision::float64 ? 0x1p-53 : 0x1p-24);
-    else if (kind == Preconditioner::none)
-    {
-        inverse.assign(a_.rows, 1.0);
-        for (const std::uint32_t row : options_.held)
-            inverse[row] = 0;
-        return inverse;
-    }
-    else
-        inverse = jacobi_inverse(a_, options_.held);
-    for (double& value : inverse)
-        value = std::ldexp(value, -matrix_exponent_);
-    if (precision_ == Precision::float32)
-        fit_to_float(inverse, kind == Preconditioner::block_jacobi ? 6 : 1);
-    return inverse;
-}
-
-BufferPtr SystemSolver::upload(std::span<const double> values, std::string_view label) const
-{
-    BufferPtr buffer = device_->make_buffer(values.size() * real_bytes(precision_), label);
-    write_reals(*device_, buffer, values, precision_);
-    return buffer;
-}
-
-Preconditioning SystemSolver::make_preconditioning() const
-{
-    Preconditioning out;
-    out.kind = options_.preconditioner;
-    // Held rows are an inverse of zero, which plain conjugate gradients do not read.
-    if (out.kind == Preconditioner::none && !options_.held.empty())
-    {
-        out.inverse = upload(inverse_diagonal(Preconditioner::none), "cg inverse");
-        out.kind = Preconditioner::jacobi;
-    }
-    else if (out.kind == Preconditioner::chebyshev)
-    {
-        const std::vector<double> inverse = inverse_diagonal(Preconditioner::jacobi);
-        const Interval interval = chebyshev_interval(a_, jacobi_inverse(a_, options_.held));
-        const BufferPtr buffer = upload(inverse, "chebyshev inverse");
-        out.stored =
-            std::make_shared<Chebyshev>(device_, matrix_, buffer, interval, options_.chebyshev_degree);
-        if (!options_.held.empty())
-            out.inverse = buffer; // its zeros keep held rows out of the residual
-    }
-    else if (out.kind == Preconditioner::multigrid)
-        out.stored = std::make_shared<Multigrid>(device_, aggregate(a_), matrix_, matrix_exponent_);
-    else if (out.kind != Preconditioner::none)
-        out.inverse = upload(inverse_diagonal(out.kind), "cg inverse");
-    return out;
-}
-
 void SystemSolver::prepare()
 {
     if (small())
     {
-        const std::vector<double> inverse = inverse_diagonal(options_.preconditioner);
+        const std::vector<double> inverse =
+            scaled_inverse({a_, matrix_exponent_, precision_, options_}, options_.preconditioner);
         batch_ = std::make_unique<SmallBatch>(device_, std::span(&a_, 1), std::span(&matrix_exponent_, 1),
                                               std::span(&inverse, 1), precision_, pairs_);
         report_.one_group = true;
@@ -211,7 +132,9 @@ void SystemSolver::prepare()
     }
     matrix_ = DeviceMatrix::upload(device_, a_, {report_.format, precision_, pairs_, matrix_exponent_});
     report_.bytes = matrix_->bytes();
-    cg_ = std::make_unique<ConjugateGradient>(device_, matrix_, make_preconditioning(), pairs_);
+    cg_ = std::make_unique<ConjugateGradient>(
+        device_, matrix_,
+        make_preconditioning(device_, {a_, matrix_exponent_, precision_, options_}, matrix_), pairs_);
     Recorder recorder(device_);
     cg_->record_begin(recorder);
     begin_ = recorder.finish();

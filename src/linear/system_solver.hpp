@@ -24,9 +24,6 @@ private:
     std::uint32_t report_limit() const;
     void drop_far_start();
     bool small() const;
-    std::vector<double> inverse_diagonal(Preconditioner kind) const;
-    BufferPtr upload(std::span<const double> values, std::string_view label) const;
-    Preconditioning make_preconditioning() const;
     void prepare();
     std::vector<double> scaled(std::span<const double> v, int exponent) const;
     CgOutcome solve_once();

@@ -70,8 +70,10 @@ TEMPLATE_TEST_CASE("cg_restart clears held rows, sums the residual and sets the 
             CHECK((after.rz == before.rz && after.rr == before.rr && after.bb == before.bb));
             CHECK((after.direction == before.direction && after.iteration == before.iteration));
             const std::uint32_t g = dealt.groups;
-            const bool open = variant.starts_with("stored") && begin == 0; // for the passes of the preconditioner
-            const std::vector<std::uint32_t> control = {g, 1, 1, 77, open ? 77u : 0u, 1, 1, 77, 77, 77, 77, 77};
+            const bool open =
+                variant.starts_with("stored") && begin == 0; // for the passes of the preconditioner
+            const std::vector<std::uint32_t> control = {g,  1,  1,  77, open ? 77u : 0u, 1, 1, 77,
+                                                        77, 77, 77, 77};
             CHECK(values_of<std::uint32_t>(out.at("control")) == control);
         });
     }

@@ -101,10 +101,12 @@ TEST_CASE("a null space is taken out of b and of the change of x, nothing else",
     }
 }
 
-TEST_CASE("held rows keep their start to the last bit, also where they alone drive the system", "[linear][solve]")
+TEST_CASE("held rows keep their start to the last bit, also where they alone drive the system",
+          "[linear][solve]")
 {
     const std::string selector = GENERATE(from_range(test_devices()));
-    const Preconditioner kind = GENERATE(Preconditioner::none, Preconditioner::jacobi, Preconditioner::chebyshev);
+    const Preconditioner kind =
+        GENERATE(Preconditioner::none, Preconditioner::jacobi, Preconditioner::chebyshev);
     SolveOptions options = big(kind);
     options.held = {0, 17, 63};
     CAPTURE(selector, to_string(kind), options.one_group);
