@@ -4,6 +4,7 @@
 
 #include "taut/linear/aggregation.hpp"
 
+#include "taut/linear/host_sums.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <Eigen/Dense>
@@ -171,24 +172,15 @@ Rows tentative(const Aggregates& aggregates, int rows)
     return out;
 }
 
-/// Largest absolute row sum of D^-1 A: no eigenvalue is beyond it.
-double gershgorin(const Rows& a)
-{
-    const Eigen::VectorXd diagonal = divisor(a);
-    double largest = 0;
-    for (int row = 0; row < a.outerSize(); ++row)
-    {
-        double sum = 0;
-        for (Rows::InnerIterator it(a, row); it; ++it)
-            sum += std::abs(it.value());
-        largest = std::max(largest, sum / diagonal[row]);
-    }
-    return largest;
-}
-
 Rows smoothed(const Rows& tentative, const Rows& strong)
 {
-    const Eigen::VectorXd scale = (-kSmoothing / gershgorin(strong)) * divisor(strong).cwiseInverse();
+    const Eigen::VectorXd inverse = divisor(strong).cwiseInverse();
+    const auto rows = static_cast<std::size_t>(strong.rows());
+    const auto entries = static_cast<std::size_t>(strong.nonZeros()); // setFromTriplets left no gaps
+    const double highest =
+        gershgorin<int>({strong.outerIndexPtr(), rows + 1}, {strong.innerIndexPtr(), entries},
+                        {strong.valuePtr(), entries}, {inverse.data(), rows});
+    const Eigen::VectorXd scale = (-kSmoothing / highest) * inverse;
     Rows image = strong * tentative;
     for (int row = 0; row < image.outerSize(); ++row)
         for (Rows::InnerIterator it(image, row); it; ++it)

@@ -19,6 +19,7 @@
 #include "taut/linear/preconditioner.hpp"
 
 #include "taut/kernels/chebyshev.hpp"
+#include "taut/linear/host_sums.hpp"
 #include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
@@ -70,20 +71,6 @@ double largest_eigenvalue(const Tridiagonal& t)
     return high;
 }
 
-/// max over rows of sum_j |a_ij| m_i: no eigenvalue of D^-1 A is larger.
-double gershgorin(const SparseMatrix& a, std::span<const double> inverse)
-{
-    double most = 0;
-    for (std::uint32_t i = 0; i < a.rows; ++i)
-    {
-        double sum = 0;
-        for (std::uint32_t k = a.row_start[i]; k < a.row_start[i + 1]; ++k)
-            sum += inverse[a.column[k]] > 0 ? std::abs(a.value[k]) * inverse[i] : 0;
-        most = std::max(most, sum);
-    }
-    return most;
-}
-
 /// Entries of mixed signs and sizes, the same on every machine; 0 in held rows. Length 1.
 std::vector<double> fixed_start(std::span<const double> inverse)
 {
@@ -100,14 +87,6 @@ std::vector<double> fixed_start(std::span<const double> inverse)
     for (double& entry : v)
         entry = length > 0 ? entry / length : 0;
     return v;
-}
-
-double dot(std::span<const double> a, std::span<const double> b)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] * b[i];
-    return sum;
 }
 
 /// Largest eigenvalue of D^-1/2 A D^-1/2 as `kLanczosSteps` products show it: from below.
@@ -170,7 +149,7 @@ Interval chebyshev_interval(const SparseMatrix& a, std::span<const double> inver
                                                   " in row " + std::to_string(i) +
                                                   " (counted from 0): it must be positive, or 0 where "
                                                   "a row is held");
-    const double bound = gershgorin(a, inverse_diagonal);
+    const double bound = gershgorin<std::uint32_t>(a.row_start, a.column, a.value, inverse_diagonal);
     double highest = a.rows > 0 ? std::min(kLanczosFactor * lanczos(a, inverse_diagonal), bound) : 0;
     if (!(highest > 0))
         highest = bound > 0 ? bound : 1; // a zero matrix: any interval serves

@@ -1,11 +1,11 @@
 #include "taut/linear/format.hpp"
 
 #include "taut/linear/device_formats.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace taut::linear {
 namespace {
@@ -105,14 +105,6 @@ bool needs_low_words(const SparseMatrix& matrix)
                        [](double value) { return static_cast<double>(static_cast<float>(value)) != value; });
 }
 
-/// With three digits.
-std::string shown(double value)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return text.data();
-}
-
 } // namespace
 
 std::string_view to_string(Format format) { return kWords[static_cast<std::size_t>(format)]; }
@@ -177,23 +169,23 @@ FormatChoice choose_format(const RowStatistics& s, bool hardware_gpu)
     const double square = static_cast<double>(s.rows) * s.rows;
     const double share = s.rows == 0 ? 0 : static_cast<double>(s.nonzeros) / square;
     if (share >= kLeastDenseShare)
-        return {Format::dense, "dense: " + shown(100 * share) +
+        return {Format::dense, "dense: " + shown(100 * share, 3) +
                                    " % of all places hold an entry, so that column "
                                    "numbers would cost more than the zeros"};
     if (s.longest > kLongestCsrRow)
         return {Format::coo, "coo: the longest row holds " + std::to_string(s.longest) +
                                  " entries, and csr takes " + std::to_string(kLongestCsrRow)};
     if (s.block_fill >= kLeastBlockFill)
-        return {Format::bcsr3,
-                "bcsr3: " + shown(100 * s.block_fill) + " % of the places in its 3 x 3 blocks hold an entry"};
+        return {Format::bcsr3, "bcsr3: " + shown(100 * s.block_fill, 3) +
+                                   " % of the places in its 3 x 3 blocks hold an entry"};
     const std::string rows = "rows hold " + std::to_string(s.shortest) + " to " + std::to_string(s.longest) +
-                             " entries, " + shown(s.mean) + " on average (deviation " + shown(s.deviation) +
-                             ")";
+                             " entries, " + shown(s.mean, 3) + " on average (deviation " +
+                             shown(s.deviation, 3) + ")";
     if (hardware_gpu && s.sell_fill >= kLeastSellFill)
-        return {Format::sell, "sell: " + rows + ", so that only " + shown(100 * (1 - s.sell_fill)) +
+        return {Format::sell, "sell: " + rows + ", so that only " + shown(100 * (1 - s.sell_fill), 3) +
                                   " % of what it stores is padding"};
     if (hardware_gpu)
-        return {Format::csr, "csr: " + rows + ", so that " + shown(100 * (1 - s.sell_fill)) +
+        return {Format::csr, "csr: " + rows + ", so that " + shown(100 * (1 - s.sell_fill), 3) +
                                  " % of what sell stores would be padding"};
     return {Format::csr, "csr: " + rows + ", and a CPU reads rows as they stand"};
 }

@@ -3,6 +3,7 @@
 
 #include "taut/linear/null_space.hpp"
 
+#include "taut/linear/host_sums.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -11,14 +12,6 @@
 
 namespace taut::linear {
 namespace {
-
-double dot(std::span<const double> a, std::span<const double> b)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] * b[i];
-    return sum;
-}
 
 void subtract(std::span<double> v, double factor, std::span<const double> z)
 {

@@ -18,8 +18,9 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::array kWords = {Preconditioner::none, Preconditioner::jacobi, Preconditioner::block_jacobi,
-                               Preconditioner::chebyshev, Preconditioner::multigrid, Preconditioner::spai0};
+constexpr std::array kWords = {Preconditioner::none,         Preconditioner::jacobi,
+                               Preconditioner::block_jacobi, Preconditioner::chebyshev,
+                               Preconditioner::multigrid,    Preconditioner::spai0};
 
 /// 1 for each row of `held`.
 std::vector<char> marks(const SparseMatrix& a, std::span<const std::uint32_t> held)
@@ -67,6 +68,24 @@ void refuse_diagonal(std::uint32_t row, double diagonal)
     throw Error(ErrorCode::bad_input, "row " + std::to_string(row) + " has " + shown(diagonal) +
                                           " on its diagonal (counted from 0): a preconditioner that "
                                           "divides by the diagonal needs it positive");
+}
+
+/// One value a row: 0 where it is held, 1 where it is zero, else of(row, what it holds, marks of held rows).
+template <typename Of>
+std::vector<double> diagonal_inverse(const SparseMatrix& a, std::span<const std::uint32_t> held, Of of)
+{
+    const std::vector<char> is_held = marks(a, held);
+    std::vector<double> inverse(a.rows, 0);
+    for (std::uint32_t row = 0; row < a.rows; ++row)
+    {
+        if (is_held[row])
+            continue;
+        const Row found = look_at(a, row, is_held);
+        if (found.largest != 0)
+            refuse_diagonal(row, found.diagonal);
+        inverse[row] = found.largest == 0 ? 1 : of(row, found, is_held);
+    }
+    return inverse;
 }
 
 /// A symmetric 3 x 3 block: xx xy xz yy yz zz.
@@ -180,47 +199,22 @@ Preconditioner preconditioner_from(std::string_view word)
 
 std::vector<double> jacobi_inverse(const SparseMatrix& a, std::span<const std::uint32_t> held)
 {
-    const std::vector<char> is_held = marks(a, held);
-    std::vector<double> inverse(a.rows, 0);
-    for (std::uint32_t row = 0; row < a.rows; ++row)
-    {
-        if (is_held[row])
-            continue;
-        const Row found = look_at(a, row, is_held);
-        if (found.largest == 0)
-        {
-            inverse[row] = 1;
-            continue;
-        }
-        refuse_diagonal(row, found.diagonal);
-        inverse[row] = inverse_of(found.diagonal);
-    }
-    return inverse;
+    return diagonal_inverse(a, held, [](std::uint32_t, const Row& found, const std::vector<char>&) {
+        return inverse_of(found.diagonal);
+    });
 }
 
 std::vector<double> spai0_inverse(const SparseMatrix& a, std::span<const std::uint32_t> held)
 {
-    const std::vector<char> is_held = marks(a, held);
-    std::vector<double> inverse(a.rows, 0);
-    for (std::uint32_t row = 0; row < a.rows; ++row)
-    {
-        if (is_held[row])
-            continue;
-        const Row found = look_at(a, row, is_held);
-        if (found.largest == 0)
-        {
-            inverse[row] = 1;
-            continue;
-        }
-        refuse_diagonal(row, found.diagonal);
-        double squares = 0; // of entries over the largest: no overflow, and no underflow to zero
-        for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
-            if (!is_held[a.column[k]])
-                squares += (a.value[k] / found.largest) * (a.value[k] / found.largest);
-        inverse[row] = std::min(found.diagonal / found.largest / squares / found.largest,
-                                std::numeric_limits<double>::max());
-    }
-    return inverse;
+    return diagonal_inverse(
+        a, held, [&](std::uint32_t row, const Row& found, const std::vector<char>& is_held) {
+            double squares = 0; // of entries over the largest: no overflow, and no underflow to zero
+            for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
+                if (!is_held[a.column[k]])
+                    squares += (a.value[k] / found.largest) * (a.value[k] / found.largest);
+            return std::min(found.diagonal / found.largest / squares / found.largest,
+                            std::numeric_limits<double>::max());
+        });
 }
 
 std::vector<double> block_jacobi_inverse(const SparseMatrix& a, std::span<const std::uint32_t> held,

@@ -3,6 +3,7 @@
 
 #include "taut/linear/small.hpp"
 #include "taut/linear/cg_state.hpp"
+#include "taut/linear/reals.hpp"
 
 #include "taut/kernels/cg_small.hpp"
 
@@ -21,10 +22,7 @@ constexpr std::uint32_t kControl = 1 + kHistory; ///< words a system
 constexpr std::uint32_t kTableWords = 3;         ///< words a system, before the row starts
 
 /// Trips of a loop of `count` turns: lavapipe counts the last look at the condition too.
-std::uint64_t loop_trips(std::uint64_t count)
-{
-    return count + 1;
-}
+std::uint64_t loop_trips(std::uint64_t count) { return count + 1; }
 
 /// Trips of the busiest invocation. Lanes of one vector wait for each other, so each tile of 128 rows
 /// counts with its longest row.
@@ -59,17 +57,21 @@ std::uint64_t turns_of(const SparseMatrix& a)
 void check(const SparseMatrix& a, std::span<const double> inverse, std::size_t k)
 {
     if (a.rows != a.columns)
-        refuse(ErrorCode::bad_input, k, "has " + std::to_string(a.rows) + " rows and " +
-                                            std::to_string(a.columns) + " columns: a square one is wanted");
+        refuse(ErrorCode::bad_input, k,
+               "has " + std::to_string(a.rows) + " rows and " + std::to_string(a.columns) +
+                   " columns: a square one is wanted");
     if (inverse.size() != a.rows)
-        refuse(ErrorCode::bad_input, k, "has " + std::to_string(a.rows) + " rows, but its inverse diagonal " +
-                                            std::to_string(inverse.size()) + " values: one a row is wanted");
+        refuse(ErrorCode::bad_input, k,
+               "has " + std::to_string(a.rows) + " rows, but its inverse diagonal " +
+                   std::to_string(inverse.size()) + " values: one a row is wanted");
     if (a.rows > kSmallRows)
-        refuse(ErrorCode::limit, k, "has " + std::to_string(a.rows) + " rows, but one work group takes " +
-                                        std::to_string(kSmallRows) + " at most: take ConjugateGradient");
+        refuse(ErrorCode::limit, k,
+               "has " + std::to_string(a.rows) + " rows, but one work group takes " +
+                   std::to_string(kSmallRows) + " at most: take ConjugateGradient");
     if (turns_of(a) == 0)
-        refuse(ErrorCode::limit, k, "has rows so long that one iteration needs more than " +
-                                        std::to_string(kTrips) + " loop trips: take ConjugateGradient");
+        refuse(ErrorCode::limit, k,
+               "has rows so long that one iteration needs more than " + std::to_string(kTrips) +
+                   " loop trips: take ConjugateGradient");
 }
 
 /// values times 2^exponent as `Real`, and what that leaves over.
@@ -93,7 +95,7 @@ struct SmallBatch::Parts
     std::shared_ptr<Device> device;
     Precision precision = Precision::float64;
     bool pairs = false;
-    std::uint32_t rows = 0, entries = 0; ///< of all systems
+    std::uint32_t rows = 0, entries = 0;           ///< of all systems
     std::vector<std::uint32_t> first, size, turns; ///< a system
     BufferPtr table, column, value, given, base, work, state, control;
     std::unique_ptr<Recording> pass;
@@ -113,25 +115,6 @@ struct SmallBatch::Parts
         if (!values.empty())
             device->write<T>(buffer, values);
         return buffer;
-    }
-
-    /// Reals at place `at` (in reals) of a buffer.
-    void write_reals(const BufferPtr& buffer, std::span<const double> values, std::uint64_t at) const
-    {
-        if (values.empty())
-            return;
-        if (precision == Precision::float64)
-            return device->write<double>(buffer, values, at * 8);
-        const std::vector<float> rounded(values.begin(), values.end());
-        device->write<float>(buffer, rounded, at * 4);
-    }
-
-    std::vector<double> read_reals(const BufferPtr& buffer, std::size_t count, std::uint64_t at) const
-    {
-        if (precision == Precision::float64)
-            return device->read<double>(buffer, count, at * 8);
-        const std::vector<float> values = device->read<float>(buffer, count, at * 4);
-        return {values.begin(), values.end()};
     }
 
     void upload_systems(std::span<const SparseMatrix>, std::span<const int> exponents);
@@ -176,9 +159,9 @@ void SmallBatch::Parts::upload_systems(std::span<const SparseMatrix> systems, st
     table = upload<std::uint32_t>(words, "small table");
     column = upload<std::uint32_t>(columns, "small columns");
     value = make(values.high.size() * (pairs ? 2 : 1) * real_bytes(precision), "small values");
-    write_reals(value, values.high, 0);
+    write_reals(*device, value, values.high, precision, 0);
     if (pairs)
-        write_reals(value, values.low, values.high.size());
+        write_reals(*device, value, values.low, precision, values.high.size());
 }
 
 void SmallBatch::Parts::upload_inverses(std::span<const std::vector<double>> inverses)
@@ -189,7 +172,7 @@ void SmallBatch::Parts::upload_inverses(std::span<const std::vector<double>> inv
     all.reserve(rows);
     for (const std::vector<double>& inverse : inverses)
         all.insert(all.end(), inverse.begin(), inverse.end());
-    write_reals(given, all, 0);
+    write_reals(*device, given, all, precision, 0);
 }
 
 void SmallBatch::Parts::record()
@@ -231,14 +214,14 @@ void SmallBatch::Parts::fetch()
         throw Error(ErrorCode::bad_input, "nothing was solved yet: call start and run first");
     if (!checked.empty() || rows == 0)
         return;
-    checked = read_reals(base, rows, 0);
+    checked = read_reals(*device, base, rows, precision, 0);
     if (pairs)
     {
-        const std::vector<double> low = read_reals(base, rows, rows);
+        const std::vector<double> low = read_reals(*device, base, rows, precision, rows);
         for (std::size_t i = 0; i < checked.size(); ++i)
             checked[i] += low[i];
     }
-    gained = read_reals(work, rows, 3ull * rows);
+    gained = read_reals(*device, work, rows, precision, 3ull * rows);
 }
 
 SmallBatch::SmallBatch(std::shared_ptr<Device> device, std::span<const SparseMatrix> systems,
@@ -285,12 +268,12 @@ void SmallBatch::start(std::span<const double> b, std::span<const double> x0)
         right.add(b[i], p.precision);
         guess.add(x0.empty() ? 0 : x0[i], p.precision);
     }
-    p.write_reals(p.given, right.high, p.rows);
-    p.write_reals(p.base, guess.high, 0);
+    write_reals(*p.device, p.given, right.high, p.precision, p.rows);
+    write_reals(*p.device, p.base, guess.high, p.precision, 0);
     if (p.pairs)
     {
-        p.write_reals(p.given, right.low, 2ull * p.rows);
-        p.write_reals(p.base, guess.low, p.rows);
+        write_reals(*p.device, p.given, right.low, p.precision, 2ull * p.rows);
+        write_reals(*p.device, p.base, guess.low, p.precision, p.rows);
     }
     if (p.precision == Precision::float32)
         p.write_states<float>();
@@ -318,20 +301,11 @@ std::uint32_t SmallBatch::run()
     return dispatches;
 }
 
-std::size_t SmallBatch::systems() const
-{
-    return parts_->first.size();
-}
+std::size_t SmallBatch::systems() const { return parts_->first.size(); }
 
-std::uint32_t SmallBatch::rows() const
-{
-    return parts_->rows;
-}
+std::uint32_t SmallBatch::rows() const { return parts_->rows; }
 
-std::uint32_t SmallBatch::turns(std::size_t system) const
-{
-    return parts_->turns.at(system);
-}
+std::uint32_t SmallBatch::turns(std::size_t system) const { return parts_->turns.at(system); }
 
 std::uint64_t SmallBatch::bytes() const
 {

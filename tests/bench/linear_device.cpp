@@ -3,6 +3,7 @@
 #include "linear_device.hpp"
 
 #include "taut/linear/preconditioner.hpp"
+#include "taut/linear/reals.hpp"
 #include "taut/linear/stencil.hpp"
 
 #include <limits>
@@ -16,35 +17,6 @@ namespace {
 
 constexpr std::uint32_t kChunk = 64; // iterations of a replay, as linear::solve has it
 
-std::vector<double> with_low_words(std::span<const double> values)
-{
-    std::vector<double> pairs;
-    for (const double value : values)
-    {
-        const auto high = static_cast<double>(static_cast<float>(value));
-        pairs.push_back(high);
-        pairs.push_back(value - high);
-    }
-    return pairs;
-}
-
-void write_reals(Device& device, const BufferPtr& buffer, std::span<const double> values, Precision precision)
-{
-    if (precision == Precision::float64)
-        return device.write<double>(buffer, values);
-    const std::vector<float> rounded(values.begin(), values.end());
-    device.write<float>(buffer, rounded);
-}
-
-std::vector<double> read_reals(Device& device, const BufferPtr& buffer, std::size_t count,
-                               Precision precision)
-{
-    if (precision == Precision::float64)
-        return device.read<double>(buffer, count);
-    const std::vector<float> values = device.read<float>(buffer, count);
-    return {values.begin(), values.end()};
-}
-
 } // namespace
 
 DeviceSolver::DeviceSolver(std::shared_ptr<Device> device, std::shared_ptr<const Operator> op,
@@ -56,7 +28,7 @@ DeviceSolver::DeviceSolver(std::shared_ptr<Device> device, std::shared_ptr<const
       cg_(device_, operator_, preconditioning, pairs)
 {
     const Precision precision = operator_->precision();
-    write_reals(*device_, cg_.b(), pairs ? with_low_words(system.b) : system.b, precision);
+    write_reals(*device_, cg_.b(), pairs ? as_pairs(system.b) : system.b, precision);
     Recorder recorder(device_);
     cg_.record_begin(recorder);
     begin_ = recorder.finish();
