@@ -16,4 +16,9 @@ std::string shown(double value, int digits)
     return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr};
 }
 
+std::string counted(std::uint64_t count, std::string_view one, std::string_view several)
+{
+    return std::to_string(count) + ' ' + std::string(count == 1 ? one : several);
+}
+
 } // namespace taut

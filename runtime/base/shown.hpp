@@ -1,7 +1,9 @@
 #pragma once
 // Numbers in messages.
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace taut {
 
@@ -12,5 +14,8 @@ std::string shown(double value);
 /// At most `digits` significant digits, as printf("%.*g") in the "C" locale. For tables and sentences in
 /// which more digits would say nothing. 1 <= digits <= 17.
 std::string shown(double value, int digits);
+
+/// "1 entry", "0 entries": the count and what is counted, in its right form.
+std::string counted(std::uint64_t count, std::string_view one, std::string_view several);
 
 } // namespace taut

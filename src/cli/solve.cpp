@@ -8,6 +8,7 @@
 #include "taut/linear/matrix_market.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <charconv>
 #include <filesystem>
@@ -166,10 +167,11 @@ std::string place(const linear::Triplet& entry)
 void add_notes(const linear::BuildNotes& found, std::vector<std::string>& notes)
 {
     if (found.duplicates > 0)
-        notes.push_back(std::to_string(found.duplicates) + " entries were added to an earlier one of their " +
-                        "place, first at " + place(found.first_duplicate) + " (counted from 1)");
+        notes.push_back(counted(found.duplicates, "entry was", "entries were") +
+                        " added to an earlier one of the same place, first at " +
+                        place(found.first_duplicate) + " (counted from 1)");
     if (found.explicit_zeros > 0)
-        notes.push_back(std::to_string(found.explicit_zeros) + " stored entries are zero");
+        notes.push_back(counted(found.explicit_zeros, "stored entry is", "stored entries are") + " zero");
 }
 
 /// What solve() finds wrong with a system is wrong with these files.

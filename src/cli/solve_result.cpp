@@ -1,5 +1,7 @@
 #include "taut/cli/solve_result.hpp"
 
+#include "taut/runtime/base/shown.hpp"
+
 namespace taut::cli {
 namespace {
 
@@ -16,7 +18,7 @@ std::string error_text(const SolveResult& result)
 std::string time_text(const linear::SolveReport& report)
 {
     std::string text =
-        number(1e3 * report.seconds, 3) + " ms for " + std::to_string(report.iterations) + " iterations";
+        number(1e3 * report.seconds, 3) + " ms for " + counted(report.iterations, "iteration", "iterations");
     if (report.iterations > 0)
         text += " (" + number(report.ms_per_iteration, 3) + " ms each)";
     text += ", set-up " + number(1e3 * report.setup_seconds, 3) + " ms";
@@ -59,8 +61,8 @@ std::string summary(const SolveResult& result)
 {
     const linear::SolveReport& report = result.report;
     std::string text = std::string(to_string(report.status)) + ": " + report.reason + "\n";
-    text += "system  " + result.matrix + ": " + std::to_string(report.n) + " unknowns, " +
-            std::to_string(report.nnz) + " entries; b " +
+    text += "system  " + result.matrix + ": " + counted(report.n, "unknown", "unknowns") + ", " +
+            counted(report.nnz, "entry", "entries") + "; b " +
             (result.right_hand_side.empty() ? "made from a known x" : "from " + result.right_hand_side) +
             "\n";
     text += "error   " + error_text(result) + "\n";

@@ -51,15 +51,15 @@ void check_sizes(const SparseMatrix& a, std::span<const double> b, std::span<con
         refuse("the matrix is " + std::to_string(a.rows) + " x " + std::to_string(a.columns) +
                ": a system to solve has as many rows as columns");
     if (b.size() != a.rows)
-        refuse("b has " + std::to_string(b.size()) + " entries, but the matrix has " +
-               std::to_string(a.rows) + " rows: they must be equal");
+        refuse("b has " + counted(b.size(), "entry", "entries") + ", but the matrix has " +
+               counted(a.rows, "row", "rows") + ": they must be equal");
     if (!x0.empty() && x0.size() != a.rows)
-        refuse("x0 has " + std::to_string(x0.size()) + " entries, but the matrix has " +
-               std::to_string(a.columns) + " columns: give as many, or none to start at zero");
+        refuse("x0 has " + counted(x0.size(), "entry", "entries") + ", but the matrix has " +
+               counted(a.columns, "column", "columns") + ": give as many, or none to start at zero");
     for (const std::uint32_t row : held)
         if (row >= a.rows)
             refuse("held row " + std::to_string(row) + " is not there: the matrix has " +
-                   std::to_string(a.rows) + " rows, counted from 0");
+                   counted(a.rows, "row", "rows") + ", counted from 0");
 }
 
 void check_finite(std::span<const double> values, const char* name, const std::vector<bool>& ignored)
@@ -132,8 +132,10 @@ std::vector<double> check_diagonal(const SparseMatrix& a, std::span<const double
         }
     }
     if (negative > 0)
-        refuse(entry(first, first, first_value) + " is negative" + kCounted + ", and so are " +
-               std::to_string(negative) + " of " + std::to_string(a.rows) + " diagonal entries: " +
+        refuse(entry(first, first, first_value) + " is negative" + kCounted + ", " +
+               (negative == 1 ? "the only negative one"
+                              : "the first of " + std::to_string(negative) + " negative ones") +
+               " among " + counted(a.rows, "diagonal entry", "diagonal entries") + ": " +
                (negative == a.rows ? "if the matrix is negative definite, solve -A x = -b"
                                    : "a positive definite matrix has none"));
     return scale;
@@ -232,11 +234,10 @@ void check_consistency(const SparseMatrix& a, std::span<const double> b, double 
     if (share <= limit || !maps_constants_to_zero(a))
         return;
     refuse("every row of the matrix sums to zero, so it maps constants to zero, but b is not orthogonal to "
-           "them: "
-           "|1.b| / (|1| |b|) = " +
+           "them: |1.b| / (|1| |b|) = " +
            shown(share, 3) + " where at most " + shown(limit, 3) +
-           " passes as rounding; no x solves that: take the mean out of b, or project the null space of "
-           "constants out (NullSpace::constants; --null-space constants)");
+           " passes as rounding; no x solves that: take the mean out of b, or take constants as null space "
+           "(null_space: constants)");
 }
 
 } // namespace

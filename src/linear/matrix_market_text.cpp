@@ -4,6 +4,7 @@
 
 #include "taut/linear/matrix_market.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 #include "taut/scene/words.hpp"
 
 #include <algorithm>
@@ -74,8 +75,7 @@ public:
         else
             read_coordinates();
         if (next_line())
-            words_.fail(quoted(words_.word()) + " stands behind the last of the " +
-                        std::to_string(sizes_.entries) + " entries that the size line promises");
+            words_.fail(quoted(words_.word()) + " stands behind the last of the " + promised());
         out_.stored_symmetric = banner_.symmetry != Symmetry::general;
         out_.matrix = from_triplets(sizes_.rows, sizes_.columns, triplets_, &out_.notes);
         refuse_overflow();
@@ -214,23 +214,28 @@ private:
                                        : banner_.field == Field::pattern ? 4
                                                                          : 6; // "1 1 1\n"
         if (sizes_.entries > (words_.left() + 1) / shortest) // the last line end may be missing
-            words_.fail("the size line promises " + std::to_string(sizes_.entries) +
-                        " entries, of at least " + std::to_string(shortest) + " bytes each, but only " +
-                        std::to_string(words_.left()) + " bytes follow");
+            words_.fail("the size line promises " + counted(sizes_.entries, "entry", "entries") +
+                        ", of at least " + std::to_string(shortest) + " bytes each, but only " +
+                        counted(words_.left(), "byte follows", "bytes follow"));
         const std::uint64_t size = std::max(sizes_.rows, sizes_.columns);
         if (size > kFreeRows && size / kRowsPerEntry > sizes_.entries)
             words_.fail("the size line promises a matrix of " + std::to_string(sizes_.rows) + " x " +
-                        std::to_string(sizes_.columns) + " with only " + std::to_string(sizes_.entries) +
-                        " entries: nearly all of it would be empty; renumber what is not");
+                        std::to_string(sizes_.columns) + " with only " +
+                        counted(sizes_.entries, "entry", "entries") +
+                        ": nearly all of it would be empty; renumber what is not");
         // A mirrored entry is two, but no more than a byte of text each.
         triplets_.reserve(sizes_.entries * (banner_.symmetry == Symmetry::general ? 1 : 2));
+    }
+
+    std::string promised() const
+    {
+        return counted(sizes_.entries, "entry", "entries") + " that the size line promises";
     }
 
     void entry_line(std::uint64_t done)
     {
         if (!next_line())
-            words_.fail("the file ends after " + std::to_string(done) + " of the " +
-                        std::to_string(sizes_.entries) + " entries that the size line promises");
+            words_.fail("the file ends after " + std::to_string(done) + " of the " + promised());
     }
 
     std::uint32_t read_index(const char* what, std::uint32_t most)

@@ -36,8 +36,8 @@ void check_vector(const SparseMatrix& a, std::span<const double> z, std::size_t 
 {
     const std::string name = "null vector " + std::to_string(index + 1);
     if (z.size() != a.rows)
-        throw Error(ErrorCode::bad_input, name + " has " + std::to_string(z.size()) + " entries, but A has " +
-                                              std::to_string(a.rows) + " rows");
+        throw Error(ErrorCode::bad_input, name + " has " + counted(z.size(), "entry", "entries") +
+                                              ", but A has " + counted(a.rows, "row", "rows"));
     if (!(norm(z) > 0) || !std::isfinite(norm(z)))
         throw Error(ErrorCode::bad_input, name + " must be finite and not zero");
     std::vector<double> image(z.size());

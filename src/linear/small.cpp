@@ -4,6 +4,7 @@
 #include "taut/linear/small.hpp"
 #include "taut/linear/cg_state.hpp"
 #include "taut/linear/reals.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include "taut/kernels/cg_small.hpp"
 
@@ -259,8 +260,8 @@ void SmallBatch::start(std::span<const double> b, std::span<const double> x0)
 {
     Parts& p = *parts_;
     if (b.size() != p.rows || (!x0.empty() && x0.size() != p.rows))
-        throw Error(ErrorCode::bad_input, "the batch has " + std::to_string(p.rows) + " rows, but b has " +
-                                              std::to_string(b.size()) + " entries and x0 " +
+        throw Error(ErrorCode::bad_input, "the batch has " + counted(p.rows, "row", "rows") + ", but b has " +
+                                              counted(b.size(), "entry", "entries") + " and x0 " +
                                               std::to_string(x0.size()) + ": one a row is wanted");
     Words right, guess;
     for (std::size_t i = 0; i < b.size(); ++i)

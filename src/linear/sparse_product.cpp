@@ -3,6 +3,7 @@
 
 #include "taut/linear/sparse.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <cmath>
 #include <limits>
@@ -14,9 +15,8 @@ namespace {
 void refuse_size(std::size_t have, std::uint32_t want, const char* name, const char* what)
 {
     if (have != want)
-        throw Error(ErrorCode::bad_input, std::string(name) + " has " + std::to_string(have) +
-                                              " entries, but the matrix has " + std::to_string(want) + " " +
-                                              what);
+        throw Error(ErrorCode::bad_input, std::string(name) + " has " + counted(have, "entry", "entries") +
+                                              ", but the matrix has " + std::to_string(want) + " " + what);
 }
 
 /// sum + low is the sum of all terms but for an error of second order.

@@ -23,3 +23,10 @@ TEST_CASE("numbers shown with few digits are rounded as printf rounds them")
     CHECK(taut::shown(1234567, 4) == "1.235e+06");
     CHECK(taut::shown(-std::numeric_limits<double>::max(), 17) == "-1.7976931348623157e+308");
 }
+
+TEST_CASE("what is counted stands in its right form")
+{
+    CHECK(taut::counted(0, "entry", "entries") == "0 entries");
+    CHECK(taut::counted(1, "entry", "entries") == "1 entry");
+    CHECK(taut::counted(2, "entry", "entries") == "2 entries");
+}

@@ -106,14 +106,14 @@ TEST_CASE("a negative or zero diagonal: D07", "[check]")
 {
     const std::string one = refusal(matrix(3, {{0, 0, 1}, {1, 1, -2.5}, {2, 2, 1}}), ones(3));
     CHECK(contains(one, "a(1, 1) = -2.5 is negative"));
-    CHECK(contains(one, "1 of 3 diagonal entries"));
+    CHECK(contains(one, "the only negative one among 3 diagonal entries"));
     CHECK(contains(one, "counted from 0"));
     SparseMatrix all = poisson2d(3);
     for (double& v : all.value)
         v = -v;
     const std::string text = refusal(all, ones(9));
     CHECK(contains(text, "a(0, 0) = -4 is negative"));
-    CHECK(contains(text, "9 of 9"));
+    CHECK(contains(text, "the first of 9 negative ones among 9 diagonal entries"));
     CHECK(contains(text, "solve -A x = -b"));
     const SparseMatrix saddle = matrix(2, {{0, 0, 1}, {0, 1, 1}, {1, 0, 1}});
     CHECK(contains(refusal(saddle, ones(2)),
@@ -225,7 +225,7 @@ TEST_CASE("a Neumann Laplacian needs a b without a mean: D06", "[check]")
             v += 0.1 * scale;
         CHECK(contains(refusal(a, shifted), "|1.b| / (|1| |b|) = 0.14"));
         CHECK(contains(refusal(a, std::vector<double>(64, scale)), "|1.b| / (|1| |b|) = 1 where"));
-        CHECK(contains(refusal(a, shifted), "NullSpace::constants"));
+        CHECK(contains(refusal(a, shifted), "(null_space: constants)"));
         CHECK(refusal(a, shifted, {}, {.project_constants = true}).empty());
     }
     const std::vector<std::uint32_t> held = {0}; // one row held: the rest is definite

@@ -149,7 +149,7 @@ TEST_CASE("counts that lie are refused before memory is asked for", "[matrix_mar
     CHECK(contains(refusal(kReal + "2 2 3" + entries), "only 13 bytes follow"));
     CHECK(contains(refusal(kReal + "2 2 3\n1 1 1.000000\n2 2 2\n"), "ends after 2 of the 3 entries"));
     CHECK(contains(refusal(kReal + "2 2 1" + entries),
-                   "line 4: \"2\" stands behind the last of the 1 entries"));
+                   "line 4: \"2\" stands behind the last of the 1 entry that"));
     CHECK(contains(refusal(kReal + "2 2 -2" + entries), "entries is \"-2\"; it must be a whole number"));
     CHECK(contains(refusal(kReal + "-2 2 2" + entries), "rows is \"-2\""));
     CHECK(contains(refusal(kReal + "2 2.0 2" + entries), "columns is \"2.0\""));
