@@ -3,6 +3,8 @@
 // formed again, which costs less than to store it and read it.
 //
 // Based on:
+//   Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. 2003, 2.2 (central differences of Poisson's
+//   equation, times the square of the mesh width).
 //   shared/cg_state.glsl (step).
 // Departures: a neighbour that is not there is read as the element itself, times 0, so that no lane
 //   branches. PRECISE, because drivers take common factors (1 or 0 here) out of sums.

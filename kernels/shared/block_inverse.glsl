@@ -1,5 +1,9 @@
 // Applying the inverse of 3 x 3 diagonal blocks: `inverse` holds six values a block row, xx xy xz yy yz zz. A
 // diagonal value of 0 marks a held row.
+//
+// Based on:
+//   Saad. Iterative Methods for Sparse Linear Systems, 2nd ed. 2003, 12.2 (block Jacobi preconditioners).
+// Departures: the inverses are formed once on the host (src/linear/preconditioner.cpp), held rows left out.
 #ifndef TAUT_SHARED_BLOCK_INVERSE_GLSL
 #define TAUT_SHARED_BLOCK_INVERSE_GLSL
 

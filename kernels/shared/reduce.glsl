@@ -4,6 +4,11 @@
 // Passes of kernels/linear share `count` rows among `groups` groups, `chunk` rows each. A pass that makes a
 // dot product leaves one partial sum a group; the next pass adds them up itself, every group the same way,
 // so that no pass of one group stands between them.
+//
+// Based on:
+//   Harris. Optimizing Parallel Reduction in CUDA. 2007. (the tree: each half of the lanes onto the other)
+// Departures: a group takes a chunk of rows of its own instead of every n-th row, and the second stage is in
+//   the pass that wants the sum.
 #ifndef TAUT_SHARED_REDUCE_GLSL
 #define TAUT_SHARED_REDUCE_GLSL
 

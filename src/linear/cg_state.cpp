@@ -1,3 +1,6 @@
+// Based on: kernels/shared/cg_state.glsl, which decides; here its words are turned into statuses.
+// Departures: none beyond those named there.
+
 #include "taut/linear/cg_state.hpp"
 
 #include <cmath>

@@ -1,3 +1,12 @@
+// Based on:
+//   Bell, Garland. Implementing Sparse Matrix-Vector Multiplication on Throughput-Oriented Processors. SC
+//   2009. (which format suits which lengths of rows)
+//   Kreutzer, Hager, Wellein, Fehske, Bishop. A Unified Sparse Matrix Data Format for Efficient General
+//   Sparse Matrix-Vector Multiplication on Modern Processors with Wide SIMD Units. SISC 2014. (the fill of
+//   SELL)
+// Departures: limits on shares and fills (format.hpp) decide and no trial runs; ell is never chosen, and coo
+//   only where csr refuses a row.
+
 #include "taut/linear/format.hpp"
 
 #include "taut/linear/device_formats.hpp"
