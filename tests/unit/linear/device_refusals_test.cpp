@@ -13,27 +13,6 @@ using namespace taut::linear;
 using namespace taut::linear::formats_test;
 using Catch::Matchers::Contains;
 
-TEST_CASE("the exponent brings the largest value to [1, 2)", "[linear][formats]")
-{
-    const double scale = GENERATE(1.0, 1e30, 1e-30, 1e300, 1e-300, 0x1p-1074);
-    SparseMatrix a = from_triplets(2, 2, std::vector<Triplet>{{0, 0, 3 * scale}, {1, 1, -5 * scale}});
-    const int exponent = DeviceMatrix::scale_exponent(a);
-    CAPTURE(scale, exponent);
-    const double largest = std::ldexp(5 * scale, exponent);
-    CHECK((largest >= 1 && largest < 2));
-    const auto device = test_device("cpu:serial");
-    for (const Format format : formats())
-    {
-        if (format != Format::bcsr3) // 2 rows
-        {
-            const auto matrix = DeviceMatrix::upload(device, a, {format, Precision::float32, true, exponent});
-            const auto answer = run<float>(device, *matrix, {1, 1}, {0, 0}, false);
-            CHECK(answer.y[1] == static_cast<double>(static_cast<float>(-largest)));
-        }
-    }
-    CHECK(DeviceMatrix::scale_exponent(from_triplets(2, 2, {})) == 0);
-}
-
 TEST_CASE("a matrix that cannot go to a device is refused in words", "[linear][formats]")
 {
     const auto device = test_device("cpu:serial");
