@@ -1,6 +1,5 @@
 // What a row of a product adds up, in one real or in two (PAIRS): for the kernels spmv_*. The kernel has
-// declared
-// `values`, `x`, with RESIDUAL `b`, and with PAIRS `b`, `low` and the parameter `low_words`. With
+// declared `values`, `x`, with RESIDUAL `b`, and with PAIRS `b`, `low` and the parameter `low_words`. With
 // TERMS_ONLY it needs no `b`, and takes care of the result itself.
 //
 // Based on: shared/two_float.glsl.

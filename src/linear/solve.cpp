@@ -1,9 +1,7 @@
-// Based on: linear/system_solver.hpp. Baraff, Witkin. Large Steps in Cloth Simulation. SIGGRAPH 1998, 5.3
-// (rows
-//   that are held are filtered, not removed).
+// Based on: linear/system_solver.hpp.
+//   Baraff, Witkin. Large Steps in Cloth Simulation. SIGGRAPH 1998, 5.3. (rows that are held are filtered)
 // Departures: the null space is taken out of b and of the change of x once, on the host, not in each
-// iteration:
-//   products with A never leave its range but by rounding, which the residual formed anew takes out again.
+//   iteration: products with A leave its range by rounding only.
 
 #include "taut/linear/solve.hpp"
 
