@@ -99,8 +99,8 @@ std::uint32_t SystemSolver::report_limit() const
 /// A start that is worse than zero by many digits costs them all; in float it may not even be held.
 void SystemSolver::drop_far_start()
 {
-    if (!(report_.relative_residual > kFarStart) || !options_.held.empty())
-        return;
+    if (report_.relative_residual <= kFarStart || !options_.held.empty())
+        return; // what is not a number is far, too
     report_.notes.push_back("x0 was dropped: its residual is " + shown(report_.relative_residual, 3) +
                             " |b|, that of zero is 1");
     x_.assign(a_.rows, 0.0);
