@@ -43,6 +43,9 @@ constexpr bool writes(Access access) { return (static_cast<unsigned>(access) & 2
 /// Invocations of a KERNEL's work group on a device. Kernels see it as TAUT_GROUP_SIZE.
 inline constexpr std::uint32_t kGroupSize = 64;
 
+/// Loop trips that one invocation may make in one dispatch: lavapipe stops silently at 65,535 in all.
+inline constexpr std::uint32_t kMaxLoopTrips = 32000;
+
 struct BindingInfo
 {
     std::string_view name; ///< as written in READ, WRITE, UPDATE or COUNTERS

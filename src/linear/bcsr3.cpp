@@ -67,10 +67,10 @@ void Bcsr3Matrix::check_trips() const
         for (std::uint32_t s = first; s < std::min(slices, first + slices_of_group); ++s)
             trips[(s - first) % std::size(trips)] += layout_.slice_start[s + 1] - layout_.slice_start[s] + 2;
         const std::uint64_t most = *std::max_element(std::begin(trips), std::end(trips));
-        if (most > kMostTrips)
+        if (most > kMaxLoopTrips)
             throw Error(ErrorCode::limit, "format bcsr3 would make " + std::to_string(most) +
                                               " loop trips from block row " + std::to_string(first * kSlice) +
-                                              " on, and " + std::to_string(kMostTrips) +
+                                              " on, and " + std::to_string(kMaxLoopTrips) +
                                               " are safe: take csr or coo");
     }
 }

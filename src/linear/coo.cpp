@@ -64,10 +64,10 @@ private:
 void CooMatrix::check_trips() const
 {
     const std::uint64_t trips = (entries_.chunk / kTile + 1) * kTripsOfTile;
-    if (!device_->info().executor.starts_with("cpu") && trips > kMostTrips)
+    if (!device_->info().executor.starts_with("cpu") && trips > kMaxLoopTrips)
         throw Error(ErrorCode::limit, "format coo would make " + std::to_string(trips) + " loop trips for " +
                                           std::to_string(entries_.chunk) + " entries of a group, and " +
-                                          std::to_string(kMostTrips) + " are safe: take csr");
+                                          std::to_string(kMaxLoopTrips) + " are safe: take csr");
 }
 
 /// As coo_carry.comp reads it.

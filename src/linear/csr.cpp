@@ -124,7 +124,7 @@ void CsrMatrix::cut_long_rows(const Layout& layout)
                                               " entries, and a row of format csr may hold " +
                                               std::to_string(kLongestCsrRow) + ": take coo");
         std::uint64_t& sum = trips[(k - cuts_.back()) % groups];
-        if (sum + long_trips(length) > kMostTrips)
+        if (sum + long_trips(length) > kMaxLoopTrips)
         {
             cuts_.push_back(k);
             std::fill(trips.begin(), trips.end(), 0);

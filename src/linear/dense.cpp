@@ -50,10 +50,10 @@ void DenseMatrix::check_trips() const
         return; // a CPU's loops may run as long as they like
     const Grid grid = make_grid(rows(), group_count_for(rows(), device_->info()));
     const std::uint64_t trips = std::uint64_t{grid.chunk} * (rows() / TAUT_LINEAR_GROUP + 9);
-    if (trips > kMostTrips)
+    if (trips > kMaxLoopTrips)
         throw Error(ErrorCode::limit, "format dense would make " + std::to_string(trips) + " loop trips in " +
                                           std::to_string(grid.chunk) + " rows of " + std::to_string(rows()) +
-                                          " entries, and " + std::to_string(kMostTrips) +
+                                          " entries, and " + std::to_string(kMaxLoopTrips) +
                                           " are safe: take a sparser format");
 }
 

@@ -105,11 +105,11 @@ void PackedMatrix::check_trips(std::uint32_t units,
             sum +=
                 1 + trips(static_cast<std::uint32_t>(tile),
                           static_cast<std::uint32_t>(std::min<std::uint64_t>(tile + TAUT_LINEAR_GROUP, end)));
-        if (sum > kMostTrips)
+        if (sum > kMaxLoopTrips)
             throw Error(ErrorCode::limit, "format " + std::string(to_string(format_)) + " would loop " +
                                               std::to_string(sum) + " times in one of the rows " +
                                               std::to_string(begin) + " to " + std::to_string(end - 1) +
-                                              " (from 0), and " + std::to_string(kMostTrips) +
+                                              " (from 0), and " + std::to_string(kMaxLoopTrips) +
                                               " times are safe on " + device_->info().selector +
                                               ": take csr, coo or the device cpu");
     }

@@ -58,7 +58,7 @@ protected:
     void check_bytes(std::uint64_t wanted, std::string_view what) const;
 
     /// Throws Error{limit} where a lane of group g, which loops `trips(begin, end)` times for 128 rows
-    /// (units) from `begin` on, would loop more often than kMostTrips in one dispatch. Native code loops as
+    /// (units) from `begin` on, would loop more often than kMaxLoopTrips in one dispatch. Native code loops as
     /// long as it likes.
     void check_trips(std::uint32_t units,
                      const std::function<std::uint64_t(std::uint32_t begin, std::uint32_t end)>& trips) const;
@@ -78,13 +78,10 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-/// Trips of loops that one invocation may make in one dispatch: lavapipe stops silently at 65,535 in all.
-inline constexpr std::uint64_t kMostTrips = 32000;
-
 /// Rows of csr with more entries are taken by a whole group each.
 inline constexpr std::uint32_t kLongRow = 512;
-/// Entries of a row of csr: a lane's share of them and a tree of sums within kMostTrips.
-inline constexpr std::uint32_t kLongestCsrRow = (kMostTrips - 10) * TAUT_LINEAR_GROUP;
+/// Entries of a row of csr: a lane's share of them and a tree of sums within kMaxLoopTrips.
+inline constexpr std::uint32_t kLongestCsrRow = (kMaxLoopTrips - 10) * TAUT_LINEAR_GROUP;
 
 /// Where SELL-32-256 puts rows and entries.
 struct SellLayout

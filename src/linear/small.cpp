@@ -17,7 +17,6 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::uint64_t kTrips = 32000; ///< loop trips that an invocation may make in one dispatch
 constexpr std::uint32_t kHistory = ConjugateGradient::kHistory;
 constexpr std::uint32_t kControl = 1 + kHistory; ///< words a system
 constexpr std::uint32_t kTableWords = 3;         ///< words a system, before the row starts
@@ -47,7 +46,7 @@ std::uint64_t turns_of(const SparseMatrix& a)
     const std::uint64_t tree = loop_trips(std::bit_width(std::uint32_t{TAUT_LINEAR_GROUP}) - 1);
     const std::uint64_t turn = 1 + product_trips(a) + 3 * sweep + 2 * tree;
     const std::uint64_t frame = 1 + 2 * sweep;
-    return (kTrips - frame) / turn;
+    return (kMaxLoopTrips - frame) / turn;
 }
 
 [[noreturn]] void refuse(ErrorCode code, std::size_t system, const std::string& sentence)
@@ -71,7 +70,7 @@ void check(const SparseMatrix& a, std::span<const double> inverse, std::size_t k
                    std::to_string(kSmallRows) + " at most: take ConjugateGradient");
     if (turns_of(a) == 0)
         refuse(ErrorCode::limit, k,
-               "has rows so long that one iteration needs more than " + std::to_string(kTrips) +
+               "has rows so long that one iteration needs more than " + std::to_string(kMaxLoopTrips) +
                    " loop trips: take ConjugateGradient");
 }
 

@@ -8,9 +8,6 @@
 
 namespace taut {
 
-/// Loop trips of one invocation in one dispatch; software Vulkan stops silently at 65,535.
-inline constexpr std::uint32_t kMaxLoopTrips = 32000;
-
 /// One body's records by colour.
 template <typename Element>
 using Colours = std::vector<std::vector<Element>>;
