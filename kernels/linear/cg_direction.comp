@@ -95,8 +95,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         control[TAUT_CONTROL_ITERATE] = turning ? groups : 0u;
         control[TAUT_CONTROL_REPLACE] = replace ? groups : 0u;
         if (history > 0u)
-            control[uint(TAUT_CONTROL_HISTORY) + reached % history] =
-                floatBitsToUint(float(sqrt(s.rr / s.bb)));
+            control[uint(TAUT_CONTROL_HISTORY) + reached % history] = cg_history_word(s);
     }
     LANES_END
 }

@@ -132,12 +132,10 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
             SUM_LANES(sum)
             s = cg_measure(s, sum[0]);
             real along = s.step;
-            bool moving = along != real(0); // a product that is not finite is not touched
             EACH_BEGIN(0u, n)
             uint row = first + uint(i);
             real m = given[row];
-            real r = moving ? work[row] - along * work[2u * rows + row] : work[row];
-            r = m > real(0) ? r : real(0);
+            real r = m > real(0) ? cg_advance(work[row], along, work[2u * rows + row]) : real(0);
             work[row] = r;
             sum_rz[lane] += r * (m * r);
             sum_rr[lane] += r * r;
@@ -167,8 +165,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         anew = replace;
         LANES_BEGIN(1)
         if (history > 0u)
-            control[words + 1u + reached % history] =
-                floatBitsToUint(s.bb > real(0) ? float(sqrt(s.rr / s.bb)) : 0.0f);
+            control[words + 1u + reached % history] = cg_history_word(s);
         LANES_END
     }
     EACH_BEGIN(0u, n)

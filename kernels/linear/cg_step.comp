@@ -41,7 +41,6 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     SUM_PARTIALS(sum, curvatures, 0u, groups)
     CgState s = cg_measure(before[0], sum[0]);
     real step = s.step;
-    bool stepping = step != real(0); // a product that is not finite is not touched
     PHASE_BEGIN // the sum was read by all lanes
     PHASE_END
     CLEAR_LANES(sum)
@@ -51,16 +50,17 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     EACH_BEGIN(begin, end)
 #if BLOCK
     uint block = uint(i);
-    rvec3 r = rvec3(residual[3u * i], residual[3u * i + 1u], residual[3u * i + 2u]);
-    rvec3 q = rvec3(product[3u * i], product[3u * i + 1u], product[3u * i + 2u]);
-    r = block_kept(block, stepping ? r - step * q : r);
+    rvec3 r = rvec3(cg_advance(residual[3u * i], step, product[3u * i]),
+                    cg_advance(residual[3u * i + 1u], step, product[3u * i + 1u]),
+                    cg_advance(residual[3u * i + 2u], step, product[3u * i + 2u]));
+    r = block_kept(block, r);
     residual[3u * i] = r.x;
     residual[3u * i + 1u] = r.y;
     residual[3u * i + 2u] = r.z;
     sum_rz[lane] += dot(r, block_inverse_times(block, r));
     sum[lane] += dot(r, r);
 #else
-    real r = stepping ? residual[i] - step * product[i] : residual[i];
+    real r = cg_advance(residual[i], step, product[i]);
 #if DIAGONAL
     real m = inverse[i];
     r = m > real(0) ? r : real(0);

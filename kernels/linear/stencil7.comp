@@ -101,7 +101,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     PRECISE real in_z = has_down * x[i - down] + has_up * x[i + up];
     PRECISE real q = real(scale) * (real(6) * x[i] - ((in_x + in_y) + in_z));
 #if STEP
-    PRECISE real r = residual[i] - step * q;
+    real r = cg_advance(residual[i], step, q);
     residual[i] = r;
     sum[lane] += r * r;
 #elif RESIDUAL

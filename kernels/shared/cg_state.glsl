@@ -140,4 +140,17 @@ CgState cg_measure(CgState s, real curvature)
     return s;
 }
 
+/// An entry of the residual after a step along q = A p. Without a step q may be anything, infinite too.
+real cg_advance(real residual, real step, real product)
+{
+    PRECISE real advanced = residual - step * product;
+    return step != real(0) ? advanced : residual;
+}
+
+/// What the history tells of an iteration: the bits of |r| / |b|, 0 where b is 0.
+uint cg_history_word(CgState s)
+{
+    return floatBitsToUint(s.bb > real(0) ? float(sqrt(s.rr / s.bb)) : 0.0f);
+}
+
 #endif
