@@ -20,6 +20,17 @@ LAYOUT_STRUCT(DistanceConstraint)
     real compliance;  // m/N; 0 = rigid
 };
 
+/// A spring with a damper, for methods that work with forces: -(stiffness (|d| - rest_length) + damping v.n) n.
+LAYOUT_STRUCT(Spring)
+{
+    uint a;
+    uint b;
+    real rest_length; // m
+    real stiffness;   // N/m
+    real damping;     // N s/m
+    uint kind;        // SpringKind of the scene
+};
+
 /// Keeps the angle between two triangles that share the edge edge0-edge1 at rest_angle.
 LAYOUT_STRUCT(BendingConstraint)
 {
@@ -92,6 +103,17 @@ LAYOUT_STRUCT(CgState)
     uint stalls;     // residuals formed anew in a row that were not half of the best before
     uint replacements;
     uint unused;     // keeps the size a multiple of 8
+};
+
+/// What the linear solves of a run came to. One element, only added to.
+LAYOUT_STRUCT(SolveLog)
+{
+    uint solves;      // that had something to solve
+    uint iterations;  // of all
+    uint most;        // iterations of the longest
+    uint limited;     // ended at the iteration limit
+    uint failed;      // ended with another status than converged, limited or zero right-hand side
+    uint last_status; // TAUT_CG_*
 };
 
 #ifdef TAUT_HOST

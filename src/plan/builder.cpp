@@ -24,6 +24,18 @@ std::vector<std::uint32_t> body_order(const Body& body)
     return order;
 }
 
+/// What src/linear asks a device for.
+DeviceInfo info_of(const DeviceTraits& traits)
+{
+    DeviceInfo info;
+    info.selector = info.executor = info.name = traits.executor;
+    info.hardware_gpu = traits.hardware_gpu;
+    info.limits = traits.limits;
+    info.limits.max_buffer_bytes = traits.max_buffer_bytes;
+    info.limits.float64 = traits.float64;
+    return info;
+}
+
 std::vector<bool> held_vertices(const Body& body)
 {
     std::vector<bool> held(body.mesh.positions.size(), false);
@@ -36,11 +48,15 @@ std::vector<bool> held_vertices(const Body& body)
 } // namespace
 
 PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOptions& o)
-    : scene(s), traits(t), options(o)
+    : scene(s),
+      traits(t),
+      options(o),
+      method(find_method(method_of(s))),
+      paper_(std::make_shared<PaperDevice>(info_of(t)))
 {
     plan.precision = s.method.precision == "double" ? Precision::float64 : Precision::float32;
     plan.timestep = s.timestep;
-    plan.substeps = s.method.substeps;
+    plan.substeps = method.substeps != nullptr ? method.substeps(s) : s.method.substeps;
     plan.iterations = s.method.iterations;
     plan.body_start.push_back(0);
     for (const Body& body : s.bodies)
@@ -87,19 +103,26 @@ EffectCost& PlanBuilder::cost_of(std::string_view effect)
     return plan.effects.back();
 }
 
-void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,
-                               std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements)
+void PlanBuilder::check_pass_count() const
 {
-    if (count == 0)
-        return;
     if (plan.passes.size() >= kMaxPasses)
         throw Error(ErrorCode::limit, "a time step of more than " + std::to_string(kMaxPasses) +
                                           " passes; use fewer than " + std::to_string(plan.substeps) +
                                           " substeps or " + std::to_string(plan.iterations) + " iterations");
+}
+
+void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,
+                               std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements,
+                               BufferRange indirect)
+{
+    if (count == 0)
+        return;
+    check_pass_count();
     Dispatch pass;
     pass.kernel = &kernel;
     pass.params.assign(params.begin(), params.end());
     pass.count = count;
+    pass.indirect = indirect;
     pass.label = std::string(effect);
     EffectCost& cost = cost_of(effect);
     for (std::size_t slot = 0; slot < uses.size(); ++slot)
@@ -112,12 +135,72 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
         if (binding.access != Access::count)
             cost.bytes_per_step += touched * (binding.access == Access::update ? 2 : 1);
     }
+    add_pass(effect, std::move(pass));
+}
+
+void PlanBuilder::add_pass(std::string_view effect, Dispatch pass)
+{
+    EffectCost& cost = cost_of(effect);
+    const KernelInfo& kernel = *pass.kernel;
     const std::string word =
         std::string(kernel.name) + (kernel.variant.empty() ? "" : ":" + std::string(kernel.variant));
     if (std::find(cost.kernels.begin(), cost.kernels.end(), word) == cost.kernels.end())
         cost.kernels.push_back(word);
     ++cost.dispatches_per_step;
     plan.passes.push_back(std::move(pass));
+}
+
+std::uint32_t PlanBuilder::adopt(std::string_view effect, const BufferPtr& buffer)
+{
+    const auto found = adopted_.find(buffer.get());
+    if (found != adopted_.end())
+        return found->second;
+    const std::uint32_t id = add_buffer(effect, PaperDevice::label(buffer), buffer->bytes());
+    adopted_.emplace(buffer.get(), id);
+    papers_.emplace(id, buffer);
+    return id;
+}
+
+BufferPtr PlanBuilder::on_paper(std::uint32_t buffer)
+{
+    const auto found = papers_.find(buffer);
+    if (found != papers_.end())
+        return found->second;
+    const PlanBuffer& own = plan.buffers.at(buffer);
+    const BufferPtr paper = paper_->make_buffer(own.bytes, own.name, BufferUse::device);
+    adopted_.emplace(paper.get(), buffer);
+    papers_.emplace(buffer, paper);
+    return paper;
+}
+
+void PlanBuilder::record(std::string_view effect, const std::function<void(Recorder&)>& fill)
+{
+    Recorder recorder(paper_);
+    fill(recorder);
+    RecordingDesc desc = PaperDevice::take(recorder);
+    for (Dispatch& pass : desc.dispatches)
+    {
+        check_pass_count();
+        for (std::size_t slot = 0; slot < pass.bindings.size(); ++slot)
+        {
+            BufferRange& range = pass.bindings[slot];
+            range.buffer = adopt(effect, desc.buffers[range.buffer]);
+            const Access access = pass.kernel->bindings[slot].access;
+            if (access != Access::count)
+                cost_of(effect).bytes_per_step += range.bytes * (access == Access::update ? 2 : 1);
+        }
+        if (pass.indirect.buffer != kNoBuffer)
+            pass.indirect.buffer = adopt(effect, desc.buffers[pass.indirect.buffer]);
+        pass.label = std::string(effect);
+        add_pass(effect, std::move(pass));
+    }
+}
+
+void PlanBuilder::finish_paper()
+{
+    for (const auto& [id, buffer] : papers_)
+        if (plan.buffers[id].initial.empty())
+            plan.buffers[id].initial = PaperDevice::contents(buffer);
 }
 
 } // namespace taut

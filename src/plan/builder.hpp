@@ -1,13 +1,17 @@
 #pragma once
 // Internal to src/plan: what effects use to add their buffers and passes while a plan is made.
 
+#include "taut/plan/methods.hpp"
 #include "taut/plan/plan.hpp"
 #include "taut/runtime/base/registry.hpp"
+#include "taut/runtime/paper_device.hpp"
 
 #include <glm/vec4.hpp>
 
 #include <array>
 #include <cstring>
+#include <functional>
+#include <map>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -68,6 +72,28 @@ public:
                      std::as_bytes(std::span(&params, 1)), count, elements == 0 ? count : elements);
     }
 
+    /// The same with 12 bytes of a buffer as group counts, read when the dispatch starts; `count` is the
+    /// most.
+    template <typename Params>
+    void dispatch_indirect(std::string_view effect, std::string_view kernel, std::string_view variant,
+                           std::span<const Use> uses, const Params& params, std::uint32_t count,
+                           std::uint32_t group_counts, std::uint64_t offset = 0)
+    {
+        add_dispatch(effect, find_kernel(kernel, variant, plan.precision), uses,
+                     std::as_bytes(std::span(&params, 1)), count, count, {group_counts, offset, 12});
+    }
+
+    /// Where src/linear makes its matrices and solvers, as on a device. Its buffers become the plan's.
+    const std::shared_ptr<PaperDevice>& paper() const { return paper_; }
+    /// The plan's number of a buffer made on paper; on first sight it is added, on account of `effect`.
+    std::uint32_t adopt(std::string_view effect, const BufferPtr& buffer);
+    /// The buffer on paper that stands for one of the plan, for passes that src/linear records.
+    BufferPtr on_paper(std::uint32_t buffer);
+    /// Appends the passes that `fill` puts into a recorder of paper(), on account of `effect`.
+    void record(std::string_view effect, const std::function<void(Recorder&)>& fill);
+    /// Copies what was written on paper into the plan; once, after everything was recorded.
+    void finish_paper();
+
     std::uint64_t real_size() const { return real_bytes(plan.precision); }
     /// Plan vertex of a body's own vertex.
     std::uint32_t vertex(std::size_t body, std::uint32_t v) const
@@ -84,24 +110,34 @@ public:
     std::vector<glm::dvec3> start;         ///< plan order, m
     std::vector<double> gap;               ///< plan order, kept from colliders, m
     std::uint32_t pin_vertices = kNoBuffer;
-    std::array<bool, 2> friction = {};     ///< by ColliderKind
-    std::array<std::uint32_t, 2> friction_taken = {kNoBuffer, kNoBuffer};
+    const Method& method;
+    std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
+    std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
 
 private:
     void add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,
-                      std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements);
+                      std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements,
+                      BufferRange indirect = {kNoBuffer, 0, 0});
+    void check_pass_count() const;
+    void add_pass(std::string_view effect, Dispatch pass);
     EffectCost& cost_of(std::string_view effect);
+
+    std::shared_ptr<PaperDevice> paper_;
+    std::map<const Buffer*, std::uint32_t> adopted_; ///< plan number of a buffer on paper
+    std::map<std::uint32_t, BufferPtr> papers_;      ///< the other way
 };
 
 /// When in a step an effect acts. The order of the words is the order of a substep.
 enum class Stage
 {
-    force,   ///< changes velocities before the inertial guess
+    force, ///< changes velocities before the inertial guess
     predict,
     hold,    ///< puts held vertices where they belong
+    start,   ///< once per substep, before the first iteration
     solve,   ///< once per iteration: constraints
-    contact, ///< once per iteration, after all constraints
+    contact, ///< after all constraints, of every iteration or of the last (Method::contact_each_iteration)
     finish,
+    after, ///< with the new state of the substep
 };
 
 /// One row of the table of effects.
@@ -110,8 +146,9 @@ struct Effect
     std::string_view name;
     Stage stage;
     bool (*wanted)(const Scene&);
-    void (*prepare)(PlanBuilder&);                ///< buffers, topology; may be null
-    void (*record)(PlanBuilder&, const Moment&);  ///< passes of one moment; may be null
+    void (*prepare)(PlanBuilder&);               ///< buffers, topology; may be null
+    void (*record)(PlanBuilder&, const Moment&); ///< passes of one moment; may be null
+    MethodSet methods = kAllMethods;             ///< under which it acts like this
 };
 
 /// The table, in the order of a step. An effect that a scene does not call for adds nothing.

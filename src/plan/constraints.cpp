@@ -10,7 +10,7 @@
 #include "taut/plan/constraints.hpp"
 
 #include "taut/plan/grouping.hpp"
-#include "taut/plan/material.hpp"
+#include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/kernels/bending.hpp"
 #include "taut/kernels/distance.hpp"
@@ -68,30 +68,6 @@ void add_hubs(Coloured<StretchElement>& out, const std::vector<StretchElement>& 
             rest = std::move(later);
         }
     }
-}
-
-/// Springs of a body in plan vertices; those between two held vertices never act and are left out.
-std::vector<StretchElement> moving_stretch(PlanBuilder& b, std::size_t body, bool& only_grid_edges)
-{
-    std::vector<StretchElement> elements;
-    std::size_t conflicts = 0;
-    only_grid_edges = b.scene.bodies[body].mesh.grid_columns > 0 && b.scene.bodies[body].springs.empty();
-    for (StretchElement e : stretch_elements(b.scene.bodies[body]))
-    {
-        e.a = b.vertex(body, e.a);
-        e.b = b.vertex(body, e.b);
-        if (b.inverse_mass[e.a] > 0 || b.inverse_mass[e.b] > 0)
-            elements.push_back(e);
-        else
-            conflicts +=
-                std::abs(glm::length(b.start[e.a] - b.start[e.b]) - e.rest_length) > 1e-6 * e.rest_length;
-    }
-    if (conflicts > 0)
-        b.plan.warnings.push_back({"conflict", conflicts,
-                                   std::to_string(conflicts) +
-                                       " violated constraints between held vertices of body " +
-                                       std::to_string(body)});
-    return elements;
 }
 
 /// A graph over one body's plan vertices, counted from its first, without constraints yet. Held vertices
@@ -208,8 +184,9 @@ void prepare_distance(PlanBuilder& b)
     Coloured<StretchElement> coloured;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
     {
-        bool grid = false;
-        const std::vector<StretchElement> elements = moving_stretch(b, body, grid);
+        const Body& own = b.scene.bodies[body];
+        const bool grid = own.mesh.grid_columns > 0 && own.springs.empty(); // its edges and nothing else
+        const std::vector<StretchElement> elements = acting_springs(b, body);
         const Colouring colouring = stretch_colouring(b, body, elements, grid);
         add_body(b, coloured, elements, colouring);
         add_hubs(coloured, elements, colouring);
@@ -235,27 +212,14 @@ void prepare_bending(PlanBuilder& b)
     Coloured<BendElement> coloured;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
     {
-        std::size_t dropped = 0;
-        std::vector<BendElement> elements;
         ConstraintGraph graph = body_graph(b, body, 4);
         const std::uint32_t first = b.plan.body_start[body];
-        for (BendElement e : bend_elements(b.scene.bodies[body], &dropped))
-        {
-            for (std::uint32_t* v : {&e.edge0, &e.edge1, &e.wing0, &e.wing1})
-                *v = b.vertex(body, *v);
-            if (b.inverse_mass[e.edge0] + b.inverse_mass[e.edge1] + b.inverse_mass[e.wing0] +
-                    b.inverse_mass[e.wing1] ==
-                0)
-                continue;
-            elements.push_back(e);
+        const std::vector<BendElement> elements = acting_hinges(b, body);
+        for (const BendElement& e : elements)
             for (const std::uint32_t v : {e.edge0, e.edge1, e.wing0, e.wing1})
                 graph.vertices.push_back(v - first);
-        }
         // Hinges round a hub share its neighbours too, so they stay in the colouring, one after another.
         add_body(b, coloured, elements, colour_greedy(graph, {0, true}));
-        if (dropped > 0)
-            b.plan.warnings.push_back({"degenerate", dropped, std::to_string(dropped) +
-                                       " hinges without area at rest in body " + std::to_string(body)});
     }
     std::vector<BendElement> flat;
     std::vector<std::uint32_t> table;

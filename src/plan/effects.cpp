@@ -72,7 +72,7 @@ void prepare_motion(PlanBuilder& b)
     });
     b.plan.buffers[b.plan.step_values].host_written = true;
     b.plan.events = b.add_buffer("motion", "events", TAUT_EVENT_COUNT * sizeof(std::uint32_t));
-    if (b.options.residuals)
+    if (b.options.residuals || b.method.keeps_guess)
         b.plan.predicted = b.add_buffer("motion", "predicted", n * 4 * b.real_size());
 }
 
@@ -184,7 +184,7 @@ void prepare_friction(PlanBuilder& b)
     {
         const auto shape = static_cast<std::size_t>(kind);
         b.friction[shape] = has_friction(b.scene, kind);
-        if (b.friction[shape] && b.plan.iterations > 1)
+        if (b.friction[shape] && b.plan.iterations > 1 && b.method.contact_each_iteration)
             b.friction_taken[shape] = b.add_buffer(
                 "friction", kind == ColliderKind::plane ? "plane friction" : "sphere friction",
                 std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
@@ -245,8 +245,8 @@ constexpr Effect kEffects[] = {
      prepare_external_force, record_external_force},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
-    {"distance", Stage::solve, any_stretch, prepare_distance, record_distance},
-    {"bending", Stage::solve, any_bending, prepare_bending, record_bending},
+    {"distance", Stage::solve, any_stretch, prepare_distance, record_distance, only(MethodKind::xpbd)},
+    {"bending", Stage::solve, any_bending, prepare_bending, record_bending, only(MethodKind::xpbd)},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
      prepare_plane, record_plane},

@@ -100,13 +100,15 @@ std::vector<StretchElement> stretch_elements(const Body& body)
 {
     std::vector<StretchElement> out;
     const double modulus = body.material.stretch_stiffness;
-    if (modulus > 0)
+    if (modulus > 0 && !(body.shape.kind == ShapeKind::grid && body.shape.network.used))
     {
         append_edges(out, body.mesh, modulus);
         append_links(out, body.mesh, modulus);
     }
     for (const Body::Spring& s : body.springs)
-        out.push_back({s.a, s.b, s.rest_length, s.compliance});
+        out.push_back({s.a, s.b, s.rest_length, s.compliance, s.kind});
+    for (StretchElement& e : out)
+        e.damping = e.compliance > 0 ? body.material.stretch_damping / e.compliance : 0;
     return out;
 }
 

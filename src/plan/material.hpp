@@ -17,6 +17,8 @@ struct StretchElement
     std::uint32_t a = 0, b = 0;
     double rest_length = 0; ///< m, >= 0
     double compliance = 0;  ///< m/N, >= 0; 0 = rigid
+    SpringKind kind = SpringKind::structural;
+    double damping = 0; ///< N s/m, >= 0: force -damping * (relative speed along the spring); 0 where rigid
 };
 
 /// E = 1/2 (theta - rest_angle)^2 / compliance, theta = dihedral_angle(edge0, edge1, wing0, wing1).
@@ -34,8 +36,8 @@ struct BendElement
 std::vector<double> vertex_masses(const Body& body);
 
 /// Springs of a resolved body: mesh edges by (a, b), then links, then Body::springs, each in its order.
-/// Empty of mesh edges and links when stretch_stiffness is 0; rigid (compliance 0) when it is inf.
-/// Edges beside no area carry no load and are left out; edges of zero length stay, rigid.
+/// Empty of mesh edges and links when stretch_stiffness is 0 or the grid has a network; rigid (compliance 0)
+/// when it is inf. Edges beside no area carry no load and are left out; edges of zero length stay, rigid.
 std::vector<StretchElement> stretch_elements(const Body& body);
 
 /// Hinges of a resolved body in the order of mesh_hinges; none when bending_stiffness is 0. Hinges with a

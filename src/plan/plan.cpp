@@ -21,9 +21,7 @@ constexpr double kMinSubstep = 1e-15;
 
 void check_settings(const Scene& scene, const DeviceTraits& traits)
 {
-    if (scene.method.type != "xpbd")
-        throw Error(ErrorCode::unsupported,
-                    "method.type \"" + scene.method.type + "\" is not there; there is \"xpbd\"");
+    const Method& method = find_method(method_of(scene));
     check_timestep(scene.timestep, scene.method.substeps);
     for (const SceneIssue& issue : check_resolved(scene))
         if (issue.error)
@@ -31,6 +29,8 @@ void check_settings(const Scene& scene, const DeviceTraits& traits)
     if (scene.method.precision == "double" && !traits.float64)
         throw Error(ErrorCode::unsupported, "method.precision is \"double\", but the device has no 64-bit "
                                             "floats; use \"float\" or another device");
+    if (method.check != nullptr)
+        method.check(scene, traits);
 }
 
 /// Single precision where it cannot show what happens: positions carry two floats, but a substep's fall must
@@ -73,7 +73,8 @@ std::vector<const Effect*> wanted_effects(const Scene& scene, const PlanOptions&
     {
         const bool available =
             names.empty() || std::find(names.begin(), names.end(), effect.name) != names.end();
-        if (available && effect.wanted(scene))
+        const bool acts = (effect.methods & only(method_of(scene))) != 0;
+        if (available && acts && effect.wanted(scene))
             rows.push_back(&effect);
     }
     return rows;
@@ -87,25 +88,30 @@ void record_stage(PlanBuilder& builder, const std::vector<const Effect*>& rows, 
             row->record(builder, moment);
 }
 
-/// One time step of XPBD with small substeps.
+/// One time step in substeps, whatever the method: an inertial guess, corrections of it, the new state.
 /// Based on: Macklin et al. Small Steps in Physics Simulation. SCA 2019, algorithm 1.
-/// Departures: contacts are projected after the constraints of every iteration.
+/// Departures: contacts are projected after the constraints, of every iteration or of the last.
 void record_step(PlanBuilder& builder, const std::vector<const Effect*>& rows)
 {
     const Plan& plan = builder.plan;
     for (std::uint32_t s = 0; s < plan.substeps; ++s)
     {
         Moment moment{s, 0, false};
-        for (const Stage stage : {Stage::force, Stage::predict, Stage::hold})
+        for (const Stage stage : {Stage::force, Stage::predict, Stage::hold, Stage::start})
             record_stage(builder, rows, stage, moment);
         for (std::uint32_t i = 0; i < plan.iterations; ++i)
         {
             moment.iteration = i;
-            moment.last = s + 1 == plan.substeps && i + 1 == plan.iterations;
+            const bool end = i + 1 == plan.iterations;
+            moment.last = s + 1 == plan.substeps && end;
             record_stage(builder, rows, Stage::solve, moment);
-            record_stage(builder, rows, Stage::contact, moment);
+            if (!builder.method.contact_each_iteration)
+                moment.iteration = 0; // contacts have one iteration then
+            if (builder.method.contact_each_iteration || end)
+                record_stage(builder, rows, Stage::contact, moment);
         }
-        record_stage(builder, rows, Stage::finish, moment);
+        for (const Stage stage : {Stage::finish, Stage::after})
+            record_stage(builder, rows, stage, moment);
     }
 }
 
@@ -133,6 +139,7 @@ Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOpti
             row->prepare(builder);
     warn_of_precision(resolved, builder);
     record_step(builder, rows);
+    builder.finish_paper();
     builder.plan.barrier_before = derive_barriers(builder.plan.passes);
     assert(find_hazards(builder.plan.passes, builder.plan.barrier_before).empty());
     return std::move(builder.plan);

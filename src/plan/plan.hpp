@@ -3,6 +3,7 @@
 // device, can be printed, counted and compared.
 
 #include "taut/runtime/base/dispatch.hpp"
+#include "taut/runtime/device.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <cstddef>
@@ -18,11 +19,15 @@ struct DeviceTraits
 {
     std::uint64_t max_buffer_bytes = std::uint64_t(1) << 27;
     bool float64 = true;
+    std::string executor = "cpu"; ///< as DeviceInfo::executor
+    bool hardware_gpu = false;
+    /// Further limits, as of the native CPU; max_buffer_bytes and float64 above stand instead of these.
+    DeviceLimits limits = {std::uint64_t(1) << 27, 4, 0xffffffffu, 1024, 1u << 20, 256, 8, true};
     // Four measured costs, ns (docs/runtime.md says how).
-    double dispatch_ns = 2000;      ///< one more dispatch with its barrier
-    double group_barrier_ns = 500;  ///< one barrier inside a group of 64
-    double element_ns = 1;          ///< one distance constraint, the whole device working
-    double lane_element_ns = 10;    ///< the same, one group working alone, per constraint
+    double dispatch_ns = 2000;     ///< one more dispatch with its barrier
+    double group_barrier_ns = 500; ///< one barrier inside a group of 64
+    double element_ns = 1;         ///< one distance constraint, the whole device working
+    double lane_element_ns = 10;   ///< the same, one group working alone, per constraint
 };
 
 struct PlanOptions
@@ -30,7 +35,12 @@ struct PlanOptions
     bool residuals = false; ///< keep multipliers, so that residuals can be reported
     /// Names of the effects that exist for this plan; empty: all of the table. For tests (G08).
     std::vector<std::string> available_effects;
-    enum class SmallBodies { automatic, never, always } small_bodies = SmallBodies::automatic;
+    enum class SmallBodies
+    {
+        automatic,
+        never,
+        always
+    } small_bodies = SmallBodies::automatic;
 };
 
 struct PlanBuffer
@@ -55,21 +65,30 @@ struct EffectCost
 /// Where the constraints of one kind went.
 struct ConstraintSet
 {
-    std::string kind;                        ///< "distance", "bending"
-    std::uint32_t buffer = kNoBuffer;        ///< records, in colour order
-    std::uint32_t multipliers = kNoBuffer;   ///< same order; kNoBuffer when none are kept
+    std::string kind;                      ///< "distance", "bending"
+    std::uint32_t buffer = kNoBuffer;      ///< records, in colour order
+    std::uint32_t multipliers = kNoBuffer; ///< same order; kNoBuffer when none are kept
     std::uint32_t count = 0;
     std::vector<std::uint32_t> colour_start; ///< colours + 1
     std::uint32_t table = kNoBuffer;         ///< colours on the device, for groups that run several of them
     /// After the colours, one range each: a hub with constraints that share no other vertex.
-    std::vector<std::uint32_t> hub_start;    ///< hubs + 1; empty without hubs
+    std::vector<std::uint32_t> hub_start; ///< hubs + 1; empty without hubs
     /// After the hubs, small bodies of one group each: their number, first range in the table, constraints.
     std::uint32_t small_bodies = 0, small_range = 0, small_constraints = 0;
-    std::uint32_t small_colours = 0;         ///< most colours of one small body
+    std::uint32_t small_colours = 0; ///< most colours of one small body
     std::uint32_t colour_count() const
     {
         return colour_start.empty() ? 0 : static_cast<std::uint32_t>(colour_start.size() - 1);
     }
+};
+
+/// A linear system that is solved on the device in every substep. The buffers hold what
+/// linear/cg.hpp says of them.
+struct PlanSolver
+{
+    std::string effect;
+    std::uint32_t state = kNoBuffer; ///< where the last solve of the step stands: layout::CgState<real>
+    std::uint32_t log = kNoBuffer;   ///< counts over the whole run: layout::SolveLog
 };
 
 /// A pinned vertex that moves.
@@ -103,23 +122,24 @@ struct Plan
 
     std::uint32_t vertex_count = 0;
     std::vector<std::uint32_t> original; ///< scene-wide vertex (bodies one after another) of each plan vertex
-    std::vector<std::uint32_t> body_start;  ///< first scene-wide vertex of each body, and the total
+    std::vector<std::uint32_t> body_start; ///< first scene-wide vertex of each body, and the total
     std::vector<ConstraintSet> constraints;
     std::vector<MovingPin> moving_pins;
     std::vector<PlanWarning> warnings;
+    std::vector<PlanSolver> solvers;
 
     // Buffers the world writes and reads, kNoBuffer where the scene does not need them.
-    std::uint32_t position = kNoBuffer;     ///< rvec4: xyz m, w = inverse mass 1/kg
+    std::uint32_t position = kNoBuffer; ///< rvec4: xyz m, w = inverse mass 1/kg
     std::uint32_t low = kNoBuffer; ///< rvec4: what position lost to rounding; w = gap kept from colliders, m
-    std::uint32_t velocity = kNoBuffer;     ///< rvec4: m/s
-    std::uint32_t delta = kNoBuffer;        ///< rvec4: displacement of the last substep, m
-    std::uint32_t predicted = kNoBuffer;   ///< rvec4: inertial guess of `delta`; only with residuals
-    std::uint32_t step_values = kNoBuffer;  ///< layout::StepValues<real>
-    std::uint32_t events = kNoBuffer;       ///< TAUT_EVENT_COUNT uint32
-    std::uint32_t pin_targets = kNoBuffer;  ///< 2 rvec4 per moving pin: start and end of the step
-    std::uint32_t force = kNoBuffer;        ///< rvec4 per vertex: N
-    std::uint32_t spheres = kNoBuffer;      ///< layout::SphereCollider<real>
-    std::uint32_t planes = kNoBuffer;       ///< layout::PlaneCollider<real>
+    std::uint32_t velocity = kNoBuffer;  ///< rvec4: m/s
+    std::uint32_t delta = kNoBuffer;     ///< rvec4: displacement of the last substep, m
+    std::uint32_t predicted = kNoBuffer; ///< rvec4: inertial guess of `delta`; with residuals, or a method's
+    std::uint32_t step_values = kNoBuffer; ///< layout::StepValues<real>
+    std::uint32_t events = kNoBuffer;      ///< TAUT_EVENT_COUNT uint32
+    std::uint32_t pin_targets = kNoBuffer; ///< 2 rvec4 per moving pin: start and end of the step
+    std::uint32_t force = kNoBuffer;       ///< rvec4 per vertex: N
+    std::uint32_t spheres = kNoBuffer;     ///< layout::SphereCollider<real>
+    std::uint32_t planes = kNoBuffer;      ///< layout::PlaneCollider<real>
 
     std::uint64_t bytes_allocated() const;
     std::uint64_t barrier_count() const;

@@ -4,6 +4,7 @@
 // Departures: the primal residual leaves out vertices that touch a collider, whose contact forces have
 //   no multiplier on record.
 
+#include "taut/plan/methods.hpp"
 #include "taut/report/hinge.hpp"
 #include "taut/report/model.hpp"
 #include "taut/report/report.hpp"
@@ -47,39 +48,71 @@ auto decode_as(const std::vector<std::byte>& bytes)
     return out;
 }
 
-/// The records of a constraint kind as the device got them: vertices in plan order.
+/// What the methods without constraint records move by: the model's own elements.
+std::vector<DistanceRecord> records_of(const std::vector<StretchElement>& springs)
+{
+    std::vector<DistanceRecord> out;
+    for (const StretchElement& e : springs)
+        out.push_back({e.a, e.b, e.rest_length, e.compliance});
+    return out;
+}
+std::vector<BendingRecord> records_of(const std::vector<BendElement>& hinges)
+{
+    std::vector<BendingRecord> out;
+    for (const BendElement& e : hinges)
+        out.push_back({e.edge0, e.edge1, e.wing0, e.wing1, e.rest_angle, e.compliance});
+    return out;
+}
+
+void to_scene(DistanceRecord& c, const std::vector<std::uint32_t>& original)
+{
+    c.a = original[c.a];
+    c.b = original[c.b];
+}
+void to_scene(BendingRecord& c, const std::vector<std::uint32_t>& original)
+{
+    for (std::uint32_t* v : {&c.edge0, &c.edge1, &c.wing0, &c.wing1})
+        *v = original[*v];
+}
+
+/// The records of a constraint kind as the device got them, else those of the model; vertices scene-wide.
 template <template <typename> typename Record>
-std::vector<Record<double>> records(const Plan& plan, std::string_view kind)
+std::vector<Record<double>> records(const Plan& plan, std::string_view kind,
+                                    std::vector<Record<double>> of_model)
 {
     for (const ConstraintSet& set : plan.constraints)
         if (set.kind == kind)
         {
             const auto& bytes = plan.buffers[set.buffer].initial;
-            return plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
-                                                        : decode_as<Record<float>>(bytes);
+            auto out = plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
+                                                            : decode_as<Record<float>>(bytes);
+            for (Record<double>& record : out)
+                to_scene(record, plan.original);
+            return out;
         }
-    return {};
+    return of_model;
 }
 
 /// A world's state with its model. Vertices scene-wide.
 struct View
 {
     explicit View(const World& w)
-        : world(w), plan(w.plan()), model(make_model(w.scene())), x(w.positions()), v(w.velocities()),
-          distance(records<layout::DistanceConstraint>(w.plan(), "distance")),
-          bending(records<layout::BendingConstraint>(w.plan(), "bending"))
-    {
-    }
+        : world(w),
+          plan(w.plan()),
+          model(make_model(w.scene())),
+          x(w.positions()),
+          v(w.velocities()),
+          distance(records<layout::DistanceConstraint>(plan, "distance", records_of(model.springs))),
+          bending(records<layout::BendingConstraint>(plan, "bending", records_of(model.hinges)))
+    {}
 
-    std::size_t scene_vertex(std::uint32_t plan_vertex) const { return plan.original[plan_vertex]; }
-    const glm::dvec3& at(std::uint32_t plan_vertex) const { return x[scene_vertex(plan_vertex)]; }
-    double length(const DistanceRecord& c) const { return glm::length(at(c.a) - at(c.b)); }
+    double length(const DistanceRecord& c) const { return glm::length(x[c.a] - x[c.b]); }
     reference::HingeAngle<double> angle(const BendingRecord& c) const
     {
         std::array<reference::Vec<double>, 4> corners;
         const std::uint32_t ids[] = {c.edge0, c.edge1, c.wing0, c.wing1};
         for (std::size_t k = 0; k < 4; ++k)
-            corners[k] = {at(ids[k]).x, at(ids[k]).y, at(ids[k]).z};
+            corners[k] = {x[ids[k]].x, x[ids[k]].y, x[ids[k]].z};
         return reference::hinge_angle(corners);
     }
 
@@ -181,6 +214,8 @@ bool touches(const View& view, std::size_t i)
 double distance_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
 {
     const std::vector<double> lambda = view.world.multipliers("distance");
+    if (lambda.empty())
+        return 0;
     double worst = 0;
     for (std::size_t k = 0; k < view.distance.size(); ++k)
     {
@@ -188,9 +223,9 @@ double distance_residual(const View& view, double h, std::vector<glm::dvec3>& im
         const double length = view.length(c);
         if (!(length > 0))
             continue;
-        const glm::dvec3 n = (view.at(c.a) - view.at(c.b)) / length;
-        impulse[view.scene_vertex(c.a)] += n * lambda[k];
-        impulse[view.scene_vertex(c.b)] -= n * lambda[k];
+        const glm::dvec3 n = (view.x[c.a] - view.x[c.b]) / length;
+        impulse[c.a] += n * lambda[k];
+        impulse[c.b] -= n * lambda[k];
         if (c.rest_length > 0)
             worst = std::max(worst, std::abs(length - c.rest_length + c.compliance / (h * h) * lambda[k]) /
                                         c.rest_length);
@@ -201,6 +236,8 @@ double distance_residual(const View& view, double h, std::vector<glm::dvec3>& im
 double bending_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
 {
     const std::vector<double> lambda = view.world.multipliers("bending");
+    if (lambda.empty())
+        return 0;
     double worst = 0;
     for (std::size_t k = 0; k < view.bending.size(); ++k)
     {
@@ -210,7 +247,7 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
             continue;
         const std::uint32_t ids[] = {c.edge0, c.edge1, c.wing0, c.wing1};
         for (std::size_t j = 0; j < 4; ++j)
-            impulse[view.scene_vertex(ids[j])] +=
+            impulse[ids[j]] +=
                 glm::dvec3(angle.gradient[j].x, angle.gradient[j].y, angle.gradient[j].z) * lambda[k];
         const double value = reference::angle_difference(angle.angle, c.rest_angle);
         worst = std::max(worst, std::abs(value + c.compliance / (h * h) * lambda[k]));
@@ -221,7 +258,11 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
 void measure_residuals(const View& view, StepReport& out)
 {
     out.primal_residual = out.dual_residual = -1;
-    if (view.plan.predicted == kNoBuffer || view.world.steps() == 0)
+    const auto& sets = view.plan.constraints;
+    const bool kept = std::all_of(sets.begin(), sets.end(),
+                                  [](const ConstraintSet& s) { return s.multipliers != kNoBuffer; });
+    const bool by_multipliers = method_of(view.world.scene()) == MethodKind::xpbd && kept;
+    if (!by_multipliers || view.plan.predicted == kNoBuffer || view.world.steps() == 0)
         return;
     const double h = view.plan.timestep / view.plan.substeps;
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();

@@ -14,6 +14,8 @@ namespace taut {
 
 namespace {
 
+using scene_file::check_method;
+using scene_file::check_wind;
 using scene_file::Checker;
 using scene_file::kMaxValue;
 using scene_file::kMaxVertices;
@@ -22,7 +24,6 @@ using scene_file::shown;
 constexpr double kMaxTimestep = 1;
 constexpr double kMinSubstep = 1e-15;
 constexpr double kMaxSteps = 1e9;
-constexpr std::uint32_t kMaxIterations = 1000;
 
 void check_axis(const glm::dvec3& axis, double degrees, const Checker& out)
 {
@@ -65,16 +66,6 @@ void check_times(const Scene& scene, const Checker& out)
                                   " time steps; at most 1e9 are run");
 }
 
-void check_method(const MethodSettings& method, const Checker& out)
-{
-    constexpr std::array<std::string_view, 1> types = {"xpbd"};
-    constexpr std::array<std::string_view, 2> precisions = {"float", "double"};
-    out.word("type", method.type, types);
-    out.range("substeps", method.substeps, 1, kMaxIterations);
-    out.range("iterations", method.iterations, 1, kMaxIterations);
-    out.word("precision", method.precision, precisions);
-}
-
 void check_grid(const Shape& shape, const Checker& out)
 {
     constexpr std::array<std::string_view, 2> diagonals = {"alternating", "uniform"};
@@ -86,6 +77,10 @@ void check_grid(const Shape& shape, const Checker& out)
         out.error("size", "is [" + shown(shape.size.x) + ", " + shown(shape.size.y) +
                               "]; both must be greater than 0 m and finite");
     out.word("diagonals", shape.diagonals, diagonals);
+    const Checker network = out.at("network");
+    network.not_negative("structural", shape.network.structural, "N/m");
+    network.not_negative("shear", shape.network.shear, "N/m");
+    network.not_negative("bend", shape.network.bend, "N/m");
 }
 
 void check_chain(const Shape& shape, const Checker& out)
@@ -118,6 +113,13 @@ void check_material(const ClothMaterial& material, const Checker& out)
         out.not_negative("stretch_stiffness", material.stretch_stiffness, "N/m");
     out.not_negative("bending_stiffness", material.bending_stiffness, "N m");
     out.not_negative("thickness", material.thickness, "m");
+    out.not_negative("stretch_damping", material.stretch_damping, "s");
+    out.not_negative("strain_limit", material.strain_limit, "(of the rest length)");
+    out.not_negative("tear_strain", material.tear_strain, "(of the rest length)");
+    out.not_negative("drag", material.drag, "(a coefficient)");
+    out.not_negative("friction_drag", material.friction_drag, "(a coefficient)");
+    if (!(material.attachment_slack < 0))
+        out.not_negative("attachment_slack", material.attachment_slack, "(of the rest distance)");
 }
 
 void check_pin_box(const Pin& pin, const Checker& out)
@@ -213,10 +215,23 @@ void check_collider(const Collider& collider, const Checker& out)
             if (collider.motion[i].rotate_degrees != 0)
                 out.at("motion", i).error("rotate", "turns a plane; planes only translate so far");
     }
-    else
+    else if (collider.kind == ColliderKind::sphere)
     {
         out.finite("sphere.centre", collider.point, "m");
         out.positive("sphere.radius", collider.radius, "m");
+    }
+    else if (collider.kind == ColliderKind::capsule)
+    {
+        out.finite("capsule.from", collider.point, "m");
+        out.finite("capsule.to", collider.end, "m");
+        out.positive("capsule.radius", collider.radius, "m");
+    }
+    else
+    {
+        out.finite("cuboid.centre", collider.point, "m");
+        for (int axis = 0; axis < 3; ++axis)
+            out.positive("cuboid.half_size", collider.half_size[axis], "m");
+        check_axis(collider.rotate_axis, collider.rotate_degrees, out.at("cuboid.rotate"));
     }
     out.not_negative("friction", collider.friction, "(Coulomb coefficient)");
     check_motion(collider.motion, out);
@@ -274,6 +289,7 @@ void check_world(const Scene& scene, const Checker& out)
     out.not_negative("max_speed", scene.max_speed, "m/s");
     out.not_negative("depenetration_speed", scene.depenetration_speed, "m/s");
     check_method(scene.method, out.at("method"));
+    check_wind(scene.wind, out.at("wind"));
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)
         check_collider(scene.colliders[i], out.at("colliders", i));
 }

@@ -51,4 +51,8 @@ private:
 /// Indices of pins, springs, masses and start positions against the number of vertices.
 void check_counts(const Body& body, std::size_t vertex_count, const Checker& out);
 
+/// Words and ranges of the method's settings, and of the wind.
+void check_method(const MethodSettings& method, const Checker& out);
+void check_wind(const Wind& wind, const Checker& out);
+
 } // namespace taut::scene_file

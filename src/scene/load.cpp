@@ -108,6 +108,14 @@ void read_grid(Field field, Shape& shape)
         shape.size = {parts[0].number(), parts[1].number()};
     }
     field.read("diagonals", shape.diagonals);
+    if (auto network = field.find("network"))
+    {
+        network->object("network");
+        shape.network.used = true;
+        network->read("structural", shape.network.structural);
+        network->read("shear", shape.network.shear);
+        network->read("bend", shape.network.bend);
+    }
 }
 
 void read_shape(const Field& body, Shape& shape)
@@ -152,6 +160,12 @@ void read_material(Field field, ClothMaterial& material)
     }
     field.read("bending_stiffness", material.bending_stiffness);
     field.read("thickness", material.thickness);
+    field.read("stretch_damping", material.stretch_damping);
+    field.read("strain_limit", material.strain_limit);
+    field.read("attachment_slack", material.attachment_slack);
+    field.read("tear_strain", material.tear_strain);
+    field.read("drag", material.drag);
+    field.read("friction_drag", material.friction_drag);
 }
 
 void read_transform(Field field, Transform& transform)
@@ -207,7 +221,7 @@ Collider read_collider(Field field)
     field.object("collider");
     Collider collider;
     field.read("name", collider.name);
-    constexpr std::array<std::string_view, 2> kinds = {"plane", "sphere"};
+    constexpr std::array<std::string_view, 4> kinds = {"plane", "sphere", "capsule", "cuboid"};
     const std::string_view kind = exactly_one(field, kinds);
     Field shape = field.need(kind);
     shape.object(kind);
@@ -217,11 +231,30 @@ Collider read_collider(Field field)
         shape.read("point", collider.point);
         shape.read("normal", collider.normal);
     }
-    else
+    else if (kind == "sphere")
     {
         collider.kind = ColliderKind::sphere;
         shape.read("centre", collider.point);
         shape.read("radius", collider.radius);
+    }
+    else if (kind == "capsule")
+    {
+        collider.kind = ColliderKind::capsule;
+        shape.read("from", collider.point);
+        shape.read("to", collider.end);
+        shape.read("radius", collider.radius);
+    }
+    else
+    {
+        collider.kind = ColliderKind::cuboid;
+        shape.read("centre", collider.point);
+        shape.read("half_size", collider.half_size);
+        if (auto rotate = shape.find("rotate"))
+        {
+            rotate->object("rotate");
+            rotate->read("axis", collider.rotate_axis);
+            rotate->read("degrees", collider.rotate_degrees);
+        }
     }
     field.read("friction", collider.friction);
     if (const auto motion = field.find("motion"))
@@ -236,6 +269,48 @@ void read_method(Field field, MethodSettings& method)
     field.read("substeps", method.substeps);
     field.read("iterations", method.iterations);
     field.read("precision", method.precision);
+    field.read("integrator", method.integrator);
+    field.read("stability", method.stability);
+    field.read("scheme", method.scheme);
+    field.read("stretch", method.stretch);
+    field.read("bend", method.bend);
+    field.read("relaxation", method.relaxation);
+    field.read("linear_iterations", method.linear_iterations);
+    field.read("linear_tolerance", method.linear_tolerance);
+    field.read("linear_operator", method.linear_operator);
+    field.read("constrained", method.constrained);
+    if (const auto compliance = field.find("constraint_compliance"))
+    {
+        if (!compliance->is_text())
+            method.constraint_compliance = compliance->number();
+        else if (compliance->text() != "material")
+            compliance->refuse("it must be a number in m/N or \"material\"");
+        if (method.constraint_compliance < 0 && !compliance->is_text())
+            compliance->refuse("it must be 0 or more, or \"material\"");
+    }
+    field.read("activate_strain", method.activate_strain);
+    method.release_strain = method.activate_strain;
+    field.read("release_strain", method.release_strain);
+    field.read("release", method.release);
+    field.read("target", method.target);
+    field.read("start", method.start);
+    field.read("spectral_radius", method.spectral_radius);
+}
+
+Wind read_wind(Field field)
+{
+    field.object("wind");
+    Wind wind;
+    wind.density = 1.2;
+    field.read("density", wind.density);
+    field.read("velocity", wind.velocity);
+    if (const auto keys = field.find("keys"))
+        for (Field entry : keys->elements())
+        {
+            entry.object("wind key");
+            wind.keys.push_back({entry.need("time").number(), entry.need("velocity").vector()});
+        }
+    return wind;
 }
 
 Scene read_scene(Field field)
@@ -257,6 +332,8 @@ Scene read_scene(Field field)
     field.read("external_forces", scene.external_forces);
     if (const auto method = field.find("method"))
         read_method(*method, scene.method);
+    if (const auto wind = field.find("wind"))
+        scene.wind = read_wind(*wind);
     if (const auto bodies = field.find("bodies"))
         for (const Field& body : bodies->elements())
             scene.bodies.push_back(read_body(body));

@@ -56,4 +56,16 @@ glm::dvec3 pose(const std::vector<Keyframe>& motion, double time, const glm::dve
                  rest);
 }
 
+glm::dvec3 wind_at(const Wind& wind, double time)
+{
+    const auto after = std::upper_bound(wind.keys.begin(), wind.keys.end(), time,
+                                        [](double t, const Wind::Key& key) { return t < key.time; });
+    if (after == wind.keys.begin())
+        return wind.velocity;
+    const Wind::Key& a = *(after - 1);
+    if (after == wind.keys.end())
+        return a.velocity;
+    return a.velocity + (after->velocity - a.velocity) * ((time - a.time) / (after->time - a.time));
+}
+
 } // namespace taut

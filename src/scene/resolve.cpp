@@ -3,6 +3,8 @@
 #include "taut/scene/checker.hpp"
 #include "taut/scene/scene.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 
 namespace taut {
@@ -134,6 +136,40 @@ void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Chec
         }
 }
 
+/// The springs of a network, kind by kind and row by row, before those of the scene's own list.
+void add_network(Body& body)
+{
+    struct Reach
+    {
+        SpringKind kind;
+        double stiffness;
+        int columns, rows;
+    };
+    const SpringNetwork& network = body.shape.network;
+    const Mesh& mesh = body.mesh;
+    const Reach reaches[] = {{SpringKind::structural, network.structural, 1, 0},
+                             {SpringKind::structural, network.structural, 0, 1},
+                             {SpringKind::shear, network.shear, 1, 1},
+                             {SpringKind::shear, network.shear, -1, 1},
+                             {SpringKind::bend, network.bend, 2, 0},
+                             {SpringKind::bend, network.bend, 0, 2}};
+    std::vector<Body::Spring> springs;
+    const int columns = static_cast<int>(mesh.grid_columns), rows = static_cast<int>(mesh.grid_rows);
+    for (const Reach& reach : reaches)
+        for (int row = 0; row + reach.rows < rows && reach.stiffness > 0; ++row)
+            for (int column = 0; column < columns; ++column)
+            {
+                const int other = column + reach.columns;
+                if (other < 0 || other >= columns)
+                    continue;
+                const auto a = static_cast<std::uint32_t>(row * columns + column);
+                const auto b = static_cast<std::uint32_t>((row + reach.rows) * columns + other);
+                const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
+                springs.push_back({a, b, length, 1 / reach.stiffness, reach.kind});
+            }
+    body.springs.insert(body.springs.begin(), springs.begin(), springs.end());
+}
+
 void resolve_body(Body& body, const std::filesystem::path& directory, const Checker& out)
 {
     body.mesh = make_mesh(body.shape, directory, out);
@@ -142,6 +178,8 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
         if (!out.at("transform")
                  .finite("", body.mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
             break;
+    if (body.shape.kind == ShapeKind::grid && body.shape.network.used)
+        add_network(body);
     if (body.shape.kind == ShapeKind::mesh)
         scene_file::check_counts(body, body.mesh.positions.size(), out);
 }

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -23,6 +24,33 @@ struct ClothMaterial
     double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
     double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
+    double stretch_damping = 0;     ///< s, >= 0: a spring of stiffness k has the damper k * stretch_damping
+    double strain_limit = 0;        ///< (l - L)/L that no spring may pass, >= 0; 0 = no strain_limit effect
+    /// Long-range attachments: no vertex further from its pin than (1 + slack) times at rest; < 0 = no
+    /// effect.
+    double attachment_slack = -1;
+    double tear_strain = 0;   ///< (l - L)/L at which cloth tears, >= 0; 0 = no tearing effect
+    double drag = 0;          ///< of a triangle along its normal in the wind, >= 0; 0 = no wind effect
+    double friction_drag = 0; ///< the same across its normal (skin friction), >= 0
+};
+
+/// Springs of a grid of its own, in place of its edges: structural to the side neighbours, shear to the
+/// diagonal ones, bend to the second ones along rows and columns (Provot 1995).
+struct SpringNetwork
+{
+    bool used = false;
+    double structural = 1000; ///< N/m, >= 0; 0 = none of the kind
+    double shear = 1000;      ///< N/m
+    double bend = 0;          ///< N/m
+};
+
+/// What a spring stands for. Methods may treat kinds differently (ClothMaterial's edges are structural).
+enum class SpringKind
+{
+    structural,
+    shear,
+    bend,
+    extra ///< of the scene's own list
 };
 
 /// One key of a motion: the pose relative to the rest pose at a time; linear in between, constant
@@ -77,6 +105,7 @@ struct Shape
     glm::dvec2 size{1, 1};    ///< m
     /// grid: how quads are cut: "alternating" (union-jack) or "uniform" (one direction)
     std::string diagonals = "alternating";
+    SpringNetwork network; ///< grid
     /// chain: links along -y from the origin, `length` metres in all, each carrying a strip of `width`.
     std::uint32_t links = 10;   ///< >= 0 (0 = one free particle)
     double length = 1;          ///< m
@@ -102,6 +131,7 @@ struct Body
         std::uint32_t a, b;
         double rest_length;
         double compliance;
+        SpringKind kind = SpringKind::extra; ///< set by resolve() for the springs of a network
     };
     std::vector<Spring> springs;
     /// Filled by resolve(): the rest mesh in world space.
@@ -111,27 +141,80 @@ struct Body
 enum class ColliderKind
 {
     plane,
-    sphere
+    sphere,
+    capsule,
+    cuboid
 };
+inline constexpr std::size_t kColliderKinds = 4;
 
 struct Collider
 {
     std::string name;
     ColliderKind kind = ColliderKind::sphere;
-    glm::dvec3 point{0};        ///< plane: a point on it; sphere: centre, m
-    glm::dvec3 normal{0, 1, 0}; ///< plane: towards the free side
-    double radius = 0.5;        ///< sphere, m, > 0
-    double friction = 0;        ///< Coulomb coefficient, >= 0; 0 = no friction effect
+    glm::dvec3 point{0}; ///< plane: a point on it; sphere, cuboid: centre; capsule: one end of its axis, m
+    glm::dvec3 normal{0, 1, 0};      ///< plane: towards the free side
+    double radius = 0.5;             ///< sphere, capsule, m, > 0
+    glm::dvec3 end{0, 1, 0};         ///< capsule: the other end of its axis, m
+    glm::dvec3 half_size{0.5};       ///< cuboid: half the edges, m, > 0
+    glm::dvec3 rotate_axis{0, 1, 0}; ///< cuboid: turned about its centre
+    double rotate_degrees = 0;
+    double friction = 0; ///< Coulomb coefficient, >= 0; 0 = no friction effect
     std::vector<Keyframe> motion;
 };
 
+/// The words of MethodSettings::type.
+inline constexpr std::array<std::string_view, 7> kMethodNames = {
+    "mass_spring", "implicit_euler", "implicit_constraints", "acad", "pbd", "xpbd", "vbd"};
+
+/// How a step advances. docs/methods.md says which method reads which setting.
 struct MethodSettings
 {
     std::string type = "xpbd";
-    std::uint32_t substeps = 10;     ///< per time step, 1..1000
-    std::uint32_t iterations = 1;    ///< per substep, 1..1000
+    std::uint32_t substeps = 10; ///< per time step, 1..1000
+    /// Per substep, 1..1000: sweeps (pbd, xpbd, vbd), Newton steps (implicit_euler), linear solves, each at
+    /// the places that the one before led to (implicit_constraints, acad).
+    std::uint32_t iterations = 1;
     std::string precision = "float"; ///< or "double"
+
+    std::string integrator = "semi_implicit"; ///< mass_spring: or "explicit", "verlet"
+    /// mass_spring, acad: beyond the stable step "refuse", take more substeps ("substep"), or "ignore" it.
+    std::string stability = "refuse";
+    /// mass_spring: "node_centric" (gather), "spring_centric" (slots); pbd: "coloured" (Gauss-Seidel),
+    /// "node_centric", "constraint_centric" (both Jacobi); "automatic": the first of them.
+    std::string scheme = "automatic";
+    double stretch = 1;    ///< pbd: stiffness of springs in [0, 1], whatever the number of iterations
+    double bend = 1;       ///< pbd: of hinges
+    double relaxation = 1; ///< pbd, vbd: each correction times this, in (0, 2)
+
+    std::uint32_t linear_iterations = 100; ///< implicit_*, acad: of conjugate gradients a solve, 1..100000
+    double linear_tolerance = 1e-5;        ///< of |residual| / |right-hand side|, (0, 1)
+    std::string linear_operator = "assembled"; ///< or "matrix_free"
+
+    std::string constrained = "all";    ///< implicit_constraints, acad: or "structural"; others stay springs
+    double constraint_compliance = -1;  ///< m/N, >= 0; < 0: each spring's own ("material")
+    double activate_strain = 0.05;      ///< acad: |l - L|/L beyond which a spring becomes a constraint, > 0
+    double release_strain = 0.05;       ///< acad: below which it is a spring again, at most activate_strain
+    std::string release = "multiplier"; ///< acad: by the multiplier's sign, or by "strain"
+    std::string target = "threshold";   ///< acad: length L(1 + activate_strain), or "rest": L
+
+    std::string start = "adaptive"; ///< vbd: or "inertial", "previous"
+    double spectral_radius = 0;     ///< vbd, pbd (Jacobi): Chebyshev acceleration, [0, 1); 0 = none
 };
+
+/// Air that cloth moves in. Without density there is no wind effect.
+struct Wind
+{
+    double density = 0;     ///< kg/m^3, >= 0
+    glm::dvec3 velocity{0}; ///< m/s, before the first key
+    struct Key
+    {
+        double time;         ///< s, ascending
+        glm::dvec3 velocity; ///< m/s; linear in between, constant after the last
+    };
+    std::vector<Key> keys;
+};
+/// The wind's velocity [m/s] at a time [s].
+glm::dvec3 wind_at(const Wind& wind, double time);
 
 struct Scene
 {
@@ -145,6 +228,7 @@ struct Scene
     double depenetration_speed = 0.5; ///< m/s, fastest way out of an initial penetration
     bool external_forces = false;     ///< allow World::set_force; costs a buffer and a pass
     MethodSettings method;
+    Wind wind;
     std::vector<Body> bodies;
     std::vector<Collider> colliders;
     std::filesystem::path directory; ///< mesh paths are relative to it

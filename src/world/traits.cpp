@@ -125,6 +125,9 @@ DeviceTraits limits_as_traits(const Device& device)
     DeviceTraits traits;
     traits.max_buffer_bytes = device.limits().max_buffer_bytes;
     traits.float64 = device.limits().float64;
+    traits.executor = device.info().executor;
+    traits.hardware_gpu = device.info().hardware_gpu;
+    traits.limits = device.limits();
     return traits;
 }
 

@@ -1,0 +1,42 @@
+#include "taut/plan/methods.hpp"
+
+#include "taut/runtime/base/error.hpp"
+#include "taut/scene/keys.hpp"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+// clang-format off
+constexpr Method kMethods[] = {
+    //                               contacts each  keeps   
+    // kind                          iteration      guess   check    substeps
+    {MethodKind::pbd,                true,          false,  nullptr, nullptr},
+    {MethodKind::xpbd,               true,          false,  nullptr, nullptr},
+};
+// clang-format on
+
+} // namespace
+
+MethodKind method_of(const Scene& scene)
+{
+    const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), scene.method.type);
+    if (found == kMethodNames.end())
+        throw Error(ErrorCode::unsupported, "method.type \"" + scene.method.type +
+                                                "\" is not there; there is " +
+                                                scene_file::listing(kMethodNames));
+    return static_cast<MethodKind>(found - kMethodNames.begin());
+}
+
+const Method& find_method(MethodKind kind)
+{
+    for (const Method& method : kMethods)
+        if (method.kind == kind)
+            return method;
+    throw Error(ErrorCode::unsupported, "method.type \"" +
+                                            std::string(kMethodNames[static_cast<std::size_t>(kind)]) +
+                                            "\" is not built yet");
+}
+
+} // namespace taut

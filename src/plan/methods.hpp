@@ -1,0 +1,48 @@
+#pragma once
+// The table of methods: how a step advances. A method is a row; what it adds to a step are rows of the table
+// of effects (builder.hpp) that name it.
+
+#include "taut/scene/scene.hpp"
+
+#include <cstdint>
+
+namespace taut {
+
+struct DeviceTraits;
+
+/// In the order of kMethodNames.
+enum class MethodKind
+{
+    mass_spring,
+    implicit_euler,
+    implicit_constraints,
+    acad,
+    pbd,
+    xpbd,
+    vbd
+};
+
+/// The kind of a scene's method.type. Throws Error{unsupported} for a word that is not in kMethodNames.
+MethodKind method_of(const Scene& scene);
+
+/// Sets of methods, for the rows of effects.
+using MethodSet = std::uint32_t;
+constexpr MethodSet only(MethodKind kind) { return MethodSet{1} << static_cast<unsigned>(kind); }
+inline constexpr MethodSet kAllMethods = (MethodSet{1} << kMethodNames.size()) - 1;
+
+struct Method
+{
+    MethodKind kind;
+    /// Contacts after every iteration of the solver (position-based methods), or once, after the last.
+    bool contact_each_iteration;
+    /// The inertial guess of each substep's displacement is kept beside the displacement.
+    bool keeps_guess;
+    /// Throws Error{unsupported, bad_timestep, ...} for what the method cannot do; may be null.
+    void (*check)(const Scene& resolved, const DeviceTraits&);
+    /// Substeps that the method takes where the scene says so many; null: as the scene says.
+    std::uint32_t (*substeps)(const Scene& resolved);
+};
+
+const Method& find_method(MethodKind kind);
+
+} // namespace taut

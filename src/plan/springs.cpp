@@ -1,0 +1,124 @@
+#include "taut/plan/springs.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace taut {
+
+Incidence incidence_of(std::uint32_t vertex_count, std::span<const std::uint32_t> corners,
+                       std::uint32_t arity)
+{
+    Incidence out;
+    out.start.assign(vertex_count + 1, 0);
+    for (const std::uint32_t v : corners)
+        ++out.start[v + 1];
+    for (std::uint32_t v = 0; v < vertex_count; ++v)
+        out.start[v + 1] += out.start[v];
+    out.entries.resize(corners.size());
+    std::vector<std::uint32_t> next(out.start.begin(), out.start.end() - 1);
+    for (std::uint32_t k = 0; k < corners.size() / arity; ++k)
+        for (std::uint32_t c = 0; c < arity; ++c)
+            out.entries[next[corners[k * arity + c]]++] = k * arity + c;
+    return out;
+}
+
+std::vector<StretchElement> acting_springs(PlanBuilder& b, std::size_t body)
+{
+    std::vector<StretchElement> out;
+    std::size_t conflicts = 0;
+    for (StretchElement e : stretch_elements(b.scene.bodies[body]))
+    {
+        e.a = b.vertex(body, e.a);
+        e.b = b.vertex(body, e.b);
+        if (b.inverse_mass[e.a] > 0 || b.inverse_mass[e.b] > 0)
+            out.push_back(e);
+        else
+            conflicts +=
+                std::abs(glm::length(b.start[e.a] - b.start[e.b]) - e.rest_length) > 1e-6 * e.rest_length;
+    }
+    if (conflicts > 0)
+        b.plan.warnings.push_back({"conflict", conflicts,
+                                   std::to_string(conflicts) +
+                                       " violated constraints between held vertices of body " +
+                                       std::to_string(body)});
+    return out;
+}
+
+std::vector<BendElement> acting_hinges(PlanBuilder& b, std::size_t body)
+{
+    std::vector<BendElement> out;
+    std::size_t dropped = 0;
+    for (BendElement e : bend_elements(b.scene.bodies[body], &dropped))
+    {
+        double moves = 0;
+        for (std::uint32_t* v : {&e.edge0, &e.edge1, &e.wing0, &e.wing1})
+        {
+            *v = b.vertex(body, *v);
+            moves += b.inverse_mass[*v];
+        }
+        if (moves > 0)
+            out.push_back(e);
+    }
+    if (dropped > 0)
+        b.plan.warnings.push_back(
+            {"degenerate", dropped,
+             std::to_string(dropped) + " hinges without area at rest in body " + std::to_string(body)});
+    return out;
+}
+
+SpringBuffers make_spring_buffers(PlanBuilder& b, std::string_view effect)
+{
+    SpringBuffers out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (const StretchElement& e : acting_springs(b, body))
+            out.elements.push_back(e);
+    if (out.elements.empty())
+        return out;
+    std::vector<std::uint32_t> corners;
+    for (const StretchElement& e : out.elements)
+        corners.insert(corners.end(), {e.a, e.b});
+    out.at = incidence_of(b.plan.vertex_count, corners, 2);
+    with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        std::vector<layout::Spring<Real>> records;
+        for (const StretchElement& e : out.elements)
+            records.push_back({e.a, e.b, static_cast<Real>(e.rest_length),
+                               e.compliance > 0 ? static_cast<Real>(1 / e.compliance) : Real(0),
+                               static_cast<Real>(e.damping), static_cast<std::uint32_t>(e.kind)});
+        out.records = b.add_buffer<layout::Spring<Real>>(effect, "springs", records);
+    });
+    out.start = b.add_buffer<std::uint32_t>(effect, "springs at a vertex, start", out.at.start);
+    out.incident = b.add_buffer<std::uint32_t>(effect, "springs at a vertex", out.at.entries);
+    return out;
+}
+
+HingeBuffers make_hinge_buffers(PlanBuilder& b, std::string_view effect)
+{
+    HingeBuffers out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (const BendElement& e : acting_hinges(b, body))
+            out.elements.push_back(e);
+    if (out.elements.empty())
+        return out;
+    std::vector<std::uint32_t> corners;
+    for (const BendElement& e : out.elements)
+        corners.insert(corners.end(), {e.edge0, e.edge1, e.wing0, e.wing1});
+    out.at = incidence_of(b.plan.vertex_count, corners, 4);
+    with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        std::vector<layout::BendingConstraint<Real>> records;
+        for (const BendElement& e : out.elements)
+            records.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
+                               static_cast<Real>(e.compliance)});
+        out.records = b.add_buffer<layout::BendingConstraint<Real>>(effect, "hinges", records);
+    });
+    out.start = b.add_buffer<std::uint32_t>(effect, "hinges at a vertex, start", out.at.start);
+    out.incident = b.add_buffer<std::uint32_t>(effect, "hinges at a vertex", out.at.entries);
+    return out;
+}
+
+} // namespace taut
