@@ -61,6 +61,58 @@ LAYOUT_STRUCT(SphereCollider)
     real friction;
 };
 
+/// Where a collider that may turn is at one end of a substep: its centre and the axes of its own frame (unit,
+/// at right angles). Capsule: all points within `radius` of the segment of 2 half_length along its y axis.
+LAYOUT_STRUCT(CapsuleCollider)
+{
+    real centre_x, centre_y, centre_z; // m
+    real x_x, x_y, x_z;                // its x axis, in the world
+    real y_x, y_y, y_z;
+    real z_x, z_y, z_z;
+    real half_length; // m
+    real radius;      // m
+    real friction;    // Coulomb coefficient, >= 0
+};
+
+/// Box with edges of twice its half sizes along its axes.
+LAYOUT_STRUCT(CuboidCollider)
+{
+    real centre_x, centre_y, centre_z; // m
+    real x_x, x_y, x_z;                // its x axis, in the world
+    real y_x, y_y, y_z;
+    real z_x, z_y, z_z;
+    real half_x, half_y, half_z; // m
+    real friction;
+};
+
+/// Keeps |x_vertex - x_pin| at most `limit`.
+LAYOUT_STRUCT(Attachment)
+{
+    uint vertex;
+    uint pin;
+    real limit; // m
+};
+
+/// A triangle that air acts on.
+LAYOUT_STRUCT(WindTriangle)
+{
+    uint a;
+    uint b;
+    uint c;
+    uint unused;
+    real mass; // kg, three times the least share of its corners' masses
+    real drag; // along the normal
+    real friction_drag;
+};
+
+/// The air during a time step. One element, written by the host.
+LAYOUT_STRUCT(WindValues)
+{
+    real start_x, start_y, start_z; // m/s
+    real end_x, end_y, end_z;       // m/s
+    real density;                   // kg/m^3
+};
+
 /// What changes from step to step. One element, written by the host before each step.
 LAYOUT_STRUCT(StepValues)
 {

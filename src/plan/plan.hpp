@@ -140,6 +140,11 @@ struct Plan
     std::uint32_t force = kNoBuffer;       ///< rvec4 per vertex: N
     std::uint32_t spheres = kNoBuffer;     ///< layout::SphereCollider<real>
     std::uint32_t planes = kNoBuffer;      ///< layout::PlaneCollider<real>
+    /// Poses of all colliders of the shape at the start of each substep, and at the end of the last.
+    std::uint32_t capsules = kNoBuffer;  ///< layout::CapsuleCollider<real>
+    std::uint32_t cuboids = kNoBuffer;   ///< layout::CuboidCollider<real>
+    std::uint32_t wind = kNoBuffer;      ///< layout::WindValues<real>
+    std::uint32_t torn = kNoBuffer;      ///< uint32: springs beyond the length at which cloth tears, added up
 
     std::uint64_t bytes_allocated() const;
     std::uint64_t barrier_count() const;
