@@ -128,6 +128,10 @@ struct Plan
     std::vector<PlanWarning> warnings;
     std::vector<PlanSolver> solvers;
 
+    /// Further buffers that carry something from one step to the next (flags, multipliers, histories): part of
+    /// a world's state.
+    std::vector<std::uint32_t> kept;
+
     // Buffers the world writes and reads, kNoBuffer where the scene does not need them.
     std::uint32_t position = kNoBuffer; ///< rvec4: xyz m, w = inverse mass 1/kg
     std::uint32_t low = kNoBuffer; ///< rvec4: what position lost to rounding; w = gap kept from colliders, m

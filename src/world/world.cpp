@@ -20,7 +20,7 @@ struct World::Impl
     Scene scene;
     Plan plan;
     std::shared_ptr<Device> device;
-    std::vector<BufferPtr> buffers; ///< as plan.buffers
+    std::vector<BufferPtr> buffers;       ///< as plan.buffers
     std::unique_ptr<Recording> recording; ///< null when nothing is to be done
     std::uint64_t steps = 0;
     Clock clock;
@@ -231,8 +231,12 @@ void World::record_into(VkCommandBuffer_T* commands)
 WorldState World::state() const
 {
     const Plan& plan = impl_->plan;
-    return {impl_->steps,        impl_->raw(plan.position), impl_->raw(plan.low), impl_->raw(plan.velocity),
-            impl_->raw(plan.delta), impl_->raw(plan.force), impl_->clock};
+    WorldState out{
+        impl_->steps,           impl_->raw(plan.position), impl_->raw(plan.low), impl_->raw(plan.velocity),
+        impl_->raw(plan.delta), impl_->raw(plan.force),    impl_->clock};
+    for (const std::uint32_t buffer : plan.kept)
+        out.kept.push_back(impl_->raw(buffer));
+    return out;
 }
 
 namespace {
@@ -274,6 +278,13 @@ void World::restore(const WorldState& state)
             throw Error(ErrorCode::bad_input,
                         std::string("restore: ") + names[i] + " holds a value that is not finite");
     }
+    bool same = state.kept.size() == plan.kept.size();
+    for (std::size_t i = 0; same && i < plan.kept.size(); ++i)
+        same = state.kept[i].size() == plan.buffers[plan.kept[i]].bytes;
+    if (!same)
+        throw Error(ErrorCode::bad_input, "restore: what method \"" + impl_->scene.method.type +
+                                              "\" keeps from step to step is missing or of another size: the "
+                                              "state is of another scene or method");
     const Clock& clock = state.clock;
     const double sum = clock.time + clock.timestep + glm::length(clock.gravity) + glm::length(clock.fall);
     if (!std::isfinite(sum) || clock.timestep < 0 || clock.step > state.step)
@@ -283,6 +294,8 @@ void World::restore(const WorldState& state)
     for (const auto& [buffer, bytes] : parts)
         if (buffer != kNoBuffer)
             impl_->device->write(impl_->buffers[buffer], 0, *bytes);
+    for (std::size_t i = 0; i < plan.kept.size(); ++i)
+        impl_->device->write(impl_->buffers[plan.kept[i]], 0, state.kept[i]);
     impl_->steps = state.step;
     const bool clocked = state.clock.timestep > 0;
     impl_->clock = clocked ? state.clock : Clock{0, 0, impl_->scene.timestep, impl_->scene.gravity};

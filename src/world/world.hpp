@@ -33,6 +33,7 @@ struct WorldState
     std::uint64_t step = 0;
     std::vector<std::byte> position, low, velocity, delta, force; ///< raw device contents
     Clock clock = {};
+    std::vector<std::vector<std::byte>> kept = {}; ///< of Plan::kept, in its order
 };
 
 /// What kernels counted since the world was made.
