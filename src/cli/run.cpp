@@ -186,6 +186,7 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.vertices = world.plan().vertex_count;
     result.constraints = world.plan().constraint_counts();
     result.colours = world.plan().colour_counts();
+    result.solvers = world.plan().solvers.size();
     result.report = measure(world);
     result.step_ms = runner.step_ms();
     for (const PlanWarning& warning : world.plan().warnings)

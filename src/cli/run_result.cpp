@@ -26,6 +26,13 @@ std::string hex(std::uint64_t value)
     return text;
 }
 
+Json solver_json(const SolverReport& solver)
+{
+    return {{"solves", solver.solves},         {"iterations", solver.iterations},
+            {"most_iterations", solver.most},  {"at_limit", solver.limited},
+            {"failed", solver.failed},         {"last_status", to_string(solver.last)}};
+}
+
 Json passes_json(const std::vector<EffectTime>& passes)
 {
     Json list = Json::array();
@@ -62,6 +69,7 @@ Json to_json(const RunResult& result)
     json["momentum_error"] = report.momentum_error;
     json["primal_residual"] = report.primal_residual;
     json["dual_residual"] = report.dual_residual;
+    json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["position_hash"] = hex(report.position_hash);
     json["folder"] = result.folder;
     json["meshes"] = result.meshes;
@@ -82,6 +90,10 @@ std::string summary(const RunResult& result)
             number(100 * report.rms_stretch, 3) + " % rms; penetration " +
             number(1000 * report.penetration, 3) + " mm; residuals " + number(report.primal_residual, 2) +
             " primal, " + number(report.dual_residual, 2) + " dual\n";
+    if (result.solvers > 0)
+        text += "solver  " + std::to_string(report.solver.solves) + " linear solves, " +
+                std::to_string(report.solver.iterations) + " iterations, " +
+                std::to_string(report.solver.most) + " at most\n";
     for (const auto& [word, count] : report.warnings)
         text += "warning " + word + " (" + std::to_string(count) + ")\n";
     for (const std::string& message : result.messages)

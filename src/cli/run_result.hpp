@@ -19,6 +19,7 @@ struct RunResult
     std::uint64_t frames_wanted = 0;
     std::uint64_t vertices = 0;
     std::map<std::string, std::uint64_t> constraints, colours; ///< by kind
+    std::size_t solvers = 0; ///< linear systems of a step
     StepReport report;
     std::vector<double> step_ms;       ///< wall time of each frame, ms
     std::vector<EffectTime> passes;    ///< device time of one frame by effect; empty after an interruption

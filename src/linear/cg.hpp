@@ -55,6 +55,8 @@ public:
     const BufferPtr& x() const { return base_; }
     /// What the iterations since the residual was last formed have added to x: rows reals.
     const BufferPtr& gain() const { return x_; }
+    /// Where the solve stands: layout::CgState<real>. Final after record_end.
+    const BufferPtr& state() const { return decided_; }
 
     /// Written by the host before a replay; the recording stays.
     void set(const CgSettings&);

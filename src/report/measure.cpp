@@ -295,7 +295,9 @@ void judge(const View& view, StepReport& out)
     const Events events = view.world.events();
     const std::pair<Warning, std::uint64_t> counts[] = {{Warning::degenerate, events.degenerate},
                                                         {Warning::speed_clamp, events.speed_clamped},
-                                                        {Warning::conflict, events.conflicts}};
+                                                        {Warning::conflict, events.conflicts},
+                                                        {Warning::iteration_limit, out.solver.limited},
+                                                        {Warning::solve_failed, out.solver.failed}};
     for (const auto& [warning, count] : counts)
         if (count > 0)
             out.warnings[std::string(to_string(warning))] += count;
@@ -325,6 +327,8 @@ std::string_view to_string(Warning warning)
     case Warning::speed_clamp: return "speed_clamp";
     case Warning::conflict: return "conflict";
     case Warning::precision: return "precision";
+    case Warning::iteration_limit: return "iteration_limit";
+    case Warning::solve_failed: return "solve_failed";
     }
     return "unknown";
 }
@@ -341,6 +345,7 @@ StepReport measure(const World& world)
     measure_momentum(view, out);
     measure_residuals(view, out);
     out.position_hash = hash_of(world.state());
+    out.solver = world.solver_report();
     judge(view, out);
     return out;
 }

@@ -12,7 +12,7 @@
 namespace taut {
 
 /// Warnings: something a user should know though the run is sound. With their count.
-enum class Warning { degenerate, speed_clamp, conflict, precision };
+enum class Warning { degenerate, speed_clamp, conflict, precision, iteration_limit, solve_failed };
 std::string_view to_string(Warning warning);
 
 /// One look at a world. Lengths in m, energies in J, computed in fp64 on the host.
@@ -32,6 +32,7 @@ struct StepReport
     double primal_residual = 0;  ///< methods: ||M(x - x~) - J^T lambda|| / (m g h^2); -1 without multipliers
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
     double max_speed = 0;        ///< m/s
+    SolverReport solver;         ///< of the run so far
     std::uint64_t position_hash = 0; ///< FNV-1a over the raw position and low words in plan order
 };
 

@@ -51,6 +51,7 @@ void check_implicit(const MethodSettings& method, const Checker& out)
     out.range("linear_iterations", method.linear_iterations, 1, 100000);
     check_share(out, "linear_tolerance", method.linear_tolerance, 1, false, false);
     out.word("linear_operator", method.linear_operator, operators);
+    out.range("line_search", method.line_search, 0, 16);
     out.word("constrained", method.constrained, constrained);
     if (!(method.constraint_compliance < 0))
         out.not_negative("constraint_compliance", method.constraint_compliance, "m/N");

@@ -26,6 +26,7 @@ std::span<const KeySet> all_keys()
           "linear_iterations",
           "linear_tolerance",
           "linear_operator",
+          "line_search",
           "constrained",
           "constraint_compliance",
           "activate_strain",

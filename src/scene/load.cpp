@@ -278,6 +278,7 @@ void read_method(Field field, MethodSettings& method)
     field.read("linear_iterations", method.linear_iterations);
     field.read("linear_tolerance", method.linear_tolerance);
     field.read("linear_operator", method.linear_operator);
+    field.read("line_search", method.line_search);
     field.read("constrained", method.constrained);
     if (const auto compliance = field.find("constraint_compliance"))
     {

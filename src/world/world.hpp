@@ -2,6 +2,7 @@
 // The running simulation: owns device state, records a plan once and replays it every step.
 
 #include "taut/plan/plan.hpp"
+#include "taut/runtime/base/status.hpp"
 #include "taut/runtime/device.hpp"
 #include "taut/scene/scene.hpp"
 
@@ -40,6 +41,17 @@ struct WorldState
 struct Events
 {
     std::uint64_t non_finite = 0, speed_clamped = 0, degenerate = 0, conflicts = 0;
+};
+
+/// What the linear solves of a run came to: methods that solve systems, on the device, in every substep.
+struct SolverReport
+{
+    std::uint64_t solves = 0;     ///< that had something to solve
+    std::uint64_t iterations = 0; ///< of all, up to 2^32 - 1 for each system of the plan
+    std::uint64_t most = 0;       ///< iterations of the longest
+    std::uint64_t limited = 0;    ///< ended at the limit of iterations
+    std::uint64_t failed = 0;     ///< ended as stagnated, indefinite_... or non_finite: what was gained stays
+    Status last = Status::zero_right_hand_side; ///< how the last one ended
 };
 
 /// Device time of one step, summed by effect.
@@ -85,6 +97,8 @@ public:
     /// Multipliers of a constraint kind in the plan's order, N s^2; empty when none are kept.
     std::vector<double> multipliers(std::string_view kind) const;
     Events events() const;
+    /// Since the world was made, over all systems of the plan. All zero under methods without one.
+    SolverReport solver_report() const;
 
     WorldState state() const;
     /// Throws Error{bad_input} when the state is of another plan or holds a value that is not finite.

@@ -53,6 +53,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"cg_step", 6, "a sum and a quotient for alpha, a product, a difference; squares of those, in a tree"},
     {"cg_restart", 4, "up to four products a row, up to 23 terms a lane and a tree of 7"},
     {"cg_collect", 1, "one sum"},
+    {"solve_log", 0, "integers"},
     {"diagonal_inverse", 8, "a row: one quotient; a block: some 20 roundings, each times its condition"},
     {"chebyshev", 4, "five for an iterate; a sum adds up to 23 terms a lane and a tree of 7"},
     {"sphere", 4, "as plane, and a root of a quadratic for the way in"},

@@ -1,0 +1,48 @@
+#include "taut/plan/solve.hpp"
+
+#include "taut/kernels/solve_log.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+namespace taut {
+
+PlanSolve::PlanSolve(PlanBuilder& builder, std::string_view effect,
+                     std::shared_ptr<const linear::Operator> system, linear::Preconditioning preconditioning,
+                     std::shared_ptr<const linear::DeviceInverse> formed)
+    : effect_(effect),
+      operator_(std::move(system)),
+      formed_(std::move(formed)),
+      cg_(builder.paper(), operator_, preconditioning, false),
+      groups_(linear::group_count_for(operator_->rows(), builder.paper()->info())),
+      iterations_(builder.scene.method.linear_iterations)
+{
+    linear::CgSettings settings;
+    settings.tolerance = builder.scene.method.linear_tolerance;
+    settings.iteration_limit = iterations_;
+    cg_.set(settings);
+    b_ = builder.adopt(effect_, cg_.b());
+    x_ = builder.adopt(effect_, cg_.x());
+    if (preconditioning.inverse)
+        inverse_ = builder.adopt(effect_, preconditioning.inverse);
+    state_ = builder.adopt(effect_, cg_.state());
+    with_real(builder.plan.precision, [&](auto zero) {
+        log_ = builder.add_buffer(effect_, "solve log", sizeof(layout::SolveLog<decltype(zero)>));
+    });
+    builder.plan.solvers.push_back({effect_, state_, log_});
+}
+
+void PlanSolve::record(PlanBuilder& builder)
+{
+    builder.record(effect_, [this](Recorder& recorder) {
+        if (formed_)
+            formed_->record(recorder, {groups_, nullptr, 0});
+        cg_.record_begin(recorder);
+        cg_.record_iterations(recorder, iterations_);
+        cg_.record_end(recorder);
+    });
+    const Use uses[] = {{state_}, {log_}};
+    builder.dispatch(effect_, "solve_log", "", uses, kernels::solve_log::Params{1}, 1);
+}
+
+} // namespace taut

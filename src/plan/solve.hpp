@@ -1,0 +1,48 @@
+#pragma once
+// Internal to src/plan: a linear system that a method solves within its substeps, as passes of the plan.
+
+#include "taut/linear/cg.hpp"
+#include "taut/linear/device_inverse.hpp"
+#include "taut/plan/builder.hpp"
+
+#include <memory>
+#include <string>
+
+namespace taut {
+
+/// Conjugate gradients made on the builder's paper, with tolerance and limit of the scene's method, and
+/// listed in plan.solvers. An effect makes one in `prepare` and records it as often as it solves.
+class PlanSolve
+{
+public:
+    /// Operator and inverse live on builder.paper(). Where `formed` is given its inverse is formed anew
+    /// before each solve; otherwise passes of the caller fill preconditioning.inverse, and an inverse of 0
+    /// holds a row. Throws what ConjugateGradient throws.
+    PlanSolve(PlanBuilder& builder, std::string_view effect, std::shared_ptr<const linear::Operator>,
+              linear::Preconditioning, std::shared_ptr<const linear::DeviceInverse> formed = nullptr);
+
+    // Numbers of plan buffers, in reals: right-hand side, and solution (start value before, result after;
+    // held rows keep theirs).
+    std::uint32_t b() const { return b_; }
+    std::uint32_t x() const { return x_; }
+    /// Of the preconditioner, kNoBuffer where there is none: a real a row, or six a block row.
+    std::uint32_t inverse() const { return inverse_; }
+
+    /// The whole solve: inverse, begin, room for as many iterations as the limit says (zero groups once it has
+    /// ended; where the residual is formed anew up to seven of them pass unused), end, log.
+    void record(PlanBuilder& builder);
+
+    /// Work groups of every pass over the rows, for passes of the caller that sum as the solver does.
+    std::uint32_t groups() const { return groups_; }
+    const linear::Operator& system() const { return *operator_; }
+
+private:
+    std::string effect_;
+    std::shared_ptr<const linear::Operator> operator_;
+    std::shared_ptr<const linear::DeviceInverse> formed_;
+    linear::ConjugateGradient cg_;
+    std::uint32_t groups_ = 1, iterations_ = 0;
+    std::uint32_t b_ = kNoBuffer, x_ = kNoBuffer, inverse_ = kNoBuffer, state_ = kNoBuffer, log_ = kNoBuffer;
+};
+
+} // namespace taut
