@@ -33,12 +33,11 @@ std::string pipeline_cache()
 
 } // namespace
 
-void add_device_option(CLI::App& command, std::string& selector)
+void add_device_option(CLI::App& command, std::string& selector, const std::string& further)
 {
-    command.add_option(
-        "--device", selector,
-        "auto, vulkan, vulkan:1, part of a device's name, opengl, opengl:spirv, cpu, cpu:serial "
-        "(default: TAUT_DEVICE, else auto)");
+    command.add_option("--device", selector,
+                       "auto, vulkan, vulkan:1, part of a device's name, opengl, opengl:spirv, cpu, cpu:serial" +
+                           further + " (default: TAUT_DEVICE, else auto)");
 }
 
 std::shared_ptr<Device> open_device(const std::string& selector)

@@ -9,8 +9,8 @@
 
 namespace taut::cli {
 
-/// Adds --device to a command.
-void add_device_option(CLI::App& command, std::string& selector);
+/// Adds --device to a command; `further` names what it takes beside the devices.
+void add_device_option(CLI::App& command, std::string& selector, const std::string& further = {});
 
 /// Opens with the program's pipeline cache: the file that TAUT_PIPELINE_CACHE names ("off": none), else
 /// taut/pipelines.bin under XDG_CACHE_HOME or ~/.cache. Throws Error{no_device}.

@@ -7,6 +7,7 @@
 #include "taut/cli/pictures.hpp"
 #include "taut/cli/progress.hpp"
 #include "taut/cli/run_result.hpp"
+#include "taut/cli/simulation.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 
@@ -68,13 +69,13 @@ void forget_older_run(const fs::path& folder)
 class Runner
 {
 public:
-    Runner(const RunCommand& options, World& world, std::uint64_t frames)
+    Runner(const RunCommand& options, Simulation& simulation, std::uint64_t frames)
         : options_(options),
-          world_(world),
+          simulation_(simulation),
           frames_(frames),
-          every_(mesh_interval(options, world.scene())),
+          every_(mesh_interval(options, simulation.scene())),
           moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
-          meshes_(world.scene(), options.folder)
+          meshes_(simulation.scene(), options.folder)
     {}
 
     /// Up to the last frame, an interruption or a value that is not finite.
@@ -103,12 +104,11 @@ private:
     void step()
     {
         const auto start = std::chrono::steady_clock::now();
-        world_.step();
-        world_.device().wait();
+        simulation_.step();
         step_ms_.push_back(
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         ++done_;
-        finite_ = world_.events().non_finite == 0;
+        finite_ = simulation_.events().non_finite == 0;
     }
 
     /// The mesh and the moment of a frame, where they are due.
@@ -126,15 +126,15 @@ private:
     {
         if (!mesh && !moment)
             return;
-        std::vector<glm::dvec3> positions = world_.positions();
+        std::vector<glm::dvec3> positions = simulation_.positions();
         if (mesh)
-            meshes_.write(positions, done_, world_.time());
+            meshes_.write(positions, done_, simulation_.time());
         if (moment)
-            moments_.push_back({world_.time(), std::move(positions)});
+            moments_.push_back({simulation_.time(), std::move(positions)});
     }
 
     const RunCommand& options_;
-    World& world_;
+    Simulation& simulation_;
     std::uint64_t frames_, every_, done_ = 0;
     bool finite_ = true;
     std::vector<std::uint64_t> moment_frames_;
@@ -195,6 +195,25 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     return result;
 }
 
+/// A hybrid run: who did what. The world that is measured did not run, so it counted nothing.
+void describe_parts(const Simulation& simulation, RunResult& result)
+{
+    result.parts = simulation.parts();
+    if (result.parts.empty())
+        return;
+    result.device.executor = "hybrid";
+    result.device.name = result.parts[0].device.name + " and " + result.parts[1].device.name;
+    const Events events = simulation.events();
+    const std::pair<Warning, std::uint64_t> counts[] = {{Warning::degenerate, events.degenerate},
+                                                        {Warning::speed_clamp, events.speed_clamped},
+                                                        {Warning::conflict, events.conflicts}};
+    for (const auto& [warning, count] : counts)
+        if (count > 0)
+            result.report.warnings[std::string(to_string(warning))] += count;
+    if (events.non_finite > 0)
+        result.report.status = Status::non_finite;
+}
+
 void draw(const RunCommand& options, const World& world, const std::shared_ptr<Device>& device,
           const Runner& runner, RunResult& result)
 {
@@ -204,17 +223,19 @@ void draw(const RunCommand& options, const World& world, const std::shared_ptr<D
         result.messages.push_back(why_not);
 }
 
-RunResult simulate(const RunCommand& options, const Scene& scene, const std::shared_ptr<Device>& device,
-                   const InterruptGuard& guard)
+RunResult simulate(const RunCommand& options, const Scene& scene, const InterruptGuard& guard)
 {
-    World world(scene, device);
+    const std::unique_ptr<Simulation> simulation = open_simulation(options.device, scene);
     const std::uint64_t frames = frame_count(options, scene);
     make_folder(options.folder);
     forget_older_run(options.folder);
-    Runner runner(options, world, frames);
+    Runner runner(options, *simulation, frames);
     runner.run(guard);
 
+    World& world = simulation->whole();
+    const auto device = world.device().shared_from_this();
     RunResult result = describe(options, world, runner);
+    describe_parts(*simulation, result);
     result.frames_wanted = frames;
     if (runner.done() < frames && sound(result.report.status))
         result.report.status = Status::interrupted;
@@ -223,7 +244,8 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const std::sha
     if (result.report.status == Status::completed && !guard.interrupted())
     {
         measure_residuals(world, device, result.report);
-        result.passes = time_passes(world);
+        if (result.parts.empty())
+            result.passes = time_passes(world);
     }
     return result;
 }
@@ -234,9 +256,8 @@ int run(RunCommand options)
     const Scene scene = resolve(load_scene(options.scene), &issues);
     if (options.folder.empty())
         options.folder = fs::path("out") / fs::path(options.scene).stem();
-    const auto device = open_device(options.device);
     const InterruptGuard guard; // until the report is written
-    RunResult result = simulate(options, scene, device, guard);
+    RunResult result = simulate(options, scene, guard);
     for (const SceneIssue& issue : issues)
         result.messages.push_back((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
     const std::string report = to_text(to_json(result));
@@ -252,7 +273,8 @@ void add_run(CLI::App& app, Command& chosen)
     CLI::App* command = app.add_subcommand("run", "Simulate a scene; write meshes, a report and pictures");
     const auto options = std::make_shared<RunCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
-    add_device_option(*command, options->device);
+    add_device_option(*command, options->device,
+                      ", hybrid (the native CPU and the best other device at once), hybrid:DEVICE");
     command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)");
     command->add_option("--out", options->folder, "Folder for what is written (default: out/<scene>)");
     command->add_option("--every", options->every,

@@ -1,5 +1,6 @@
 #include "taut/cli/run_result.hpp"
 
+#include "taut/runtime/base/shown.hpp"
 #include "taut/version.hpp"
 
 #include <algorithm>
@@ -41,6 +42,18 @@ Json passes_json(const std::vector<EffectTime>& passes)
     return list;
 }
 
+Json parts_json(const std::vector<HybridPart>& parts)
+{
+    Json list = Json::array();
+    for (const HybridPart& part : parts)
+        list.push_back({{"device", part.device.name},
+                        {"executor", part.device.executor},
+                        {"bodies", part.bodies.size()},
+                        {"work", part.work},
+                        {"ms", part.milliseconds}});
+    return list;
+}
+
 } // namespace
 
 Json to_json(const RunResult& result)
@@ -61,6 +74,8 @@ Json to_json(const RunResult& result)
     json["step_ms"] = {{"median", percentile(result.step_ms, 0.5)},
                        {"p95", percentile(result.step_ms, 0.95)}};
     json["passes"] = passes_json(result.passes);
+    if (!result.parts.empty())
+        json["hybrid"] = parts_json(result.parts);
     json["max_stretch"] = report.max_stretch;
     json["rms_stretch"] = report.rms_stretch;
     json["penetration"] = report.penetration;
@@ -98,6 +113,10 @@ std::string summary(const RunResult& result)
         text += "warning " + word + " (" + std::to_string(count) + ")\n";
     for (const std::string& message : result.messages)
         text += "warning " + message + "\n";
+    for (const HybridPart& part : result.parts)
+        text += "device  " + part.device.name + " (" + part.device.executor +
+                "): " + counted(part.bodies.size(), "body", "bodies") + ", " + number(part.milliseconds, 3) +
+                " ms a step alone\n";
     text += "meshes  " + std::to_string(result.meshes) + " files " + result.folder + "/mesh_*.obj\n";
     text += "report  " + result.folder + "/report.json\n";
     for (const std::string& picture : result.pictures)

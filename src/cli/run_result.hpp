@@ -3,6 +3,7 @@
 
 #include "taut/cli/output.hpp"
 #include "taut/report/report.hpp"
+#include "taut/world/hybrid.hpp"
 
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct RunResult
     std::vector<EffectTime> passes;    ///< device time of one frame by effect; empty after an interruption
     std::vector<std::string> messages; ///< what scene and plan warn of, in sentences
     std::size_t meshes = 0;            ///< files written
+    std::vector<HybridPart> parts;     ///< of a hybrid run: what each device did
     std::vector<std::string> pictures; ///< files written, relative to the folder
 };
 

@@ -235,3 +235,25 @@ TEST_CASE("an interrupted run ends with what is done: a whole report that says s
     for (const std::string& name : folder.list("o"))
         CHECK(name.find(".tmp") == std::string::npos);
 }
+
+TEST_CASE("a hybrid run says which device did what, and ends where one device ends")
+{
+    const Folder folder;
+    const std::string scene = folder.file("two.json", scenes::two_bodies());
+    const auto report_of = [&](const std::string& device) {
+        const Result result = folder.taut({"run", scene, "--device", device, "--frames", "5", "--no-picture",
+                                           "--out", folder / "o", "--json"});
+        INFO(result.err);
+        REQUIRE(result.status == 0);
+        return program::parse(result.out);
+    };
+    const auto hybrid = report_of("hybrid:cpu:serial"), alone = report_of("cpu:serial");
+    check_keys(hybrid);
+    CHECK(hybrid["executor"] == "hybrid");
+    REQUIRE(hybrid["hybrid"].size() == 2);
+    CHECK(hybrid["hybrid"][0]["bodies"].get<int>() + hybrid["hybrid"][1]["bodies"].get<int>() == 2);
+    CHECK(hybrid["hybrid"][1]["executor"] == "cpu:serial");
+    CHECK(hybrid["position_hash"] == alone["position_hash"]);
+    CHECK_FALSE(alone.contains("hybrid"));
+    CHECK(folder.taut({"run", scene, "--device", "hybrid:nowhere", "--json"}).status == 3);
+}

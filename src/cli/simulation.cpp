@@ -1,0 +1,79 @@
+#include "taut/cli/simulation.hpp"
+
+#include "taut/cli/device_option.hpp"
+
+namespace taut::cli {
+namespace {
+
+constexpr std::string_view kHybrid = "hybrid";
+
+class OneDevice final : public Simulation
+{
+public:
+    OneDevice(const Scene& scene, std::shared_ptr<Device> device) : world_(scene, std::move(device)) {}
+
+    void step() override
+    {
+        world_.step();
+        world_.device().wait();
+    }
+    const Scene& scene() const override { return world_.scene(); }
+    double time() const override { return world_.time(); }
+    std::vector<glm::dvec3> positions() const override { return world_.positions(); }
+    Events events() const override { return world_.events(); }
+    World& whole() override { return world_; }
+
+private:
+    World world_;
+};
+
+class TwoDevices final : public Simulation
+{
+public:
+    TwoDevices(const Scene& scene, std::shared_ptr<Device> cpu, std::shared_ptr<Device> other)
+        : whole_(scene, cpu),
+          hybrid_(scene, cpu, std::move(other))
+    {
+        hybrid_.copy_into(whole_); // refuses now what it would refuse at the end
+    }
+
+    void step() override { hybrid_.step(); }
+    const Scene& scene() const override { return hybrid_.scene(); }
+    double time() const override { return hybrid_.time(); }
+    std::vector<glm::dvec3> positions() const override { return hybrid_.positions(); }
+    Events events() const override { return hybrid_.events(); }
+    World& whole() override
+    {
+        hybrid_.copy_into(whole_);
+        return whole_;
+    }
+    std::vector<HybridPart> parts() const override { return hybrid_.parts(); }
+
+private:
+    World whole_;
+    HybridWorld hybrid_;
+};
+
+/// The best device that is not the native CPU.
+std::shared_ptr<Device> best_other()
+{
+    for (const DeviceInfo& info : Device::list())
+        if (!info.executor.starts_with("cpu"))
+            return open_device(info.selector);
+    throw Error(ErrorCode::no_device,
+                "--device hybrid needs a second device beside the native CPU, and there "
+                "is none; `taut devices` lists what there is");
+}
+
+} // namespace
+
+std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved)
+{
+    if (selector != kHybrid && !selector.starts_with(std::string(kHybrid) + ":"))
+        return std::make_unique<OneDevice>(resolved, open_device(selector));
+    const std::string other = selector == kHybrid ? "" : selector.substr(kHybrid.size() + 1);
+    return std::make_unique<TwoDevices>(resolved, open_device("cpu"),
+                                        other.empty() ? best_other() : open_device(other));
+}
+
+} // namespace taut::cli

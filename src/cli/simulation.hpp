@@ -1,0 +1,31 @@
+#pragma once
+// What `taut run` steps: a world on one device, or one scene on two.
+
+#include "taut/world/hybrid.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut::cli {
+
+class Simulation
+{
+public:
+    virtual ~Simulation() = default;
+    virtual void step() = 0; ///< waits for the device
+    virtual const Scene& scene() const = 0;
+    virtual double time() const = 0;
+    virtual std::vector<glm::dvec3> positions() const = 0;
+    virtual Events events() const = 0;
+    /// A world in the state of the simulation, for reports and pictures. Stays the simulation's.
+    virtual World& whole() = 0;
+    virtual std::vector<HybridPart> parts() const { return {}; } ///< empty on one device
+};
+
+/// `selector` as --device has it. "hybrid" is the native CPU and the best other device, "hybrid:vulkan" (or
+/// another selector) says which. Throws Error{no_device} where there is no other device, Error{unsupported}
+/// where the scene's method keeps what two worlds cannot put together.
+std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved);
+
+} // namespace taut::cli
