@@ -12,6 +12,7 @@
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
 #include "shared/cg_state.glsl"
+#include "shared/active_rows.h"
 
 PARAMS
 {
@@ -28,7 +29,7 @@ UPDATE(2, real, x);
 READ(3, real, partials); // groups of each: r.z, r.r, b.b
 READ_ONE(4, CgState, before);
 WRITE(5, CgState, after);
-WRITE(6, uint, control);
+UPDATE(6, uint, control);
 #if DIAGONAL
 READ(7, real, inverse); // 1 / d; 0 = the row is held
 #elif BLOCK
@@ -92,8 +93,10 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     if (group == 0u)
     {
         after[0] = s;
-        control[TAUT_CONTROL_ITERATE] = turning ? groups : 0u;
-        control[TAUT_CONTROL_REPLACE] = replace ? groups : 0u;
+        uint used = control[TAUT_CONTROL_GROUPS];
+        used = used == 0u ? groups : used;
+        control[TAUT_CONTROL_ITERATE] = turning ? used : 0u;
+        control[TAUT_CONTROL_REPLACE] = replace ? used : 0u;
         if (history > 0u)
             control[uint(TAUT_CONTROL_HISTORY) + reached % history] = cg_history_word(s);
     }

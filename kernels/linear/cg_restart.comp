@@ -12,6 +12,7 @@
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
 #include "shared/cg_state.glsl"
+#include "shared/active_rows.h"
 
 PARAMS
 {
@@ -27,7 +28,7 @@ READ(1, real, b);         // where begin_solve is 0 anything
 WRITE(2, real, partials); // groups of each: r.z, r.r, b.b
 READ_ONE(3, CgState, before);
 WRITE(4, CgState, after);
-WRITE(5, uint, control);
+UPDATE(5, uint, control);
 #if DIAGONAL || BLOCK || HELD
 READ(6, real, inverse); // as in cg_direction; with HELD only whether it is 0
 #endif
@@ -103,7 +104,8 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     if (group == 0u)
     {
         after[0] = s;
-        control[TAUT_CONTROL_ITERATE] = groups;
+        uint used = control[TAUT_CONTROL_GROUPS];
+        control[TAUT_CONTROL_ITERATE] = used == 0u ? groups : used;
         control[TAUT_CONTROL_ITERATE + 1] = 1u;
         control[TAUT_CONTROL_ITERATE + 2] = 1u;
 #if STORED

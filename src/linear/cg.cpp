@@ -66,6 +66,7 @@ ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared
       groups_(group_count_for(operator_->rows(), device_->info()))
 {
     check_row_count(operator_->rows());
+    always_ = {groups_, nullptr, 0};
     if (pairs_ && precision_ != Precision::float32)
         throw Error(ErrorCode::bad_input, "pairs are made of floats: take an operator in float");
     if (preconditioning_.kind == Preconditioner::block_jacobi && operator_->rows() % 3 != 0)
@@ -106,6 +107,11 @@ void ConjugateGradient::set(const CgSettings& settings)
         device_->write<layout::CgState<double>>(settings_, std::vector{first_state<double>(settings)});
 }
 
+void ConjugateGradient::use_part(BufferPtr control, std::uint64_t offset)
+{
+    always_ = {groups_, std::move(control), offset};
+}
+
 /// Rows, or block rows, as the passes of conjugate gradients share them.
 static Grid grid_of(const Operator& op, Preconditioner kind, std::uint32_t groups)
 {
@@ -144,10 +150,9 @@ void ConjugateGradient::record_preconditioner(Recorder& recorder, const Gate& ga
 
 void ConjugateGradient::record_begin(Recorder& recorder)
 {
-    const Gate always{groups_, nullptr, 0};
-    record_collect(recorder, always, false);
-    record_residual(recorder, always);
-    record_restart(recorder, always, true);
+    record_collect(recorder, always_, false);
+    record_residual(recorder, always_);
+    record_restart(recorder, always_, true);
 }
 
 void ConjugateGradient::record_iterations(Recorder& recorder, std::uint32_t count)
@@ -208,7 +213,7 @@ void ConjugateGradient::record_end(Recorder& recorder)
     record_direction(recorder, true); // takes the last step, and may ask for the residual
     record_replacement(recorder);
     record_direction(recorder, true); // says how it ended
-    record_collect(recorder, {groups_, nullptr, 0}, true);
+    record_collect(recorder, always_, true);
 }
 
 /// base += x where `add`, and x = 0.

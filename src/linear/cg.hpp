@@ -61,6 +61,17 @@ public:
     /// Written by the host before a replay; the recording stays.
     void set(const CgSettings&);
 
+    /// For a system of which only the first rows are in use, as many as a pass of the caller says. Before
+    /// record_begin that pass writes the word TAUT_CONTROL_GROUPS of control() (shared/active_rows.h): the
+    /// groups, of rows() / TAUT_LINEAR_GROUP in fixed shares (grid.hpp), that hold a row in use; and clears
+    /// partials() and curvatures(), to which the others add nothing. Rows of the last of these groups that
+    /// are not in use must have b = 0 and A x = 0 there. `always` says when what runs in any case runs, and
+    /// with how many groups: where the word is 0 the whole solve is passed over.
+    void use_part(BufferPtr control, std::uint64_t offset);
+    const BufferPtr& control() const { return control_; }
+    const BufferPtr& partials() const { return partials_; }
+    const BufferPtr& curvatures() const { return curvatures_; }
+
     /// r = b - A x, b.b, and the state of a new solve.
     void record_begin(Recorder&);
     /// Room for `count` iterations: three dispatches each (COO and Chebyshev more), and after every eighth
@@ -93,6 +104,7 @@ private:
     bool pairs_ = false;
     Precision precision_;
     std::uint32_t groups_ = 1;
+    Gate always_; ///< of what runs in any case
     BufferPtr b_, base_, x_, r_, p_, q_, z_, partials_, curvatures_, settings_, decided_, measured_, control_;
 };
 

@@ -1,4 +1,5 @@
 #include "taut/kernels/cg_direction.hpp"
+#include "taut/kernels/shared/active_rows.h"
 
 #include "support/cg_cases.hpp"
 
@@ -14,7 +15,9 @@ constexpr std::uint32_t kHistory = 16;
 
 std::vector<std::uint32_t> fresh_control()
 {
-    return std::vector<std::uint32_t>(TAUT_CONTROL_HISTORY + kHistory, 77u);
+    std::vector<std::uint32_t> words(TAUT_CONTROL_HISTORY + kHistory, 77u);
+    words[TAUT_CONTROL_GROUPS] = 0; // all of them
+    return words;
 }
 
 /// Everything but the launch; partials one a group each: r.z, r.r, b.b.
@@ -268,6 +271,24 @@ TEMPLATE_TEST_CASE("cg_direction decides how a solve goes on or ends", "", float
             },
             finite);
     }
+}
+
+TEST_CASE("cg_direction asks only for the groups that hold rows in use")
+{
+    CgState<float> before = middle_of_solve<float>();
+    const std::uint32_t groups = 5, used = GENERATE(0u, 1u, 3u, 5u);
+    const std::vector<float> rows(600, 0.5f);
+    Case c = make_case<float>(before, rows, rows, rows, std::vector<float>(3 * groups, 0.25f));
+    auto words = fresh_control();
+    words[TAUT_CONTROL_GROUPS] = used;
+    c.in["control"] = bytes_of(words);
+    c.launches = {make_launch(kernels::cg_direction::info("", c.precision),
+                              kernels::cg_direction::Params{600, 128, groups, 0, 0}, groups)};
+    look_on_every_device(c, [&](const Buffers& out) {
+        const auto control = values_of<std::uint32_t>(out.at("control"));
+        CHECK(control[TAUT_CONTROL_ITERATE] == (used == 0 ? groups : used));
+        CHECK(control[TAUT_CONTROL_GROUPS] == used);
+    });
 }
 
 TEMPLATE_TEST_CASE("cg_direction keeps what the next decisions need", "", float, double)
