@@ -4,6 +4,7 @@
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/output.hpp"
+#include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
 #include "taut/world/world.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 struct PlanCommand
 {
     std::string scene, device;
+    std::vector<std::string> settings;
     bool json = false;
 };
 
@@ -79,7 +81,7 @@ std::string to_table(const Plan& plan)
 
 int show_plan(const PlanCommand& options)
 {
-    const Scene scene = resolve(load_scene(options.scene));
+    const Scene scene = resolve(load_scene(options.scene, options.settings));
     DeviceTraits traits;
     std::string name;
     if (!options.device.empty())
@@ -102,6 +104,7 @@ void add_plan(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<PlanCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
+    command->add_option("--set", options->settings, "A value of the scene: method.type=implicit_euler");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return show_plan(*options); }; });
 }

@@ -10,6 +10,7 @@
 #include "taut/cli/simulation.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/settings.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -26,6 +27,7 @@ namespace {
 struct RunCommand
 {
     std::string scene, device;
+    std::vector<std::string> settings;
     fs::path folder;
     std::optional<std::uint32_t> frames, every;
     bool json = false, no_picture = false;
@@ -253,7 +255,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
 int run(RunCommand options)
 {
     std::vector<SceneIssue> issues;
-    const Scene scene = resolve(load_scene(options.scene), &issues);
+    const Scene scene = resolve(load_scene(options.scene, options.settings), &issues);
     if (options.folder.empty())
         options.folder = fs::path("out") / fs::path(options.scene).stem();
     const InterruptGuard guard; // until the report is written
@@ -275,6 +277,7 @@ void add_run(CLI::App& app, Command& chosen)
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device,
                       ", hybrid (the native CPU and the best other device at once), hybrid:DEVICE");
+    command->add_option("--set", options->settings, "A value of the scene: method.substeps=20");
     command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)");
     command->add_option("--out", options->folder, "Folder for what is written (default: out/<scene>)");
     command->add_option("--every", options->every,

@@ -4,7 +4,8 @@
 #include "taut/scene/file_text.hpp"
 #include "taut/scene/json_text.hpp"
 #include "taut/scene/keys.hpp"
-#include "taut/scene/scene.hpp"
+#include "taut/scene/settings.hpp"
+#include "taut/scene/set_value.hpp"
 
 #include <array>
 #include <limits>
@@ -346,21 +347,32 @@ Scene read_scene(Field field)
 
 } // namespace
 
-Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name)
+Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name,
+                  std::span<const std::string> settings)
 {
     const std::string file(name);
-    const nlohmann::json tree = scene_file::parse_json(json, file);
+    nlohmann::json tree = scene_file::parse_json(json, file);
+    for (const std::string& setting : settings)
+        scene_file::set_value(tree, setting, file);
     Scene scene = read_scene(Field(tree, file, {}));
     scene.directory = directory;
     return scene;
 }
 
-Scene load_scene(const std::filesystem::path& file)
+Scene load_scene(const std::filesystem::path& file, std::span<const std::string> settings)
 {
-    Scene scene = parse_scene(scene_file::read_file(file, kMaxSceneBytes), file.parent_path(), file.string());
+    Scene scene = parse_scene(scene_file::read_file(file, kMaxSceneBytes), file.parent_path(), file.string(),
+                              settings);
     if (scene.name.empty())
         scene.name = file.stem().string();
     return scene;
 }
+
+Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name)
+{
+    return parse_scene(json, directory, name, {});
+}
+
+Scene load_scene(const std::filesystem::path& file) { return load_scene(file, {}); }
 
 } // namespace taut

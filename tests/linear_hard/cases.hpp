@@ -6,6 +6,7 @@
 
 #include "conformance/tolerances.hpp"
 #include "support/catch.hpp"
+#include "support/data.hpp"
 #include "support/devices.hpp"
 #include "support/random.hpp"
 
@@ -255,10 +256,7 @@ inline SparseMatrix with_entries(const SparseMatrix& a, std::span<const Triplet>
 /// The folder of shared/data/matrices; empty, and said, where it is not there.
 inline std::filesystem::path matrix_folder()
 {
-    const char* named = std::getenv("TAUT_DATA");
-    const auto folder = (named != nullptr ? std::filesystem::path(named)
-                                          : std::filesystem::path(TAUT_SOURCE_DIR) / "../shared/data") /
-                        "matrices";
+    const auto folder = data_folder() / "matrices";
     if (std::filesystem::exists(folder))
         return folder;
     WARN("skipped: no folder " << folder << "; set TAUT_DATA to the folder of shared data");

@@ -1,6 +1,7 @@
 // A real garment on every executor: docs/garment.md states the tolerance.
 
 #include "support/catch.hpp"
+#include "support/data.hpp"
 #include "support/devices.hpp"
 
 #include "taut/world/world.hpp"
@@ -18,13 +19,6 @@ namespace {
 /// Of the diagonal of the garment's box, over 30 frames. Software drivers compute the very bits of the native
 /// executor; a hardware GPU divides and takes roots with errors of its own, which cloth amplifies.
 constexpr double kHardwareTolerance = 0.01;
-
-std::filesystem::path data_folder()
-{
-    const char* named = std::getenv("TAUT_DATA");
-    return named != nullptr ? std::filesystem::path(named)
-                            : std::filesystem::path(TAUT_SOURCE_DIR) / "../shared/data";
-}
 
 std::vector<glm::dvec3> after_thirty_frames(Scene scene, const std::string& device)
 {

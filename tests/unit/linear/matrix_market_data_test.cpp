@@ -7,6 +7,7 @@
 #include "taut/scene/file_text.hpp"
 
 #include "support/catch.hpp"
+#include "support/data.hpp"
 #include "support/sound_matrix.hpp"
 
 #include <Eigen/SparseCore>
@@ -23,10 +24,7 @@ namespace {
 
 std::vector<std::filesystem::path> matrix_files()
 {
-    const char* named = std::getenv("TAUT_DATA");
-    const std::filesystem::path root =
-        named ? std::filesystem::path(named)
-              : std::filesystem::path(TAUT_SOURCE_DIR) / ".." / "shared" / "data";
+    const std::filesystem::path root = data_folder();
     std::vector<std::filesystem::path> files;
     std::error_code missing;
     for (const auto& entry : std::filesystem::directory_iterator(root / "matrices", missing))

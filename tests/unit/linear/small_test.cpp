@@ -166,10 +166,7 @@ TEST_CASE("a batch solves again with other right-hand sides", "[linear][small]")
 
 TEST_CASE("pairs reach ten digits of the true residual", "[linear][small]")
 {
-    const char* named = std::getenv("TAUT_DATA");
-    const std::filesystem::path beside = std::filesystem::path(TAUT_SOURCE_DIR) / ".." / "shared" / "data";
-    const std::filesystem::path root = named ? std::filesystem::path(named) : beside;
-    const std::filesystem::path file = root / "matrices" / "mesh1e1.mtx";
+    const std::filesystem::path file = data_folder() / "matrices" / "mesh1e1.mtx";
     conformance::Random random(36);
     std::vector<SparseMatrix> matrices = {poisson2d(30), covariance(200)};
     if (std::filesystem::exists(file))

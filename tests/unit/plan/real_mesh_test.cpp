@@ -1,6 +1,7 @@
 // Edges, hinges and colours of meshes that people made.
 
 #include "support/catch.hpp"
+#include "support/data.hpp"
 #include "taut/plan/topology.hpp"
 
 #include <algorithm>
@@ -14,13 +15,6 @@
 using namespace taut;
 
 namespace {
-
-std::filesystem::path data_folder()
-{
-    const char* named = std::getenv("TAUT_DATA");
-    return named != nullptr ? std::filesystem::path(named)
-                            : std::filesystem::path(TAUT_SOURCE_DIR) / ".." / "shared" / "data";
-}
 
 /// A reader for the tests alone, so that they do not depend on the scene's: OFF and OBJ triangles.
 bool read_triangles(const std::string& name, Mesh& mesh)

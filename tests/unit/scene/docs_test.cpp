@@ -84,7 +84,7 @@ TEST_CASE("the examples in docs/scene.md are scenes without a fault")
 TEST_CASE("every scene in examples/scenes loads and resolves without a warning")
 {
     int scenes = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(kRoot / "examples" / "scenes"))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / "examples" / "scenes"))
     {
         if (entry.path().extension() != ".json")
             continue;

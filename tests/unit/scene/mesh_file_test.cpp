@@ -1,5 +1,6 @@
 #include "seeds.hpp"
 #include "support/catch.hpp"
+#include "support/data.hpp"
 #include "temporary.hpp"
 
 #include "taut/runtime/base/error.hpp"
@@ -44,11 +45,7 @@ std::string refusal(const std::string& extension, const std::string& text)
 
 using Catch::Matchers::Contains;
 
-std::filesystem::path data_folder()
-{
-    const char* named = std::getenv("TAUT_DATA");
-    return std::filesystem::path(named ? named : TAUT_SOURCE_DIR "/../shared/data") / "meshes";
-}
+std::filesystem::path mesh_folder() { return data_folder() / "meshes"; }
 
 } // namespace
 
@@ -250,16 +247,16 @@ constexpr Known kKnown[] = {
 
 TEST_CASE("real meshes have the counts that another program found")
 {
-    if (!std::filesystem::exists(data_folder()))
+    if (!std::filesystem::exists(mesh_folder()))
     {
-        WARN("skipped: no folder " << data_folder() << "; set TAUT_DATA to the folder of shared data");
+        WARN("skipped: no folder " << mesh_folder() << "; set TAUT_DATA to the folder of shared data");
         return;
     }
     for (const Known& known : kKnown)
     {
         INFO(known.file);
         MeshFindings findings;
-        const Mesh mesh = read_mesh(data_folder() / known.file, 0, &findings);
+        const Mesh mesh = read_mesh(mesh_folder() / known.file, 0, &findings);
         CHECK(mesh.positions.size() + findings.welded_vertices == known.vertices);
         CHECK(findings.welded_vertices == known.duplicates);
         CHECK(mesh.triangles.size() == known.triangles);
@@ -272,16 +269,16 @@ TEST_CASE("real meshes have the counts that another program found")
 
 TEST_CASE("an independent reader finds the same triangles in real OBJ files")
 {
-    if (!std::filesystem::exists(data_folder()))
+    if (!std::filesystem::exists(mesh_folder()))
     {
-        WARN("skipped: no folder " << data_folder() << "; set TAUT_DATA to the folder of shared data");
+        WARN("skipped: no folder " << mesh_folder() << "; set TAUT_DATA to the folder of shared data");
         return;
     }
     for (const char* name : {"skirt_seamless_20k_cm.obj", "dress_stage.obj", "bunny_10k.obj"})
     {
-        const Mesh mesh = read_mesh(data_folder() / name, -1);
+        const Mesh mesh = read_mesh(mesh_folder() / name, -1);
         Assimp::Importer importer;
-        const aiScene* scene = importer.ReadFile((data_folder() / name).string(), 0);
+        const aiScene* scene = importer.ReadFile((mesh_folder() / name).string(), 0);
         REQUIRE(scene != nullptr);
         std::size_t t = 0, different = 0;
         for (unsigned m = 0; m < scene->mNumMeshes; ++m)

@@ -1,0 +1,165 @@
+#include "taut/report/compare.hpp"
+
+#include "taut/report/errors.hpp"
+#include "taut/runtime/base/shown.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace taut {
+namespace {
+
+using Clockwork = std::chrono::steady_clock;
+
+constexpr std::uint64_t kLooks = 60; ///< frames that are measured, spread over the run
+
+double median(std::vector<double> values)
+{
+    if (values.empty())
+        return 0;
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+}
+
+void look(const World& world, CompareRow& row)
+{
+    row.report = measure(world);
+    row.worst_stretch = std::max(row.worst_stretch, row.report.max_stretch);
+    row.worst_rms_stretch = std::max(row.worst_rms_stretch, row.report.rms_stretch);
+    row.highest_energy =
+        std::max(row.highest_energy, row.report.kinetic_energy + row.report.potential_energy);
+}
+
+void run(World& world, std::uint64_t frames, CompareRow& row)
+{
+    const std::uint64_t every = std::max<std::uint64_t>(frames / kLooks, 1);
+    look(world, row);
+    row.highest_energy = row.report.kinetic_energy + row.report.potential_energy;
+    std::vector<double> times;
+    for (std::uint64_t k = 1; k <= frames && row.report.status == Status::completed; ++k)
+    {
+        const auto start = Clockwork::now();
+        world.step();
+        world.device().wait();
+        times.push_back(std::chrono::duration<double, std::milli>(Clockwork::now() - start).count());
+        if (k % every == 0 || k == frames)
+            look(world, row);
+    }
+    row.step_ms = median(std::move(times));
+    row.positions = world.positions();
+}
+
+CompareRow row_of(const Variant& variant, std::uint64_t frames)
+{
+    CompareRow row;
+    row.label = variant.label;
+    row.method = variant.scene.method.type;
+    row.executor = variant.device->info().executor;
+    try
+    {
+        World world(variant.scene, variant.device);
+        run(world, frames, row);
+    }
+    catch (const Error& error)
+    {
+        row.refusal = std::string(to_string(error.code())) + ": " + error.what();
+    }
+    return row;
+}
+
+/// The cells of a row; `percent` of strains.
+std::vector<std::string> cells(const CompareRow& row)
+{
+    const StepReport& r = row.report;
+    std::vector<std::string> out = {row.label, row.method, row.executor};
+    if (!row.refusal.empty())
+    {
+        out.insert(out.end(), {"refused", "", "", "", "", "", row.refusal});
+        return out;
+    }
+    const double percent = 100;
+    out.insert(out.end(),
+               {shown(row.step_ms, 3), shown(percent * row.worst_stretch, 3),
+                shown(percent * r.max_stretch, 3), shown(percent * r.rms_stretch, 3),
+                shown(r.kinetic_energy + r.potential_energy, 4),
+                row.difference ? shown(percent * *row.difference, 3) : "", std::string(to_string(r.status))});
+    return out;
+}
+
+const std::vector<std::string> kHead = {"variant",
+                                        "method",
+                                        "executor",
+                                        "ms a step",
+                                        "worst strain %",
+                                        "largest strain at the end %",
+                                        "rms strain at the end %",
+                                        "energy at the end J",
+                                        "difference e_L %",
+                                        "status"};
+
+/// In quotes where CSV wants it.
+std::string quoted(const std::string& text)
+{
+    if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+    std::string out = "\"";
+    for (const char c : text)
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+} // namespace
+
+std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames)
+{
+    if (variants.empty())
+        throw Error(ErrorCode::bad_input, "there is nothing to compare: give at least one variant");
+    std::vector<CompareRow> rows;
+    const CompareRow* first = nullptr;
+    rows.reserve(variants.size());
+    for (const Variant& variant : variants)
+    {
+        rows.push_back(row_of(variant, frames));
+        CompareRow& row = rows.back();
+        if (row.refusal.empty() && first == nullptr)
+            first = &row;
+        else if (row.refusal.empty() && row.positions.size() == first->positions.size())
+            row.difference =
+                largest_error(error_weights(make_model(variant.scene)), row.positions, first->positions);
+    }
+    return rows;
+}
+
+std::string compare_markdown(const std::vector<CompareRow>& rows)
+{
+    const auto line = [](const std::vector<std::string>& cells_of_row) {
+        std::string text = "|";
+        for (const std::string& cell : cells_of_row)
+            text += " " + cell + " |";
+        return text + "\n";
+    };
+    std::string text = line(kHead) + "|";
+    for (std::size_t column = 0; column < kHead.size(); ++column)
+        text += column < 3 ? "---|" : "---:|";
+    text += "\n";
+    for (const CompareRow& row : rows)
+        text += line(cells(row));
+    return text;
+}
+
+std::string compare_csv(const std::vector<CompareRow>& rows)
+{
+    const auto line = [](const std::vector<std::string>& cells_of_row) {
+        std::string text;
+        for (const std::string& cell : cells_of_row)
+            text += (text.empty() ? "" : ",") + quoted(cell);
+        return text + "\n";
+    };
+    std::string text = line(kHead);
+    for (const CompareRow& row : rows)
+        text += line(cells(row));
+    return text;
+}
+
+} // namespace taut

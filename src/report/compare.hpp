@@ -1,0 +1,42 @@
+#pragma once
+// Variants of one scene side by side: what each costs, how far it stretches, where it ends.
+
+#include "taut/report/report.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+struct Variant
+{
+    std::string label;
+    Scene scene; ///< resolved
+    std::shared_ptr<Device> device;
+};
+
+struct CompareRow
+{
+    std::string label, method, executor;
+    std::string refusal;          ///< why the plan refuses it; the rest is then empty
+    StepReport report;            ///< at the end
+    double worst_stretch = 0;     ///< (l - L)/L, largest over all frames looked at
+    double worst_rms_stretch = 0; ///< the same of the root mean square of tension
+    double highest_energy = 0;    ///< J, kinetic and potential
+    double step_ms = 0;           ///< median wall time of a step, waiting included
+    /// e_L of the last frame against the first variant that ran; empty where vertices do not correspond.
+    std::optional<double> difference;
+    std::vector<glm::dvec3> positions; ///< m, at the end
+};
+
+/// Runs each variant for so many time steps, one after another. A variant that its plan refuses is a row with
+/// the reason. Throws Error{bad_input} without variants.
+std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames);
+
+/// A table in Markdown, and the same as CSV.
+std::string compare_markdown(const std::vector<CompareRow>& rows);
+std::string compare_csv(const std::vector<CompareRow>& rows);
+
+} // namespace taut

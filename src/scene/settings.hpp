@@ -1,0 +1,16 @@
+#pragma once
+// Scene files with single values set from outside, for variants of one scene.
+
+#include "taut/scene/scene.hpp"
+
+#include <span>
+
+namespace taut {
+
+/// As load_scene and parse_scene of scene.hpp; `settings` change single values before anything is checked:
+/// "method.type=acad", "bodies[0].material.drag=1". Throws Error{bad_input} for one that names nothing.
+Scene load_scene(const std::filesystem::path& file, std::span<const std::string> settings);
+Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name,
+                  std::span<const std::string> settings);
+
+} // namespace taut

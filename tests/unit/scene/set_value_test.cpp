@@ -1,0 +1,54 @@
+#include "support/catch.hpp"
+
+#include "taut/runtime/base/error.hpp"
+#include "taut/scene/settings.hpp"
+
+using namespace taut;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const char* const kScene = R"({"taut": 1, "bodies": [{"grid": {}}, {"chain": {"links": 3}}]})";
+
+std::string refusal_of(const std::string& setting)
+{
+    try
+    {
+        parse_scene(kScene, {}, "my.json", std::vector<std::string>{setting});
+    }
+    catch (const Error& error)
+    {
+        return error.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
+TEST_CASE("settings change single values of a scene, and make objects that are missing")
+{
+    const std::vector<std::string> settings = {"method.type=acad", "method.substeps=7",
+                                               "bodies[0].material.drag=1.5", "gravity=[0, 0, -1]",
+                                               "bodies[1].chain.links=9", "bodies[0].grid.network.bend=4"};
+    const Scene scene = parse_scene(kScene, {}, "my.json", settings);
+    CHECK(scene.method.type == "acad");
+    CHECK(scene.method.substeps == 7);
+    CHECK(scene.bodies[0].material.drag == 1.5);
+    CHECK(scene.gravity == glm::dvec3(0, 0, -1));
+    CHECK(scene.bodies[1].shape.links == 9);
+    CHECK(scene.bodies[0].shape.network.used);
+    CHECK(scene.bodies[0].shape.network.bend == 4);
+}
+
+TEST_CASE("settings that say nothing are refused in words")
+{
+    CHECK_THAT(refusal_of("method.substeps"), Contains("my.json") && Contains("has no \"=\""));
+    CHECK_THAT(refusal_of("=3"), Contains("empty key"));
+    CHECK_THAT(refusal_of("bodies[2].velocity=[0, 0, 0]"), Contains("element 2 of a list of 2"));
+    CHECK_THAT(refusal_of("bodies[x].velocity=[0, 0, 0]"), Contains("whole number"));
+    CHECK_THAT(refusal_of("bodies[0.velocity=[0, 0, 0]"), Contains("does not close"));
+    CHECK_THAT(refusal_of("method[0]=3"), Contains("not a list"));
+    CHECK_THAT(refusal_of("taut.x=3"), Contains("not an object"));
+    CHECK_THAT(refusal_of("method.substep=3"), Contains("did you mean \"substeps\"?")); // by the parser
+    CHECK_THAT(refusal_of("method.substeps=many"), Contains("many"));
+}
