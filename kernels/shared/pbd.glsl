@@ -1,0 +1,58 @@
+// What position-based dynamics does to one spring and to one hinge, for its coloured and its Jacobi kernels.
+//
+// Based on: Mueller, Heidelberger, Hennix, Ratcliff. Position Based Dynamics. VRIPHYS 2006 / JVCIR 18(2),
+//   2007: section 4.1 (stretch) and 4.4 (bending).
+// Departures: `share` is the part of a correction that one iteration makes, 1 - (1 - k)^(1/n); the angle of a
+//   hinge comes from shared/hinge.glsl, not from acos; places are differences plus displacements.
+#ifndef TAUT_SHARED_PBD_GLSL
+#define TAUT_SHARED_PBD_GLSL
+
+#include "shared/hinge.glsl"
+
+/// Displacement per inverse mass of end a (end b has its negative); zero where there is no direction.
+struct SpringPush
+{
+    rvec4 push; // kg m, w = 0
+    bool usable;
+};
+
+SpringPush spring_push(DistanceConstraint c, rvec4 xa, rvec4 xb, rvec4 da, rvec4 db, real share)
+{
+    SpringPush out_push;
+    rvec4 d = (xa - xb) + (da - db);
+    real len = length(rvec3(d));
+    real denominator = (xa.w + xb.w) * len;
+    out_push.usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
+    real scale = (c.rest_length - len) * share / denominator;
+    scale = out_push.usable ? scale : real(0);
+    out_push.push = d * rvec4(scale, scale, scale, real(0));
+    return out_push;
+}
+
+/// Displacements per inverse mass of the four corners.
+struct HingePush
+{
+    rvec3 edge0, edge1, wing0, wing1; // kg m
+    bool shaped;
+};
+
+HingePush hinge_push(BendingConstraint c, rvec4 p0, rvec4 p1, rvec4 p2, rvec4 p3,
+                     rvec4 d0, rvec4 d1, rvec4 d2, rvec4 d3, real share)
+{
+    HingePush out_push;
+    HingeShape hinge = hinge_shape(rvec3(p1 - p0) + rvec3(d1 - d0), rvec3(p2 - p0) + rvec3(d2 - d0),
+                                   rvec3(p3 - p0) + rvec3(d3 - d0));
+    real weight = p0.w * dot(hinge.edge0, hinge.edge0) + p1.w * dot(hinge.edge1, hinge.edge1) +
+                  p2.w * dot(hinge.wing0, hinge.wing0) + p3.w * dot(hinge.wing1, hinge.wing1);
+    bool usable = hinge.shaped && weight > real(0); // held vertices alone may carry the gradient
+    real scale = angle_difference(hinge.angle, c.rest_angle) * -share / (usable ? weight : real(1));
+    scale = usable ? scale : real(0);
+    out_push.edge0 = hinge.edge0 * scale;
+    out_push.edge1 = hinge.edge1 * scale;
+    out_push.wing0 = hinge.wing0 * scale;
+    out_push.wing1 = hinge.wing1 * scale;
+    out_push.shaped = hinge.shaped;
+    return out_push;
+}
+
+#endif
