@@ -25,7 +25,7 @@ SpringPush spring_push(DistanceConstraint c, rvec4 xa, rvec4 xb, rvec4 da, rvec4
     out_push.usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
     real scale = (c.rest_length - len) * share / denominator;
     scale = out_push.usable ? scale : real(0);
-    out_push.push = d * rvec4(scale, scale, scale, real(0));
+    out_push.push = rvec4(rvec3(d) * scale, real(0)); // a product with zero may lose its sign
     return out_push;
 }
 

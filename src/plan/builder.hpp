@@ -48,6 +48,15 @@ struct Use
     std::uint32_t touched = 1;
 };
 
+/// Buffers of the Jacobi schemes of PBD, kNoBuffer where a scene has no use for them (pbd.hpp).
+struct PbdBuffers
+{
+    std::uint32_t springs = kNoBuffer, springs_at = kNoBuffer, spring_slots = kNoBuffer;
+    std::uint32_t hinges = kNoBuffer, hinges_at = kNoBuffer, hinge_slots = kNoBuffer;
+    std::uint32_t other = kNoBuffer; ///< the iterate that is not in the plan's `delta`
+    std::uint32_t spring_count = 0, hinge_count = 0;
+};
+
 class PlanBuilder
 {
 public:
@@ -111,6 +120,7 @@ public:
     std::vector<double> gap;               ///< plan order, kept from colliders, m
     std::uint32_t pin_vertices = kNoBuffer;
     const Method& method;
+    PbdBuffers pbd;
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
 

@@ -28,9 +28,9 @@
 namespace taut {
 namespace {
 
-void add_buffers(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table)
+void add_buffers(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table, bool multipliers)
 {
-    if (b.plan.iterations > 1 || b.options.residuals)
+    if (multipliers && (b.plan.iterations > 1 || b.options.residuals))
         set.multipliers = b.add_buffer(set.kind, set.kind + " multipliers", set.count * b.real_size());
     bool grouped = set.small_bodies > 0;
     for (const Run& run : runs_of(b, set))
@@ -80,11 +80,19 @@ ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t
     return graph;
 }
 
+/// The edges of a grid, or the springs of its network, and nothing else.
+bool is_grid(const Body& body)
+{
+    return body.mesh.grid_columns > 0 &&
+           std::none_of(body.springs.begin(), body.springs.end(),
+                        [](const Body::Spring& s) { return s.kind == SpringKind::extra; });
+}
+
 Colouring stretch_colouring(const PlanBuilder& b, std::size_t body,
-                            const std::vector<StretchElement>& elements, bool grid)
+                            const std::vector<StretchElement>& elements, std::uint32_t hub_degree)
 {
     const std::uint32_t first = b.plan.body_start[body];
-    if (grid)
+    if (is_grid(b.scene.bodies[body]))
     {
         std::vector<std::array<std::uint32_t, 2>> edges;
         for (const StretchElement& e : elements)
@@ -94,7 +102,7 @@ Colouring stretch_colouring(const PlanBuilder& b, std::size_t body,
     ConstraintGraph graph = body_graph(b, body, 2);
     for (const StretchElement& e : elements)
         graph.vertices.insert(graph.vertices.end(), {e.a - first, e.b - first});
-    Colouring colouring = colour_greedy(graph);
+    Colouring colouring = colour_greedy(graph, {hub_degree, true});
     for (std::uint32_t& hub : colouring.hubs)
         hub += first;
     return colouring;
@@ -155,14 +163,6 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
     }
 }
 
-const ConstraintSet* find_set(const Plan& plan, std::string_view kind)
-{
-    for (const ConstraintSet& set : plan.constraints)
-        if (set.kind == kind)
-            return &set;
-    return nullptr;
-}
-
 } // namespace
 
 Colouring grid_edge_colouring(std::span<const std::array<std::uint32_t, 2>> edges, std::uint32_t columns)
@@ -170,30 +170,35 @@ Colouring grid_edge_colouring(std::span<const std::array<std::uint32_t, 2>> edge
     std::vector<GridSpring> springs;
     for (const auto& [a, b] : edges)
     {
-        const std::uint32_t step = b - a, row = a / columns, column = a % columns;
-        // A grid of two columns has steps 1 (also columns - 1): along the row when both ends are in it.
-        const bool along_row = row == b / columns;
-        const std::uint32_t kind = along_row ? 0 : step == columns ? 2 : step == columns + 1 ? 4 : 6;
-        springs.push_back({a, b, static_cast<std::uint8_t>(kind + (kind == 0 ? column % 2 : row % 2))});
+        const std::uint32_t row = a / columns, column = a % columns;
+        const std::uint32_t down = b / columns - row;
+        const auto right = static_cast<std::int32_t>(b % columns) - static_cast<std::int32_t>(column);
+        // One of six directions; the parity of where it starts, in steps of its own length, does the rest.
+        const std::uint32_t direction = down == 0    ? (right == 1 ? 0 : 4)
+                                        : right == 0 ? (down == 1 ? 1 : 5)
+                                                     : (right > 0 ? 2 : 3);
+        const std::uint32_t step = direction == 0   ? column
+                                   : direction == 4 ? column / 2
+                                   : direction == 5 ? row / 2
+                                                    : row;
+        springs.push_back({a, b, static_cast<std::uint8_t>(2 * direction + step % 2)});
     }
     return colouring_of(springs);
 }
 
-void prepare_distance(PlanBuilder& b)
+void prepare_springs(PlanBuilder& b, const SetOptions& options)
 {
     Coloured<StretchElement> coloured;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
     {
-        const Body& own = b.scene.bodies[body];
-        const bool grid = own.mesh.grid_columns > 0 && own.springs.empty(); // its edges and nothing else
         const std::vector<StretchElement> elements = acting_springs(b, body);
-        const Colouring colouring = stretch_colouring(b, body, elements, grid);
+        const Colouring colouring = stretch_colouring(b, body, elements, options.hub_degree);
         add_body(b, coloured, elements, colouring);
         add_hubs(coloured, elements, colouring);
     }
     std::vector<StretchElement> flat;
     std::vector<std::uint32_t> table;
-    ConstraintSet set = lay_out("distance", coloured, flat, table);
+    ConstraintSet set = lay_out(options.kind, coloured, flat, table);
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {
@@ -202,12 +207,12 @@ void prepare_distance(PlanBuilder& b)
         for (const StretchElement& e : flat)
             records.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(e.compliance)});
         set.buffer =
-            b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, "distance constraints", records);
+            b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, set.kind + " constraints", records);
     });
-    add_buffers(b, set, std::move(table));
+    add_buffers(b, set, std::move(table), options.multipliers);
 }
 
-void prepare_bending(PlanBuilder& b)
+void prepare_hinges(PlanBuilder& b, const SetOptions& options)
 {
     Coloured<BendElement> coloured;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
@@ -223,7 +228,7 @@ void prepare_bending(PlanBuilder& b)
     }
     std::vector<BendElement> flat;
     std::vector<std::uint32_t> table;
-    ConstraintSet set = lay_out("bending", coloured, flat, table);
+    ConstraintSet set = lay_out(options.kind, coloured, flat, table);
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {
@@ -232,10 +237,26 @@ void prepare_bending(PlanBuilder& b)
         for (const BendElement& e : flat)
             records.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
                                static_cast<Real>(e.compliance)});
-        set.buffer = b.add_buffer<layout::BendingConstraint<Real>>(set.kind, "bending constraints", records);
+        set.buffer =
+            b.add_buffer<layout::BendingConstraint<Real>>(set.kind, set.kind + " constraints", records);
     });
-    add_buffers(b, set, std::move(table));
+    add_buffers(b, set, std::move(table), options.multipliers);
 }
+
+const ConstraintSet* find_set(const Plan& plan, std::string_view kind)
+{
+    for (const ConstraintSet& set : plan.constraints)
+        if (set.kind == kind)
+            return &set;
+    return nullptr;
+}
+
+void prepare_distance(PlanBuilder& b)
+{
+    prepare_springs(b, {"distance", true, ColouringOptions{}.hub_degree});
+}
+
+void prepare_bending(PlanBuilder& b) { prepare_hinges(b, {"bending", true}); }
 
 void record_distance(PlanBuilder& b, const Moment& moment)
 {

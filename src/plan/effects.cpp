@@ -2,6 +2,7 @@
 
 #include "taut/plan/builder.hpp"
 #include "taut/plan/constraints.hpp"
+#include "taut/plan/pbd.hpp"
 #include "taut/kernels/damping.hpp"
 #include "taut/kernels/external_force.hpp"
 #include "taut/kernels/finish.hpp"
@@ -247,6 +248,18 @@ constexpr Effect kEffects[] = {
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance, only(MethodKind::xpbd)},
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending, only(MethodKind::xpbd)},
+    {"pbd_stretch", Stage::solve,
+     [](const Scene& s) { return pbd_is_coloured(s) && s.method.stretch > 0 && any_stretch(s); },
+     prepare_pbd_stretch, record_pbd_stretch, only(MethodKind::pbd)},
+    {"pbd_bend", Stage::solve,
+     [](const Scene& s) { return pbd_is_coloured(s) && s.method.bend > 0 && any_bending(s); },
+     prepare_pbd_bend, record_pbd_bend, only(MethodKind::pbd)},
+    {"pbd_jacobi", Stage::solve,
+     [](const Scene& s) {
+         return !pbd_is_coloured(s) && ((s.method.stretch > 0 && any_stretch(s)) ||
+                                        (s.method.bend > 0 && any_bending(s)));
+     },
+     prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
      prepare_plane, record_plane},

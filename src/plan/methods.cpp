@@ -1,5 +1,7 @@
 #include "taut/plan/methods.hpp"
 
+#include "taut/plan/pbd.hpp"
+
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
 
@@ -12,7 +14,7 @@ namespace {
 constexpr Method kMethods[] = {
     //                               contacts each  keeps   
     // kind                          iteration      guess   check    substeps
-    {MethodKind::pbd,                true,          false,  nullptr, nullptr},
+    {MethodKind::pbd,                true,          false,  check_pbd, nullptr},
     {MethodKind::xpbd,               true,          false,  nullptr, nullptr},
 };
 // clang-format on

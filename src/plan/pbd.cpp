@@ -1,0 +1,287 @@
+// Position-based dynamics: what it refuses, its coloured sweeps, its Jacobi iterations.
+//
+// Based on: Mueller, Heidelberger, Hennix, Ratcliff. Position Based Dynamics. VRIPHYS 2006: stiffness as the
+//   share k' = 1 - (1 - k)^(1/n) of a correction.
+//   Fratarcangeli, Pellacini. Scalable Partitioning for Parallel Position Based Dynamics. 2015: colours.
+//   Wang. A Chebyshev Semi-Iterative Approach. 2015: Chebyshev's weights.
+// Departures: Jacobi hands its iterates from buffer to buffer; the plan's `delta` is always the newer one, so
+//   contacts and the end of the substep read what the last iteration wrote, and nothing is copied.
+
+#include "taut/plan/pbd.hpp"
+
+#include "taut/plan/constraints.hpp"
+#include "taut/plan/grouping.hpp"
+#include "taut/plan/springs.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
+#include "taut/kernels/pbd_average.hpp"
+#include "taut/kernels/pbd_bend.hpp"
+#include "taut/kernels/pbd_node.hpp"
+#include "taut/kernels/pbd_stretch.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+constexpr std::uint32_t kPlainIterations = 4;  ///< before Chebyshev's weights begin
+constexpr std::uint32_t kLeastChebyshev = 8;   ///< iterations below which the weights do harm
+
+constexpr std::string_view kJacobi = "pbd_jacobi";
+
+/// Passes of one sweep over the colours of a set. `Params` is {first, count, share, report}.
+template <typename Params>
+void record_colours(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_each, double stiffness,
+                    const Moment& moment)
+{
+    const ConstraintSet* set = find_set(b.plan, kind);
+    if (set == nullptr)
+        return;
+    const auto share =
+        static_cast<float>(pbd_share(stiffness, b.plan.iterations) * b.scene.method.relaxation);
+    const std::uint32_t report = moment.last;
+    const Use alone[] = {{set->buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
+                         {b.plan.events, 0}};
+    std::vector<Use> grouped(std::begin(alone), std::end(alone));
+    grouped.push_back({set->table});
+    std::uint32_t range = first_run_range(*set);
+    for (const Run& run : runs_of(b, *set))
+    {
+        const std::uint32_t first = set->colour_start[run.begin], size = set->colour_start[run.end] - first;
+        if (run.grouped())
+            b.dispatch(kind, kind, "tail", grouped, Params{range, 1, share, report}, 1, size);
+        else
+            b.dispatch(kind, kind, "", alone, Params{first, size, share, report}, size);
+        range += run.grouped() ? 2 : 0;
+    }
+    if (set->small_bodies > 0)
+        b.dispatch(kind, kind, "tail", grouped, Params{set->small_range, set->small_bodies, share, report},
+                   set->small_bodies, set->small_constraints);
+}
+
+/// Offsets of each vertex into the list itself, then its entries.
+std::vector<std::uint32_t> as_one_list(const Incidence& at)
+{
+    const auto first = static_cast<std::uint32_t>(at.start.size());
+    std::vector<std::uint32_t> words;
+    words.reserve(at.start.size() + at.entries.size());
+    for (const std::uint32_t start : at.start)
+        words.push_back(first + start);
+    words.insert(words.end(), at.entries.begin(), at.entries.end());
+    return words;
+}
+
+/// A vertex goes through its constraints in one invocation.
+void check_degree(const PlanBuilder& b, const Incidence& springs, const Incidence& hinges)
+{
+    for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
+    {
+        const std::uint32_t degree =
+            springs.start[v + 1] - springs.start[v] + hinges.start[v + 1] - hinges.start[v];
+        if (degree > kMaxLoopTrips)
+            throw Error(ErrorCode::limit, "a vertex has " + std::to_string(degree) +
+                                              " springs and hinges; the Jacobi schemes of pbd take at most " +
+                                              std::to_string(kMaxLoopTrips) +
+                                              "; use method.scheme \"coloured\"");
+    }
+}
+
+template <typename Element>
+std::vector<Element> of_all_bodies(PlanBuilder& b, std::vector<Element> (*acting)(PlanBuilder&, std::size_t))
+{
+    std::vector<Element> out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (const Element& e : acting(b, body))
+            out.push_back(e);
+    return out;
+}
+
+void add_jacobi_records(PlanBuilder& b, const std::vector<StretchElement>& springs,
+                        const std::vector<BendElement>& hinges)
+{
+    with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        std::vector<layout::DistanceConstraint<Real>> stretch;
+        for (const StretchElement& e : springs)
+            stretch.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(e.compliance)});
+        stretch.resize(std::max<std::size_t>(stretch.size(), 1)); // hinges alone: no buffer is empty
+        b.pbd.springs = b.add_buffer<layout::DistanceConstraint<Real>>(kJacobi, "springs", stretch);
+        std::vector<layout::BendingConstraint<Real>> bend;
+        for (const BendElement& e : hinges)
+            bend.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
+                            static_cast<Real>(e.compliance)});
+        if (!bend.empty())
+            b.pbd.hinges = b.add_buffer<layout::BendingConstraint<Real>>(kJacobi, "hinges", bend);
+    });
+}
+
+std::vector<std::uint32_t> corners_of(const std::vector<StretchElement>& springs)
+{
+    std::vector<std::uint32_t> corners;
+    for (const StretchElement& e : springs)
+        corners.insert(corners.end(), {e.a, e.b});
+    return corners;
+}
+
+std::vector<std::uint32_t> corners_of(const std::vector<BendElement>& hinges)
+{
+    std::vector<std::uint32_t> corners;
+    for (const BendElement& e : hinges)
+        corners.insert(corners.end(), {e.edge0, e.edge1, e.wing0, e.wing1});
+    return corners;
+}
+
+struct Shares
+{
+    float stretch, bend;
+};
+
+Shares shares_of(const PlanBuilder& b)
+{
+    const MethodSettings& m = b.scene.method;
+    return {static_cast<float>(pbd_share(m.stretch, b.plan.iterations)),
+            static_cast<float>(pbd_share(m.bend, b.plan.iterations))};
+}
+
+void record_slots(PlanBuilder& b, const Shares& shares, std::uint32_t report)
+{
+    const Use springs[] = {{b.pbd.springs}, {b.plan.position, 2}, {b.plan.delta, 2}, {b.plan.events, 0},
+                           {b.pbd.spring_slots}};
+    b.dispatch(kJacobi, "pbd_stretch", "slots", springs,
+               kernels::pbd_stretch::Params{0, b.pbd.spring_count, shares.stretch, report},
+               b.pbd.spring_count);
+    if (b.pbd.hinges == kNoBuffer)
+        return;
+    const Use hinges[] = {{b.pbd.hinges}, {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.events, 0},
+                          {b.pbd.hinge_slots, 4}};
+    b.dispatch(kJacobi, "pbd_bend", "slots", hinges,
+               kernels::pbd_bend::Params{0, b.pbd.hinge_count, shares.bend, report}, b.pbd.hinge_count);
+}
+
+} // namespace
+
+bool pbd_is_coloured(const Scene& scene)
+{
+    return scene.method.scheme == "automatic" || scene.method.scheme == "coloured";
+}
+
+double pbd_share(double stiffness, std::uint32_t iterations)
+{
+    return 1 - std::pow(1 - stiffness, 1.0 / iterations);
+}
+
+double chebyshev_weight(double spectral_radius, std::uint32_t iteration)
+{
+    if (!(spectral_radius > 0) || iteration < kPlainIterations)
+        return 1;
+    const double square = spectral_radius * spectral_radius;
+    double weight = 2 / (2 - square);
+    for (std::uint32_t i = kPlainIterations; i < iteration; ++i)
+        weight = 4 / (4 - square * weight);
+    return weight;
+}
+
+void check_pbd(const Scene& scene, const DeviceTraits&)
+{
+    const MethodSettings& m = scene.method;
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+        if (scene.bodies[body].material.stretch_damping > 0)
+            throw Error(ErrorCode::unsupported,
+                        "bodies[" + std::to_string(body) + "].material.stretch_damping is " +
+                            shown(scene.bodies[body].material.stretch_damping) +
+                            " s; pbd has no damper along springs; use damping of the scene, or another "
+                            "method");
+    if (!(m.spectral_radius > 0))
+        return;
+    if (pbd_is_coloured(scene))
+        throw Error(ErrorCode::unsupported,
+                    "method.spectral_radius is " + shown(m.spectral_radius) +
+                        "; Chebyshev's acceleration of pbd needs method.scheme \"node_centric\" or "
+                        "\"constraint_centric\"");
+    if (m.iterations < kLeastChebyshev)
+        throw Error(ErrorCode::unsupported,
+                    "method.spectral_radius is " + shown(m.spectral_radius) + " with " +
+                        std::to_string(m.iterations) +
+                        " iterations; Chebyshev's acceleration diverges with fewer than " +
+                        std::to_string(kLeastChebyshev) + "; use more, or 0");
+}
+
+void prepare_pbd_stretch(PlanBuilder& b) { prepare_springs(b, {"pbd_stretch"}); }
+void prepare_pbd_bend(PlanBuilder& b) { prepare_hinges(b, {"pbd_bend"}); }
+
+void record_pbd_stretch(PlanBuilder& b, const Moment& moment)
+{
+    record_colours<kernels::pbd_stretch::Params>(b, "pbd_stretch", 2, b.scene.method.stretch, moment);
+}
+
+void record_pbd_bend(PlanBuilder& b, const Moment& moment)
+{
+    record_colours<kernels::pbd_bend::Params>(b, "pbd_bend", 4, b.scene.method.bend, moment);
+}
+
+void prepare_pbd_jacobi(PlanBuilder& b)
+{
+    const MethodSettings& m = b.scene.method;
+    const auto springs = m.stretch > 0 ? of_all_bodies(b, acting_springs) : std::vector<StretchElement>{};
+    const auto hinges = m.bend > 0 ? of_all_bodies(b, acting_hinges) : std::vector<BendElement>{};
+    if (springs.empty() && hinges.empty())
+        return;
+    const std::uint32_t n = b.plan.vertex_count;
+    const Incidence at_springs = incidence_of(n, corners_of(springs), 2);
+    const Incidence at_hinges = incidence_of(n, corners_of(hinges), 4);
+    check_degree(b, at_springs, at_hinges);
+    b.pbd.spring_count = static_cast<std::uint32_t>(springs.size());
+    b.pbd.hinge_count = static_cast<std::uint32_t>(hinges.size());
+    add_jacobi_records(b, springs, hinges);
+    b.pbd.springs_at =
+        b.add_buffer<std::uint32_t>(kJacobi, "springs at a vertex", as_one_list(at_springs));
+    if (!hinges.empty())
+        b.pbd.hinges_at = b.add_buffer<std::uint32_t>(kJacobi, "hinges at a vertex", as_one_list(at_hinges));
+    const std::uint64_t vector = 4 * b.real_size();
+    b.pbd.other = b.add_buffer(kJacobi, "other iterate", n * vector);
+    if (m.scheme != "constraint_centric")
+        return;
+    b.pbd.spring_slots =
+        b.add_buffer(kJacobi, "corrections of springs", std::max<std::uint64_t>(springs.size(), 1) * vector);
+    if (!hinges.empty())
+        b.pbd.hinge_slots = b.add_buffer(kJacobi, "corrections of hinges", 4 * hinges.size() * vector);
+}
+
+void record_pbd_jacobi(PlanBuilder& b, const Moment& moment)
+{
+    if (b.pbd.other == kNoBuffer)
+        return;
+    const MethodSettings& m = b.scene.method;
+    const bool hinges = b.pbd.hinges != kNoBuffer;
+    const double weight = chebyshev_weight(m.spectral_radius, moment.iteration);
+    const std::string_view variant = weight != 1 ? (hinges ? "hinges_chebyshev" : "chebyshev")
+                                                 : (hinges ? "hinges" : "");
+    const auto relaxation = static_cast<float>(m.relaxation), omega = static_cast<float>(weight);
+    const std::uint32_t n = b.plan.vertex_count, report = moment.last;
+    const Shares shares = shares_of(b);
+    std::vector<Use> uses = {{b.plan.position}, {b.plan.delta}, {b.pbd.other}};
+    if (m.scheme == "constraint_centric")
+    {
+        record_slots(b, shares, report);
+        uses.insert(uses.end(), {{b.pbd.spring_slots, 8}, {b.pbd.springs_at, 8}});
+        if (hinges)
+            uses.insert(uses.end(), {{b.pbd.hinge_slots, 16}, {b.pbd.hinges_at, 16}});
+        b.dispatch(kJacobi, "pbd_average", variant, uses,
+                   kernels::pbd_average::Params{n, relaxation, omega}, n);
+    }
+    else
+    {
+        uses.insert(uses.end(), {{b.plan.events, 0}, {b.pbd.springs, 8}, {b.pbd.springs_at, 8}});
+        if (hinges)
+            uses.insert(uses.end(), {{b.pbd.hinges, 16}, {b.pbd.hinges_at, 16}});
+        b.dispatch(kJacobi, "pbd_node", variant, uses,
+                   kernels::pbd_node::Params{n, shares.stretch, shares.bend, relaxation, omega, report}, n);
+    }
+    std::swap(b.plan.delta, b.pbd.other);
+}
+
+} // namespace taut
