@@ -25,7 +25,7 @@
 PARAMS
 {
     uint count; // rows
-    uint chunk; // of them a group
+    uint chunk; // of them a group, a multiple of 32
     uint groups;
     uint low_words; // PAIRS; 0: `low` may be anything
 };
@@ -119,34 +119,73 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
 #endif
 }
 
-#if !STREAM
+#if PAIRS && !STREAM
+// Slices of 32 rows make the steps that all of them have together; on devices each row makes its own.
+APART void add_rows(uint begin, uint end)
+{
+    SLICES_BEGIN((begin + 31u) / 32u, (end + 31u) / 32u)
+    PER_ROW(WIDE, first);
+    PER_ROW(WIDE, after);
+    ROW_SUM(s);
+    WIDE steps = 0xffffffffu;
+    SLICE_ROWS_BEGIN
+    WIDE i = min(slice * 32u + uint(r), count - 1u);
+    ROW(first) = row_start[i];
+    ROW(after) = row_start[i + 1u];
+    CLEAR_ROW_SUM(s);
+    steps = min(steps, ROW(after) - ROW(first));
+    SLICE_ROWS_END
+    SLICE_STEPS_BEGIN(steps)
+    ADD_TO_ROW_SUM(s, ROW(first) + k, column[ROW(first) + k]);
+    SLICE_STEPS_END
+    SLICE_ROWS_BEGIN
+    uint i = slice * 32u + uint(r);
+    if (i < count && ROW(first) < ROW(after))
+    {
+        Term sum = ROW_TERM(s);
+        for (WIDE k = ROW(first) + steps; k < ROW(after); ++k)
+            sum = add_term(sum, term(k, column[k]));
+        y[i] = row_result(i, sum);
+    }
+    SLICE_ROWS_END
+    SLICES_END
+}
+#elif !STREAM
 #undef ADD_ENTRY
-#if PAIRS
-#define ADD_ENTRY(s, k) s = add_term(s, term(k, column[k]))
-#else
 #define ADD_ENTRY(s, k) s = add_term(s, term(k, column[k])); ONE_AT_A_TIME(s)
-#endif
+#undef ADD_FOUR
+#define ADD_FOUR(s, k)    \
+    ADD_ENTRY(s, k);      \
+    ADD_ENTRY(s, k + 1u); \
+    ADD_ENTRY(s, k + 2u); \
+    ADD_ENTRY(s, k + 3u)
 
 APART void add_rows(uint begin, uint end)
 {
     EACH_BEGIN(begin, end)
-    uint first = row_start[i];
-    uint after = row_start[i + 1u];
-    PREFETCH(values, first, after, AHEAD);
-    PREFETCH(column, first, after, AHEAD);
-    if (first < after)
+    WIDE k = row_start[i];
+    WIDE after = row_start[i + 1u];
+    if (k < after)
     {
         Term s = no_term();
-        uint k = first;
-        for (; k + 4u <= after; k += 4u)
+        for (; k + 8u <= after; k += 8u)
         {
-            ADD_ENTRY(s, k);
-            ADD_ENTRY(s, k + 1u);
-            ADD_ENTRY(s, k + 2u);
-            ADD_ENTRY(s, k + 3u);
+            PREFETCH(values, k + AHEAD);
+            PREFETCH(column, k + AHEAD);
+            ADD_FOUR(s, k);
+            ADD_FOUR(s, k + 4u);
+        }
+        PREFETCH(values, k + AHEAD);
+        PREFETCH(column, k + AHEAD);
+        if (k + 4u <= after)
+        {
+            ADD_FOUR(s, k);
+            k += 4u;
         }
         for (; k < after; ++k)
+        {
             ADD_ENTRY(s, k);
+        }
         y[i] = row_result(i, s);
     }
 #if DOT

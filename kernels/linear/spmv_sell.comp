@@ -16,7 +16,7 @@
 PARAMS
 {
     uint count; // places, one a row
-    uint chunk; // of them a group
+    uint chunk; // of them a group, a multiple of 32
     uint groups;
     uint low_words; // PAIRS; 0: `low` may be anything
 };
@@ -41,7 +41,6 @@ READ(7, real, low);
 #if DOT
 SHARED(real, sum, TAUT_LINEAR_GROUP);
 #endif
-DECLARE(void add_rows(uint begin, uint end))
 
 GROUP_KERNEL(TAUT_LINEAR_GROUP)
 {
@@ -50,7 +49,29 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
 #endif
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);
-    add_rows(begin, end);
+    SLICES_BEGIN((begin + 31u) / 32u, (end + 31u) / 32u) // an empty group has begin = end = count
+    uint first = slice_start[slice];
+    uint steps = (slice_start[slice + 1u] - first) / 32u;
+    ROW_SUM(s);
+    SLICE_ROWS_BEGIN
+    CLEAR_ROW_SUM(s);
+    SLICE_ROWS_END
+    SLICE_STEPS_BEGIN(steps)
+    ADD_TO_ROW_SUM(s, first + 32u * k + r, column[first + 32u * k + r]);
+    SLICE_STEPS_END
+    SLICE_ROWS_BEGIN
+    uint i = slice * 32u + uint(r);
+    if (i < count)
+    {
+        uint row = order[i];
+        real result = row_result(row, ROW_TERM(s));
+        y[row] = result;
+#if DOT
+        sum[lane] += x[row] * result;
+#endif
+    }
+    SLICE_ROWS_END
+    SLICES_END
 #if DOT
     SUM_LANES(sum)
     LANES_BEGIN(1)
@@ -58,27 +79,4 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         partials[group] = sum[0];
     LANES_END
 #endif
-}
-
-APART void add_rows(uint begin, uint end)
-{
-    EACH_BEGIN(begin, end)
-    uint slice = uint(i) / 32u;
-    uint place = uint(i) % 32u;
-    uint first = slice_start[slice];
-    uint after = slice_start[slice + 1u];
-    uint row = order[i];
-    uint width = (after - first) / 32u;
-    uint part = first + place * width; // the lanes fetch the slices that come next in turn
-    PREFETCH(values, part, part + width, 256u);
-    PREFETCH(column, part, part + width, 256u);
-    Term s = no_term();
-    for (uint at = first + place; at < after; at += 32u)
-        s = add_term(s, term(at, column[at]));
-    real result = row_result(row, s);
-    y[row] = result;
-#if DOT
-    sum[lane] += x[row] * result;
-#endif
-    EACH_END
 }

@@ -81,7 +81,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     real has_north = north > 0u ? real(1) : real(0);
     real has_down = down > 0u ? real(1) : real(0);
     real has_up = up > 0u ? real(1) : real(0);
-    LINE_BEGIN
+    LINE_BEGIN(south > 0u && north > 0u && down > 0u && up > 0u) // inside: times 1 changes nothing
     uint west = line_first ? 0u : 1u;
     uint east = line_last ? 0u : 1u;
     real has_west = line_first ? real(0) : real(1);
@@ -97,8 +97,10 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     y[i] = r.high + r.low;
 #else
     PRECISE real in_x = has_west * x[i - west] + has_east * x[i + east];
-    PRECISE real in_y = has_south * x[i - south] + has_north * x[i + north];
-    PRECISE real in_z = has_down * x[i - down] + has_up * x[i + up];
+    PRECISE real beside_y = has_south * x[i - south] + has_north * x[i + north];
+    PRECISE real beside_z = has_down * x[i - down] + has_up * x[i + up];
+    PRECISE real in_y = line_inside ? x[i - south] + x[i + north] : beside_y;
+    PRECISE real in_z = line_inside ? x[i - down] + x[i + up] : beside_z;
     PRECISE real q = real(scale) * (real(6) * x[i] - ((in_x + in_y) + in_z));
 #if STEP
     real r = cg_advance(residual[i], step, q);

@@ -14,22 +14,26 @@
 //   EACH_BEGIN(first, end) ... i, lane ... EACH_END   a phase in which the lanes share the elements
 //                                      first..end-1, element `first + k` going to lane k % size, each
 //                                      lane in ascending order; on the CPU in the order of the elements
-//   LINES_BEGIN(first, end, length) ... line ... LINE_BEGIN ... i, lane, line_first, line_last ...
-//   LINE_END LINES_END                 EACH over elements that lie in lines of `length` > 0: element i is in
+//   LINES_BEGIN(first, end, length) ... line ... LINE_BEGIN(inside) ... i, lane, line_first, line_last,
+//   line_inside ... LINE_END LINES_END EACH over elements that lie in lines of `length` > 0: element i is in
 //                                      line i / length, the flags say whether it is at an end of it, and
-//                                      what is the same for a whole line stands before LINE_BEGIN
+//                                      what is the same for a whole line stands before LINE_BEGIN. The CPU
+//                                      has code of its own for lines for which `inside` holds, on devices
+//                                      line_inside is false: a shorter way to the same bits
 //   SLICES_BEGIN(first, end) ... slice ... PER_ROW(T, name) ...
 //   SLICE_ROWS_BEGIN ... r, lane ... SLICE_ROWS_END
 //   SLICE_STEPS_BEGIN(n) ... k, r, lane ... SLICE_STEPS_END
 //   SLICES_END                         a phase over slices of 32 rows, a row a lane, slices first..end-1
 //                                      going round; a row's own values are PER_ROW and used as ROW(name). All
 //                                      rows of a slice make the same n steps; the CPU makes a step for all
-//                                      rows at once
+//                                      rows at once. SLICE_ROWS_END SLICE_ROWS_BEGIN within a step cuts it
+//                                      in two loops
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
-//   PREFETCH(name, first, last, ahead) name[first + ahead .. last + ahead) is wanted soon; past the end is
+//   PREFETCH(name, index)              name[index] and its neighbours are wanted soon; past the end is
 //                                      allowed
+//   WIDE                               a uint, on the CPU as wide as a pointer: for sums that index buffers
 //   ONE_AT_A_TIME(sum)                 keeps the native compiler from gathering the products of a sum of
 //                                      fixed order in vectors, only to take them apart again
 //   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
@@ -84,7 +88,8 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #define SHARED(T, name, n) shared T name[n]
 #define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
 #define ONE_AT_A_TIME(value)
-#define PREFETCH(buffer, first, last, ahead)
+#define PREFETCH(buffer, index)
+#define WIDE uint
 
 // Groups beyond the limit of one dimension are folded into y (runtime: fold_groups).
 #define TAUT_GROUP (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x)
@@ -140,7 +145,8 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
     EACH_BEGIN(first, end)                  \
     uint taut_length = uint(length);        \
     uint line = i / taut_length;
-#define LINE_BEGIN                                                \
+#define LINE_BEGIN(inside)                                        \
+    const bool line_inside = false;                               \
     bool line_first = i == line * taut_length;                    \
     bool line_last = i + 1u == (line + 1u) * taut_length;
 #define LINE_END
@@ -158,8 +164,11 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #define SLICE_ROWS_END }
 #define SLICE_STEPS_BEGIN(n)              \
     for (uint k = 0u; k < uint(n); ++k)   \
-    {
-#define SLICE_STEPS_END }
+    {                                     \
+        SLICE_ROWS_BEGIN
+#define SLICE_STEPS_END      \
+        SLICE_ROWS_END       \
+    }
 #define SLICES_END           \
         }                    \
     }                        \

@@ -115,9 +115,22 @@ public:
 
     bool more() const { return i_ < end_; }
 
-    /// The rest of line and tile, whichever is shorter.
+    /// The rest of line and tile, whichever is shorter. `body` is told what holds in types, so that every
+    /// answer makes its own code.
     template <typename Body>
-    void each(Body body)
+    void each(bool inside, Body body)
+    {
+        if (inside)
+            run(body, std::true_type{});
+        else
+            run(body, std::false_type{});
+    }
+
+    uint line;
+
+private:
+    template <typename Body, typename Inside>
+    void run(Body& body, Inside inside)
     {
         constexpr std::true_type yes;
         constexpr std::false_type no;
@@ -126,19 +139,19 @@ public:
         const std::size_t last = stop < behind_ ? stop : behind_ - 1; // of what is inside of the line
         std::size_t i = i_;
         if (length_ == 1)
-            body(i, i - tile_, yes, yes);
+            body(i, i - tile_, yes, yes, inside);
         else
         {
             if (i + length_ == behind_)
             {
-                body(i, i - tile_, yes, no);
+                body(i, i - tile_, yes, no, inside);
                 ++i;
             }
             TAUT_INDEPENDENT
             for (; i < last; ++i)
-                body(i, i - tile_, no, no);
+                body(i, i - tile_, no, no, inside);
             if (i < stop)
-                body(i, i - tile_, no, yes);
+                body(i, i - tile_, no, yes, inside);
         }
         i_ = stop;
         tile_ = stop == tile_end ? stop : tile_;
@@ -149,23 +162,17 @@ public:
         }
     }
 
-    uint line;
-
-private:
     std::size_t length_, end_, i_, tile_;
     std::size_t behind_; ///< the first element of the next line
 };
 
 /// Where a loop reads several streams, or short pieces of them, the processor's own guesses end with every
-/// page.
+/// page. By number: a pointer past the end must not be made.
 template <typename T>
-void prefetch(const T* buffer, std::uint64_t first, std::uint64_t last)
+void prefetch(const T* buffer, std::size_t index)
 {
-    constexpr std::uintptr_t line = 64;
-    const auto begin =
-        reinterpret_cast<std::uintptr_t>(buffer); // numbers: pointers past the end must not be made
-    for (std::uintptr_t at = begin + first * sizeof(T); at < begin + last * sizeof(T); at += line)
-        __builtin_prefetch(reinterpret_cast<const void*>(at));
+    __builtin_prefetch(
+        reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(buffer) + index * sizeof(T)));
 }
 
 /// A product of floats is exact in double: high is what float makes of it, low the rest. False: nothing is
@@ -208,8 +215,8 @@ inline void count_event(std::uint32_t& counter)
 #else
 #define ONE_AT_A_TIME(value) static_cast<void>(0)
 #endif
-#define PREFETCH(buffer, first, last, ahead)                                                                 \
-    taut::native::prefetch(buffer, std::uint64_t(first) + (ahead), std::uint64_t(last) + (ahead))
+#define PREFETCH(buffer, index) taut::native::prefetch(buffer, index)
+#define WIDE std::size_t
 
 #define KERNEL(count)                                                                                        \
     std::uint32_t element_count() const { return std::uint32_t(count); }                                     \
@@ -249,9 +256,9 @@ inline void count_event(std::uint32_t& counter)
     for (taut::native::Lines<taut_group_size> taut_lines{first, end, length}; taut_lines.more();)            \
     {                                                                                                        \
         const uint line = taut_lines.line;
-#define LINE_BEGIN                                                                                           \
-    taut_lines.each([&](const std::size_t i, const std::size_t lane, const auto line_first, \
-                        const auto line_last) {
+#define LINE_BEGIN(inside)                                                                                   \
+    taut_lines.each(inside, [&](const std::size_t i, const std::size_t lane, const auto line_first, \
+                                const auto line_last, const auto line_inside) {
 #define LINE_END                                                                                             \
     });
 #define LINES_END }
