@@ -151,14 +151,8 @@ APART void add_rows(uint begin, uint end)
     SLICES_END
 }
 #elif !STREAM
-#undef ADD_ENTRY
-#define ADD_ENTRY(s, k) s = add_term(s, term(k, column[k])); ONE_AT_A_TIME(s)
-#undef ADD_FOUR
-#define ADD_FOUR(s, k)    \
-    ADD_ENTRY(s, k);      \
-    ADD_ENTRY(s, k + 1u); \
-    ADD_ENTRY(s, k + 2u); \
-    ADD_ENTRY(s, k + 3u)
+#undef ADD_TWO_ENTRIES
+#define ADD_TWO_ENTRIES(s, k) ADD_TWO(s, values, k, x[column[k]], x[column[(k) + 1u]])
 
 APART void add_rows(uint begin, uint end)
 {
@@ -172,20 +166,26 @@ APART void add_rows(uint begin, uint end)
         {
             PREFETCH(values, k + AHEAD);
             PREFETCH(column, k + AHEAD);
-            ADD_FOUR(s, k);
-            ADD_FOUR(s, k + 4u);
+            ADD_TWO_ENTRIES(s, k);
+            ADD_TWO_ENTRIES(s, k + 2u);
+            ADD_TWO_ENTRIES(s, k + 4u);
+            ADD_TWO_ENTRIES(s, k + 6u);
         }
         PREFETCH(values, k + AHEAD);
         PREFETCH(column, k + AHEAD);
         if (k + 4u <= after)
         {
-            ADD_FOUR(s, k);
+            ADD_TWO_ENTRIES(s, k);
+            ADD_TWO_ENTRIES(s, k + 2u);
             k += 4u;
         }
-        for (; k < after; ++k)
+        if (k + 2u <= after)
         {
-            ADD_ENTRY(s, k);
+            ADD_TWO_ENTRIES(s, k);
+            k += 2u;
         }
+        if (k < after)
+            s = add_term(s, term(k, column[k]));
         y[i] = row_result(i, s);
     }
 #if DOT

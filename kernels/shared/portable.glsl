@@ -34,8 +34,8 @@
 //   PREFETCH(name, index)              name[index] and its neighbours are wanted soon; past the end is
 //                                      allowed
 //   WIDE                               a uint, on the CPU as wide as a pointer: for sums that index buffers
-//   ONE_AT_A_TIME(sum)                 keeps the native compiler from gathering the products of a sum of
-//                                      fixed order in vectors, only to take them apart again
+//   ADD_TWO(sum, a, k, b0, b1)         sum = (sum + a[k] b0) + a[k + 1] b1; on the CPU both products are one
+//                                      instruction
 //   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
 //                                      it can hold phases; the native build never inlines it, which leaves
 //                                      a hot loop the registers
@@ -87,7 +87,7 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #define COUNTERS(slot, name) layout(std430, binding = slot) buffer name##_counters { uint name[]; }
 #define SHARED(T, name, n) shared T name[n]
 #define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
-#define ONE_AT_A_TIME(value)
+#define ADD_TWO(sum, a, k, b0, b1) sum = (sum + a[k] * (b0)) + a[(k) + 1u] * (b1)
 #define PREFETCH(buffer, index)
 #define WIDE uint
 
