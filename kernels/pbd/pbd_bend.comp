@@ -26,7 +26,7 @@ GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
 READ(4, uint, table);          // as in pbd_stretch
 #elif SLOTS
 READ(2, rvec4, delta);
-WRITE(4, rvec4, correction); // displacements per inverse mass of the four corners, kg m: correction[4 * hinge + corner]
+WRITE(4, rvec4, correction); // displacement per inverse mass, kg m: correction[4 * hinge + corner]
 #else
 UPDATE(2, rvec4, delta);
 #endif

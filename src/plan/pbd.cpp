@@ -16,6 +16,7 @@
 #include "taut/runtime/base/shown.hpp"
 #include "taut/kernels/pbd_average.hpp"
 #include "taut/kernels/pbd_bend.hpp"
+#include "taut/kernels/pbd_hub.hpp"
 #include "taut/kernels/pbd_node.hpp"
 #include "taut/kernels/pbd_stretch.hpp"
 
@@ -61,6 +62,19 @@ void record_colours(PlanBuilder& b, std::string_view kind, std::uint32_t vertice
     if (set->small_bodies > 0)
         b.dispatch(kind, kind, "tail", grouped, Params{set->small_range, set->small_bodies, share, report},
                    set->small_bodies, set->small_constraints);
+}
+
+void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
+{
+    const MethodSettings& m = b.scene.method;
+    const auto share = static_cast<float>(pbd_share(m.stretch, b.plan.iterations) * m.relaxation);
+    const Use uses[] = {{set.buffer}, {b.plan.position, 2}, {b.plan.delta, 2}, {b.plan.events, 0}};
+    for (std::size_t h = 0; h + 1 < set.hub_start.size(); ++h)
+    {
+        const std::uint32_t size = set.hub_start[h + 1] - set.hub_start[h];
+        b.dispatch(set.kind, "pbd_hub", "", uses,
+                   kernels::pbd_hub::Params{set.hub_start[h], size, share, moment.last}, 1, size);
+    }
 }
 
 /// Offsets of each vertex into the list itself, then its entries.
@@ -210,12 +224,19 @@ void check_pbd(const Scene& scene, const DeviceTraits&)
                         std::to_string(kLeastChebyshev) + "; use more, or 0");
 }
 
-void prepare_pbd_stretch(PlanBuilder& b) { prepare_springs(b, {"pbd_stretch"}); }
+void prepare_pbd_stretch(PlanBuilder& b)
+{
+    prepare_springs(b, {"pbd_stretch", false, ColouringOptions{}.hub_degree});
+}
+
+
 void prepare_pbd_bend(PlanBuilder& b) { prepare_hinges(b, {"pbd_bend"}); }
 
 void record_pbd_stretch(PlanBuilder& b, const Moment& moment)
 {
     record_colours<kernels::pbd_stretch::Params>(b, "pbd_stretch", 2, b.scene.method.stretch, moment);
+    if (const ConstraintSet* set = find_set(b.plan, "pbd_stretch"))
+        record_hubs(b, *set, moment);
 }
 
 void record_pbd_bend(PlanBuilder& b, const Moment& moment)

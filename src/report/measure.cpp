@@ -290,6 +290,15 @@ std::uint64_t hash_of(const WorldState& state)
     return hash;
 }
 
+/// Strain that counts as diverged where corrections are exaggerated: those of PBD can feed on themselves for
+/// long before a coordinate passes kDivergedExtent.
+constexpr double kDivergedStrain = 100;
+
+bool exaggerates(const MethodSettings& method)
+{
+    return method.type == "pbd" && (method.relaxation > 1 || method.spectral_radius > 0);
+}
+
 void judge(const View& view, StepReport& out)
 {
     const Events events = view.world.events();
@@ -313,7 +322,8 @@ void judge(const View& view, StepReport& out)
     }
     if (!finite || events.non_finite > 0)
         out.status = Status::non_finite;
-    else if (extent > kDivergedExtent)
+    else if (extent > kDivergedExtent ||
+             (exaggerates(view.world.scene().method) && out.max_stretch > kDivergedStrain))
         out.status = Status::diverged;
 }
 

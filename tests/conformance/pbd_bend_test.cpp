@@ -33,6 +33,6 @@ TEMPLATE_TEST_CASE("colours of PBD hinges in one group give what one dispatch a 
         add_hinge_colour(in, random, n);
     plant_hinges(in, in.hinge_colours[1], 64);
     for (const char* variant : {"tail", ""})
-        check_pbd_colours<Params>(kernels::pbd_bend::info, in, in.hinge, in.hinge_colours, 1, 4, variant, 0.5f,
-                                  true);
+        check_pbd_colours<Params>(kernels::pbd_bend::info, in, in.hinge, in.hinge_colours, 1, 4, variant,
+                                  0.5f, true);
 }

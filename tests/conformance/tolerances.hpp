@@ -43,6 +43,7 @@ inline constexpr Tolerance kTolerances[] = {
      "cross products of cross products: each gradient passes some ten roundings, the angle six"},
     {"hub", 6, "as distance, and a tree of 64 partial sums of up to 16 terms each"},
     {"pbd_stretch", 6, "as distance"},
+    {"pbd_hub", 6, "as hub"},
     {"pbd_bend", 8, "as bending"},
     {"pbd_node", 8, "as bending, a sum over the constraints of a vertex, a quotient, two products and sums"},
     {"pbd_average", 4, "a sum over the constraints of a vertex, a quotient, two products and sums"},

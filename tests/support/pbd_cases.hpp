@@ -45,8 +45,8 @@ Request request(const State& s, const Stretch<Real>& c, float share)
     if (length == 0 || wa + wb == 0)
         return out;
     const double k = static_cast<double>(share), scale = (rest - length) * k / (wa + wb);
-    const double size = length + glm::length(glm::dvec3(s.delta[c.a])) + glm::length(glm::dvec3(s.delta[c.b])) +
-                        s.delta_scale[c.a] + s.delta_scale[c.b];
+    const double moved = glm::length(glm::dvec3(s.delta[c.a])) + glm::length(glm::dvec3(s.delta[c.b]));
+    const double size = length + moved + s.delta_scale[c.a] + s.delta_scale[c.b];
     for (std::size_t end = 0; end < 2; ++end)
     {
         out.push[end] = d * ((end == 0 ? scale : -scale) / length);
@@ -324,8 +324,8 @@ struct JacobiReference
                 add(request(s, c, bend));
         for (std::size_t v = 0; v < n; ++v)
         {
-            const double w = s.position[v].w, r = static_cast<double>(relaxation), o = static_cast<double>(omega);
-            const double factor = number[v] > 0 ? w * r / number[v] : 0;
+            const double w = s.position[v].w, o = static_cast<double>(omega);
+            const double factor = number[v] > 0 ? w * static_cast<double>(relaxation) / number[v] : 0;
             const glm::dvec3 here(s.delta[v]), two_back(in.before[v]);
             glm::dvec3 x = here + sum[v] * factor;
             double scale = factor > 0 ? glm::length(here) + factor * size[v] : 0;
