@@ -1,0 +1,51 @@
+#pragma once
+// The robustness map: hard cases of cloth x methods. Every cell is run and judged by one rule;
+// docs/robustness.md is written from it.
+
+#include "hard/cases.hpp"
+
+#include "taut/plan/methods.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace taut::hard {
+
+/// What was seen on the way and at the end of a run.
+struct Journey
+{
+    const World& world;
+    std::vector<glm::dvec3> start; ///< m, before the first step
+    StepReport first, last;
+    double highest_energy = 0; ///< J, kinetic and potential, the first look included
+    double scale = 0;          ///< J, that energies are compared with: m g D, and what the start has
+    double fastest = 0;        ///< m/s
+    double stretch = 0;        ///< largest (l - L)/L
+    double deepest = 0;        ///< m below a collider
+};
+
+struct MapCase
+{
+    std::string id, what;
+    Scene scene;
+    int steps = 60;
+    /// Empty: as it should be. Else what is not, with its number.
+    std::function<std::string(const Journey&)> judge;
+    /// Methods that may miss the criterion when they stay finite and say so (methods.md, "reported").
+    MethodSet may_report = 0;
+    /// Called before step k; for what changes on the way.
+    std::function<void(World&, int)> before_step = {};
+};
+
+/// The cases; those on real meshes only where the data is.
+std::vector<MapCase> map_cases();
+
+/// "pass", "refuses: unstable_timestep", "reports: stretch 4.2" or "FAIL: ...".
+std::string verdict(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
+                    int most_steps);
+
+/// Settings under which the map runs a method.
+void set_method(Scene& scene, MethodKind method);
+
+} // namespace taut::hard

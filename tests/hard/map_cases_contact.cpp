@@ -1,0 +1,226 @@
+// The cases of the robustness map with contacts, constraints and extremes, and on real meshes.
+
+#include "hard/map_parts.hpp"
+#include "support/data.hpp"
+
+namespace taut::hard {
+namespace {
+
+Collider round(const glm::dvec3& centre, double radius, double friction = 0.3)
+{
+    Collider c;
+    c.point = centre;
+    c.radius = radius;
+    c.friction = friction;
+    return c;
+}
+
+Collider floor(double height, double friction = 0.3)
+{
+    Collider c;
+    c.kind = ColliderKind::plane;
+    c.point = {0, height, 0};
+    c.friction = friction;
+    return c;
+}
+
+Scene lying(double height)
+{
+    Scene scene = free_cloth(6);
+    for (glm::dvec3& x : scene.bodies[0].mesh.positions)
+        x = {x.x, height, x.y};
+    scene.gravity = {0, -9.81, 0};
+    scene.damping = 0.5;
+    return scene;
+}
+
+Scene pulled_corner(double reach, double limit)
+{
+    Scene scene = hanging(8);
+    scene.bodies[0].material.strain_limit = limit;
+    Pin pin = hold({80});
+    pin.motion = {{0, {0, 0, 0}}, {1, {reach, 0, reach}}};
+    scene.bodies[0].pins.push_back(pin);
+    return scene;
+}
+
+void add_contact(std::vector<MapCase>& out)
+{
+    out.push_back({"E01", "particles of 100 m/s against a floor",
+                   [] {
+                       std::vector<glm::dvec3> places;
+                       for (int k = 0; k < 32; ++k)
+                           places.emplace_back(0.1 * k, 1 + 0.05 * k, 0);
+                       Scene s = alone(particles(places));
+                       s.bodies[0].velocity = {0, -100, 0};
+                       s.colliders = {floor(0)};
+                       return s;
+                   }(),
+                   10, [](const Journey& j) { return above("penetration", j.deepest, 1e-3); }});
+    out.push_back(
+        {"E03", "a ball of 20 m/s into hanging cloth",
+         [] {
+             Scene s = hanging(10);
+             Collider fast = round({0, -0.1, 1.5}, 0.42);
+             fast.motion = {{0, {0, 0, 0}}, {0.09, {0, 0, -1.8}}};
+             s.colliders = {fast};
+             return s;
+         }(),
+         60,
+         [](const Journey& j) { return above("penetration / radius", j.last.penetration / 0.42, 0.01); }});
+    out.push_back({"E05", "cloth at rest on a floor",
+                   [] {
+                       Scene s = lying(0.0011);
+                       s.colliders = {floor(0)};
+                       return s;
+                   }(),
+                   300,
+                   [](const Journey& j) {
+                       return first_of(above("speed at rest", j.last.max_speed, 1e-3 * std::sqrt(9.81 * 1.4)),
+                                       above("penetration", j.last.penetration, 1e-4));
+                   }});
+    out.push_back({"E09", "a ball and a floor that close on cloth",
+                   [] {
+                       Scene s = lying(0.01);
+                       Collider press = round({0, 1.02, 0}, 1);
+                       press.motion = {{0, {0, 0, 0}}, {0.5, {0, -0.05, 0}}};
+                       s.colliders = {floor(0), press};
+                       return s;
+                   }(),
+                   60, [](const Journey& j) { return above("speed", j.last.max_speed, 20); }});
+    out.push_back({"E10", "a pinned vertex inside a ball",
+                   [] {
+                       Scene s = hanging(6, 2);
+                       s.colliders = {round(s.bodies[0].mesh.positions[0] + glm::dvec3(0.02, 0.02, 0), 0.1)};
+                       return s;
+                   }(),
+                   120,
+                   [](const Journey& j) {
+                       return first_of(no_energy_gained(j),
+                                       above("movement of the pin",
+                                             glm::distance(j.start[0], j.world.positions()[0]), 0));
+                   }});
+}
+
+void add_constraints(std::vector<MapCase>& out)
+{
+    out.push_back({"F03", "chain of 16 links from the horizontal",
+                   [] {
+                       Scene s = test::chain(16, 1e5, 1.0 / 16);
+                       for (glm::dvec3& x : s.bodies[0].mesh.positions)
+                           x = {-x.y, 0, 0};
+                       return s;
+                   }(),
+                   120, [](const Journey& j) { return above("stretch", j.stretch, 0.2); },
+                   kPositionBased | only(MethodKind::vbd) | kLinearised});
+    out.push_back({"F06", "triangle of lengths 1, 1 and 3",
+                   [] {
+                       Body body = particles({{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}});
+                       body.springs = {{0, 1, 1, 1e-4}, {1, 2, 1, 1e-4}, {2, 0, 3, 1e-4}};
+                       Scene s = alone(body);
+                       s.damping = 5;
+                       return s;
+                   }(),
+                   300,
+                   [](const Journey& j) {
+                       return first_of(above("speed at the end", j.last.max_speed, 0.05),
+                                       above("stretch", j.last.max_stretch, 1.1));
+                   }});
+    out.push_back({"F13", "a corner dragged 10 times the cloth's size in a second", pulled_corner(7, 0), 60,
+                   [](const Journey& j) { return above("speed", j.fastest, 1e3); }});
+    out.push_back({"F13", "the same with a strain limit of 10 %", pulled_corner(0.2, 0.1), 60,
+                   [](const Journey& j) { return above("stretch", j.last.max_stretch, 0.12); },
+                   kSprings | kPositionBased | kLinearised | only(MethodKind::vbd)});
+    out.push_back({"pins apart", "two corners pulled to twice the width",
+                   [] {
+                       Scene s = test::hanging(8);
+                       s.bodies[0].pins = {hold({0}), hold({8})};
+                       s.bodies[0].pins[1].motion = {{0, {0, 0, 0}}, {1, {1, 0, 0}}};
+                       s.damping = 1;
+                       return s;
+                   }(),
+                   120, [](const Journey& j) { return above("speed at the end", j.last.max_speed, 20); }});
+    for (const double stiffness : {1e-6, 1e12})
+        out.push_back({"F17", "stretch stiffness " + shown(stiffness) + " N/m",
+                       with_stretch(hanging(4), stiffness), 60, calm});
+    out.push_back({"F17", "rigid", with_stretch(hanging(4), kInfinity), 60, calm});
+}
+
+void add_extremes(std::vector<MapCase>& out)
+{
+    out.push_back({"G03", "an impulse of 1e6 N on one vertex",
+                   [] {
+                       Scene s = hanging(6);
+                       s.external_forces = true;
+                       return s;
+                   }(),
+                   120, sound, 0,
+                   [](World& world, int step) {
+                       if (step == 10 || step == 11)
+                           world.set_force(30, step == 10 ? glm::dvec3(0, 0, 1e6) : glm::dvec3(0));
+                   }});
+    out.push_back({"G04", "gravity of 1e4 m/s^2, turned over every frame", hanging(6), 60, sound, 0,
+                   [](World& world, int step) {
+                       world.set_gravity({0, step % 2 ? 1e4 : -1e4, 0});
+                   }});
+    out.push_back({"gust", "a flag in a gust of 50 m/s",
+                   [] {
+                       Scene s = hanging(8, 0.1);
+                       s.bodies[0].pins[0] = hold({0, 9, 18, 27, 36, 45, 54, 63, 72});
+                       s.bodies[0].material.drag = 1.2;
+                       s.bodies[0].material.friction_drag = 0.05;
+                       s.wind.density = 1.2;
+                       s.wind.keys = {{0, {2, 0, 1}}, {0.3, {2, 0, 1}}, {0.4, {50, 0, 5}}, {1, {50, 0, -5}}};
+                       return s;
+                   }(),
+                   60, [](const Journey& j) { return above("speed", j.last.max_speed, 100); }});
+}
+
+/// Real meshes, hung by what is highest.
+void add_real(std::vector<MapCase>& out)
+{
+    for (const char* file : {"elephant-with-holes.off", "dress_stage.obj"})
+    {
+        const auto path = find_data(std::string("meshes/") + file);
+        if (!path)
+            continue;
+        Scene s;
+        Body body;
+        body.shape.kind = ShapeKind::mesh;
+        body.shape.file = *path;
+        body.material.stretch_stiffness = 100;
+        body.material.bending_stiffness = 1e-5;
+        Pin pin;
+        pin.use_box = true;
+        s.bodies = {body};
+        s.damping = 1;
+        Scene resolved = resolve(s);
+        std::vector<glm::dvec3>& x = resolved.bodies[0].mesh.positions;
+        double high = -kInfinity, low = kInfinity;
+        for (const glm::dvec3& p : x)
+        {
+            high = std::max(high, p.y);
+            low = std::min(low, p.y);
+        }
+        for (glm::dvec3& p : x) // a metre tall, whatever the file's unit
+            p /= high - low;
+        std::vector<std::uint32_t> top;
+        for (std::uint32_t v = 0; v < x.size(); ++v)
+            if (x[v].y >= high / (high - low) - 0.05)
+                top.push_back(v);
+        resolved.bodies[0].pins = {hold(top)};
+        out.push_back({"mesh", file, resolved, 20, calm});
+    }
+}
+
+} // namespace
+
+void add_contact_and_more(std::vector<MapCase>& out)
+{
+    add_contact(out);
+    add_constraints(out);
+    add_extremes(out);
+    add_real(out);
+}
+
+} // namespace taut::hard

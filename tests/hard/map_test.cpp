@@ -1,0 +1,149 @@
+// F8: every hard case of cloth under every method: it passes, is refused in words, or says that it misses.
+
+#include "hard/map.hpp"
+
+#include "taut/runtime/base/atomic_file.hpp"
+
+namespace taut::hard {
+namespace {
+
+void look(const World& world, Journey& out)
+{
+    const StepReport report = measure(world);
+    out.highest_energy = std::max(out.highest_energy, energy(report));
+    out.fastest = std::max(out.fastest, report.max_speed);
+    out.stretch = std::max(out.stretch, report.max_stretch);
+    out.deepest = std::max(out.deepest, report.penetration);
+    out.last = report;
+}
+
+/// What energies are compared with: a fall through the body's own size, and what is there at the start.
+double energy_scale(const World& world, const StepReport& first)
+{
+    const PhysicalModel model = make_model(world.scene());
+    const double elastic = first.potential_energy - gravity_energy(model, world.positions());
+    const double scale = total_weight(model) * model.diameter + first.kinetic_energy + std::max(elastic, 0.0);
+    return scale > 0 ? scale : 1;
+}
+
+/// "FAIL: ..." for a state that must not be; empty else.
+std::string unsound(const World& world, const StepReport& report)
+{
+    if (!finite(world.positions()) || !finite(world.velocities()))
+        return "FAIL: a value that is not finite";
+    if (report.status == Status::completed)
+        return {};
+    return "stops: " + std::string(to_string(report.status));
+}
+
+} // namespace
+
+void set_method(Scene& scene, MethodKind method)
+{
+    MethodSettings& m = scene.method;
+    m.type = kMethodNames[static_cast<std::size_t>(method)];
+    m.iterations = 1;
+    m.substeps = 10;
+    switch (method)
+    {
+    case MethodKind::implicit_euler: m.substeps = 4, m.iterations = 2; break;
+    case MethodKind::implicit_constraints: m.substeps = 5, m.iterations = 2; break;
+    case MethodKind::pbd: m.iterations = 2; break;
+    case MethodKind::vbd: m.substeps = 5, m.iterations = 4; break;
+    case MethodKind::mass_spring:
+    case MethodKind::acad:
+    case MethodKind::xpbd: break;
+    }
+}
+
+std::string verdict(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
+                    int most_steps)
+{
+    Scene scene = hard_case.scene;
+    set_method(scene, method);
+    try
+    {
+        World world(scene, device);
+        Journey journey{world, world.positions(), measure(world), {}};
+        journey.scale = energy_scale(world, journey.first);
+        journey.highest_energy = energy(journey.first);
+        const int steps = std::min(hard_case.steps, most_steps);
+        for (int k = 0; k < steps; ++k)
+        {
+            if (hard_case.before_step)
+                hard_case.before_step(world, k);
+            world.step();
+            if (k < 5 || k % 10 == 9 || k + 1 == steps)
+                look(world, journey);
+        }
+        const std::string wrong = unsound(world, journey.last);
+        if (!wrong.empty())
+            return wrong;
+        if (steps < hard_case.steps)
+            return "sound so far";
+        const std::string missed = hard_case.judge(journey);
+        if (missed.empty())
+            return "pass";
+        return ((hard_case.may_report & only(method)) != 0 ? "reports: " : "FAIL: ") + missed;
+    }
+    catch (const Error& error)
+    {
+        if (error.code() == ErrorCode::unsupported &&
+            std::string(error.what()).find("is not built yet") != std::string::npos)
+            return "not built yet";
+        return "refuses: " + std::string(to_string(error.code()));
+    }
+}
+
+namespace {
+
+using Table = std::vector<std::vector<std::string>>;
+
+/// The page, in Markdown: one row a case, one column a method.
+std::string page(const std::vector<MapCase>& cases, const Table& table)
+{
+    std::string text = "| case | what |";
+    for (const std::string_view name : kMethodNames)
+        text += " " + std::string(name) + " |";
+    text += "\n|---|---|";
+    for (std::size_t m = 0; m < kMethodNames.size(); ++m)
+        text += "---|";
+    text += "\n";
+    for (std::size_t c = 0; c < cases.size(); ++c)
+    {
+        text += "| " + cases[c].id + " | " + cases[c].what + " |";
+        for (const std::string& cell : table[c])
+            text += " " + cell + " |";
+        text += "\n";
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("F8: the robustness map has no FAIL [hard]")
+{
+    const std::vector<MapCase> cases = map_cases();
+    for (const std::string& selector : test_devices())
+    {
+        const auto device = test_device(selector);
+        const bool whole = selector == "cpu:serial";
+        Table table(cases.size());
+        for (std::size_t c = 0; c < cases.size(); ++c)
+            for (std::size_t m = 0; m < kMethodNames.size(); ++m)
+            {
+                const auto method = static_cast<MethodKind>(m);
+                table[c].push_back(verdict(cases[c], method, device, whole ? cases[c].steps : 3));
+                INFO(selector << ", " << kMethodNames[m] << ", " << cases[c].id << " " << cases[c].what);
+                CHECK(table[c].back().rfind("FAIL", 0) != 0);
+                if (table[c].back().rfind("FAIL", 0) == 0)
+                    WARN(selector << ", " << kMethodNames[m] << ", " << cases[c].id << ": "
+                                  << table[c].back());
+            }
+        if (const char* file = std::getenv("TAUT_MAP"); file && whole)
+            write_file(file, page(cases, table));
+        CHECK(device->counters().validation_messages == 0);
+    }
+}
+
+} // namespace taut::hard
