@@ -1,4 +1,5 @@
-// taut_bench [FILE.csv]: prints the table of docs/bench.md and, if asked, writes it as CSV.
+// taut_bench [distance] [recording] [cloth] [opencloth] [FILE.csv]: prints the tables of docs/bench.md that
+// are named, or all, and, if asked, writes them as CSV.
 // Exit status 1 and one sentence when a rival computes something else, or the file cannot be written.
 
 #include "bench.hpp"
@@ -7,10 +8,21 @@
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/shown.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 namespace {
+
+constexpr struct
+{
+    const char* name;
+    std::vector<bench::Row> (*make)();
+} kTables[] = {{"distance", bench::distance_rows},
+               {"recording", bench::recording_rows},
+               {"cloth", bench::cloth_rows},
+               {"opencloth", bench::opencloth_rows}};
 
 void print(const std::vector<bench::Row>& rows)
 {
@@ -40,12 +52,21 @@ std::string csv(const std::vector<bench::Row>& rows, const std::string& conditio
 int main(int argc, char** argv)
 try
 {
-    std::vector<bench::Row> rows = bench::distance_rows();
-    for (const bench::Row& row : bench::recording_rows())
-        rows.push_back(row);
+    std::vector<std::string> words(argv + 1, argv + argc);
+    std::string file;
+    if (!words.empty() && words.back().find('.') != std::string::npos)
+    {
+        file = words.back();
+        words.pop_back();
+    }
+    std::vector<bench::Row> rows;
+    for (const auto& [name, make] : kTables)
+        if (words.empty() || std::find(words.begin(), words.end(), name) != words.end())
+            for (const bench::Row& row : make())
+                rows.push_back(row);
     print(rows);
-    if (argc > 1)
-        taut::write_file(argv[1], csv(rows, bench::conditions("taut_bench", argc, argv)));
+    if (!file.empty())
+        taut::write_file(file, csv(rows, bench::conditions("taut_bench", argc, argv)));
     return 0;
 }
 catch (const std::exception& error)

@@ -55,5 +55,7 @@ inline void take_turns(std::vector<Rival>& rivals, int turns, int warm_up = 3)
 inline constexpr double kLargestError = 1e-6; // m
 std::vector<Row> distance_rows();
 std::vector<Row> recording_rows();
+std::vector<Row> cloth_rows();     ///< whole steps against a plain coloured OpenMP program
+std::vector<Row> opencloth_rows(); ///< opencloth's position-based scene against a plain serial loop
 
 } // namespace bench
