@@ -25,6 +25,13 @@ std::string object_name(const Body& body, std::size_t index)
 
 MeshSequence::MeshSequence(const Scene& resolved, fs::path folder) : folder_(std::move(folder))
 {
+    set_scene(resolved);
+}
+
+void MeshSequence::set_scene(const Scene& resolved)
+{
+    faces_.clear();
+    vertices_.clear();
     std::size_t first = 0;
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {

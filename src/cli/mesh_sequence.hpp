@@ -17,6 +17,9 @@ public:
     /// Files go to folder/mesh_00000.obj and on; the folder exists.
     MeshSequence(const Scene& resolved, std::filesystem::path folder);
 
+    /// From now on the bodies are those of this scene: cloth that tears has new vertices.
+    void set_scene(const Scene& resolved);
+
     /// Positions in the order of the scene, m. Throws Error{io}.
     void write(const std::vector<glm::dvec3>& positions, std::uint64_t frame, double time);
 

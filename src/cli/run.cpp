@@ -129,10 +129,16 @@ private:
         if (!mesh && !moment)
             return;
         std::vector<glm::dvec3> positions = simulation_.positions();
+        if (simulation_.torn() != torn_)
+        {
+            torn_ = simulation_.torn();
+            meshes_.set_scene(simulation_.scene());
+            torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
+        }
         if (mesh)
             meshes_.write(positions, done_, simulation_.time());
         if (moment)
-            moments_.push_back({simulation_.time(), std::move(positions)});
+            moments_.push_back({simulation_.time(), std::move(positions), torn_scene_});
     }
 
     const RunCommand& options_;
@@ -143,6 +149,8 @@ private:
     std::vector<double> step_ms_;
     std::vector<Moment> moments_;
     MeshSequence meshes_;
+    std::uint64_t torn_ = 0;
+    std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
 };
 
 /// Device times by effect: the median of three further frames. Timestamps never touch what was simulated,

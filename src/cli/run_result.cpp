@@ -85,6 +85,7 @@ Json to_json(const RunResult& result)
     json["primal_residual"] = report.primal_residual;
     json["dual_residual"] = report.dual_residual;
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
+    json["torn"] = report.torn;
     json["position_hash"] = hex(report.position_hash);
     json["folder"] = result.folder;
     json["meshes"] = result.meshes;
@@ -109,6 +110,8 @@ std::string summary(const RunResult& result)
         text += "solver  " + std::to_string(report.solver.solves) + " linear solves, " +
                 std::to_string(report.solver.iterations) + " iterations, " +
                 std::to_string(report.solver.most) + " at most\n";
+    if (report.torn > 0)
+        text += "torn    at " + std::to_string(report.torn) + " vertices\n";
     for (const auto& [word, count] : report.warnings)
         text += "warning " + word + " (" + std::to_string(count) + ")\n";
     for (const std::string& message : result.messages)

@@ -21,6 +21,7 @@ public:
     double time() const override { return world_.time(); }
     std::vector<glm::dvec3> positions() const override { return world_.positions(); }
     Events events() const override { return world_.events(); }
+    std::uint64_t torn() const override { return world_.torn(); }
     World& whole() override { return world_; }
 
 private:

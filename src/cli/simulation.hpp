@@ -18,6 +18,8 @@ public:
     virtual double time() const = 0;
     virtual std::vector<glm::dvec3> positions() const = 0;
     virtual Events events() const = 0;
+    /// As World::torn; scene() and positions() change with it.
+    virtual std::uint64_t torn() const { return 0; }
     /// A world in the state of the simulation, for reports and pictures. Stays the simulation's.
     virtual World& whole() = 0;
     virtual std::vector<HybridPart> parts() const { return {}; } ///< empty on one device

@@ -124,6 +124,12 @@ public:
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
 
+    // Of effects that have more than one pass of an account: wind, limits, tearing.
+    std::uint32_t wind_triangles = kNoBuffer, wind_start = kNoBuffer, wind_incident = kNoBuffer,
+                  wind_impulse = kNoBuffer, attachments = kNoBuffer, tearing = kNoBuffer;
+    std::uint32_t wind_triangle_count = 0, attachment_count = 0, tearing_count = 0;
+    ConstraintSet limits; ///< springs of strain limits, rest_length the greatest
+
 private:
     void add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,
                       std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements,

@@ -2,7 +2,11 @@
 
 #include "taut/plan/builder.hpp"
 #include "taut/plan/constraints.hpp"
+#include "taut/plan/limits.hpp"
 #include "taut/plan/pbd.hpp"
+#include "taut/plan/wind.hpp"
+#include "taut/kernels/capsule.hpp"
+#include "taut/kernels/cuboid.hpp"
 #include "taut/kernels/damping.hpp"
 #include "taut/kernels/external_force.hpp"
 #include "taut/kernels/finish.hpp"
@@ -15,7 +19,9 @@
 #include "taut/kernels/shared/layouts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 namespace taut {
 namespace {
@@ -159,43 +165,64 @@ void record_pin_motion(PlanBuilder& b, const Moment& moment)
 
 // ---------------------------------------------------------------- colliders
 
+/// Words of ColliderKind: the effect and the kernel of each.
+constexpr std::array<std::string_view, kColliderKinds> kColliderNames = {"plane", "sphere", "capsule",
+                                                                         "cuboid"};
+
+/// A buffer of `copies` records for each collider of the kind.
+template <template <typename> typename Record>
+std::uint32_t add_colliders(PlanBuilder& b, ColliderKind kind, std::uint64_t copies)
+{
+    const std::string_view effect = kColliderNames[static_cast<std::size_t>(kind)];
+    const std::uint64_t bytes =
+        with_real(b.plan.precision, [](auto zero) { return sizeof(Record<decltype(zero)>); });
+    const std::uint32_t id = b.add_buffer(effect, std::string(effect) + "s",
+                                          copies * collider_count(b.scene, kind) * bytes);
+    b.plan.buffers[id].host_written = true;
+    return id;
+}
+
 void prepare_plane(PlanBuilder& b)
 {
-    const std::uint64_t count = collider_count(b.scene, ColliderKind::plane);
-    b.plan.planes = b.add_buffer("plane", "planes", count * with_real(b.plan.precision, [](auto zero) {
-        return sizeof(layout::PlaneCollider<decltype(zero)>);
-    }));
-    b.plan.buffers[b.plan.planes].host_written = true;
+    b.plan.planes = add_colliders<layout::PlaneCollider>(b, ColliderKind::plane, 1);
 }
 
 void prepare_sphere(PlanBuilder& b)
 {
-    const std::uint64_t count = collider_count(b.scene, ColliderKind::sphere);
-    b.plan.spheres = b.add_buffer("sphere", "spheres", count * with_real(b.plan.precision, [](auto zero) {
-        return sizeof(layout::SphereCollider<decltype(zero)>);
-    }));
-    b.plan.buffers[b.plan.spheres].host_written = true;
+    b.plan.spheres = add_colliders<layout::SphereCollider>(b, ColliderKind::sphere, 1);
+}
+
+/// Shapes that turn have a pose at the start of each substep, and one at the end.
+void prepare_capsule(PlanBuilder& b)
+{
+    b.plan.capsules =
+        add_colliders<layout::CapsuleCollider>(b, ColliderKind::capsule, b.plan.substeps + 1u);
+}
+
+void prepare_cuboid(PlanBuilder& b)
+{
+    b.plan.cuboids = add_colliders<layout::CuboidCollider>(b, ColliderKind::cuboid, b.plan.substeps + 1u);
 }
 
 /// Turns the contact passes' friction on. With one iteration a substep, what friction took so far is zero
 /// and needs no buffer.
 void prepare_friction(PlanBuilder& b)
 {
-    for (const ColliderKind kind : {ColliderKind::plane, ColliderKind::sphere})
+    for (std::size_t shape = 0; shape < kColliderKinds; ++shape)
     {
-        const auto shape = static_cast<std::size_t>(kind);
+        const auto kind = static_cast<ColliderKind>(shape);
         b.friction[shape] = has_friction(b.scene, kind);
         if (b.friction[shape] && b.plan.iterations > 1 && b.method.contact_each_iteration)
             b.friction_taken[shape] = b.add_buffer(
-                "friction", kind == ColliderKind::plane ? "plane friction" : "sphere friction",
+                "friction", std::string(kColliderNames[shape]) + " friction",
                 std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
     }
 }
 
 template <typename Params>
-void record_contact(PlanBuilder& b, const Moment& moment, std::string_view shape, ColliderKind kind,
-                    std::uint32_t buffer)
+void record_contact(PlanBuilder& b, const Moment& moment, ColliderKind kind, std::uint32_t buffer)
 {
+    const std::string_view shape = kColliderNames[static_cast<std::size_t>(kind)];
     const std::uint32_t colliders = collider_count(b.scene, kind);
     std::vector<Use> uses = {
         {b.plan.position}, {b.plan.delta}, {buffer, 0}, {b.plan.step_values, 0}, {b.plan.events, 0}};
@@ -212,18 +239,28 @@ void record_contact(PlanBuilder& b, const Moment& moment, std::string_view shape
 
 void record_plane(PlanBuilder& b, const Moment& moment)
 {
-    record_contact<kernels::plane::Params>(b, moment, "plane", ColliderKind::plane, b.plan.planes);
+    record_contact<kernels::plane::Params>(b, moment, ColliderKind::plane, b.plan.planes);
 }
 
 void record_sphere(PlanBuilder& b, const Moment& moment)
 {
-    record_contact<kernels::sphere::Params>(b, moment, "sphere", ColliderKind::sphere, b.plan.spheres);
+    record_contact<kernels::sphere::Params>(b, moment, ColliderKind::sphere, b.plan.spheres);
+}
+
+void record_capsule(PlanBuilder& b, const Moment& moment)
+{
+    record_contact<kernels::capsule::Params>(b, moment, ColliderKind::capsule, b.plan.capsules);
+}
+
+void record_cuboid(PlanBuilder& b, const Moment& moment)
+{
+    record_contact<kernels::cuboid::Params>(b, moment, ColliderKind::cuboid, b.plan.cuboids);
 }
 
 bool wants_friction(const Scene& scene)
 {
-    return has_bodies(scene) &&
-           (has_friction(scene, ColliderKind::plane) || has_friction(scene, ColliderKind::sphere));
+    return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                                            [](const Collider& c) { return c.friction > 0; });
 }
 
 bool any_stretch(const Scene& scene)
@@ -239,11 +276,32 @@ bool any_bending(const Scene& scene)
     });
 }
 
+bool any_strain_limit(const Scene& scene)
+{
+    return any_stretch(scene) && std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                             [](const Body& b) { return b.material.strain_limit > 0; });
+}
+
+bool any_attachment(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
+        return b.material.attachment_slack >= 0 &&
+               std::any_of(b.pins.begin(), b.pins.end(), [](const Pin& p) { return !p.vertices.empty(); });
+    });
+}
+
+bool any_tearing(const Scene& scene)
+{
+    return any_stretch(scene) && std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                             [](const Body& b) { return b.material.tear_strain > 0; });
+}
+
 constexpr Effect kEffects[] = {
     {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr,
      record_damping},
     {"external_force", Stage::force, [](const Scene& s) { return has_bodies(s) && s.external_forces; },
      prepare_external_force, record_external_force},
+    {"wind", Stage::force, wants_wind, prepare_wind, record_wind},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance, only(MethodKind::xpbd)},
@@ -260,12 +318,19 @@ constexpr Effect kEffects[] = {
                                         (s.method.bend > 0 && any_bending(s)));
      },
      prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
+    {"strain_limit", Stage::contact, any_strain_limit, prepare_strain_limit, record_strain_limit},
+    {"attachment", Stage::contact, any_attachment, prepare_attachment, record_attachment},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
      prepare_plane, record_plane},
     {"sphere", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::sphere); },
      prepare_sphere, record_sphere},
+    {"capsule", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::capsule); },
+     prepare_capsule, record_capsule},
+    {"cuboid", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::cuboid); },
+     prepare_cuboid, record_cuboid},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
+    {"tearing", Stage::after, any_tearing, prepare_tearing, record_tearing},
 };
 
 } // namespace

@@ -1,9 +1,12 @@
 #pragma once
 // Colliders as the references and errors see them: surfaces at one time.
 
-#include "taut/scene/scene.hpp"
+#include "taut/scene/collider.hpp"
 
 #include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace taut::reference {
 
@@ -15,31 +18,55 @@ struct Touch
 
 struct Surface
 {
-    bool plane = false;
-    glm::dvec3 point{0};  ///< m: on the plane, or the centre
-    glm::dvec3 normal{0}; ///< unit, planes only
-    double radius = 0;    ///< m
+    ColliderKind kind = ColliderKind::plane;
+    ColliderFrame frame; ///< plane: y is the normal
+    double radius = 0;   ///< m: sphere, capsule
+    glm::dvec3 half{0};  ///< m: cuboid
 
+    /// A box grows by the gap on every face, so outside its edges it is further away than this says.
     Touch touch(const glm::dvec3& x, double gap) const
     {
-        if (plane)
-            return {normal, glm::dot(normal, x - point) - gap};
-        const double distance = glm::distance(x, point);
-        const glm::dvec3 out = distance > 0 ? (x - point) / distance : glm::dvec3(0, 1, 0);
+        glm::dvec3 own = frame.inside(x);
+        if (kind == ColliderKind::plane)
+            return {frame.y, own.y - gap};
+        if (kind == ColliderKind::cuboid)
+            return touch_box(own, gap);
+        if (kind == ColliderKind::capsule)
+            own.y -= std::clamp(own.y, -frame.half_length, frame.half_length);
+        const double distance = glm::length(own);
+        const glm::dvec3 nowhere = kind == ColliderKind::capsule ? frame.x : frame.y;
+        const glm::dvec3 out =
+            distance > 0 ? (frame.outside(own) - frame.centre) / distance : nowhere;
         return {out, distance - radius - gap};
+    }
+
+    /// How far the collider's point that is at x now, and was elsewhere when it lay as `before`, has come.
+    /// Balls do not spin.
+    glm::dvec3 carried(const Surface& before, const glm::dvec3& x) const
+    {
+        if (kind == ColliderKind::plane || kind == ColliderKind::sphere)
+            return frame.centre - before.frame.centre;
+        return x - before.frame.outside(frame.inside(x));
+    }
+
+private:
+    Touch touch_box(const glm::dvec3& own, double gap) const
+    {
+        const glm::dvec3 axes[] = {frame.x, frame.y, frame.z};
+        Touch out{axes[0], -1e300};
+        for (int k = 0; k < 3; ++k)
+        {
+            const double height = std::abs(own[k]) - half[k] - gap;
+            if (height > out.height)
+                out = {own[k] < 0 ? -axes[k] : axes[k], height};
+        }
+        return out;
     }
 };
 
 inline Surface surface_at(const Collider& collider, double time)
 {
-    Surface out;
-    out.plane = collider.kind == ColliderKind::plane;
-    out.point = pose(collider.motion, time, collider.point);
-    out.radius = collider.radius;
-    if (out.plane)
-        out.normal = glm::normalize(pose(collider.motion, time, collider.normal) -
-                                    pose(collider.motion, time, glm::dvec3(0)));
-    return out;
+    return {collider.kind, frame_at(collider, time), collider.radius, collider.half_size};
 }
 
 } // namespace taut::reference

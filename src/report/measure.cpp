@@ -5,6 +5,7 @@
 //   no multiplier on record.
 
 #include "taut/plan/methods.hpp"
+#include "taut/report/contact.hpp"
 #include "taut/report/hinge.hpp"
 #include "taut/report/model.hpp"
 #include "taut/report/report.hpp"
@@ -162,20 +163,21 @@ void measure_energy(const View& view, StepReport& out)
                 c.compliance;
 }
 
-/// Signed distance of a point to a collider's surface at a time, m.
+/// Signed distance of a point to a collider's surface at a time, m; of a box, to its nearest face.
 double surface_gap(const Collider& c, double time, const glm::dvec3& x)
 {
-    const glm::dvec3 place = pose(c.motion, time, c.point);
-    return c.kind == ColliderKind::plane ? glm::dot(glm::normalize(c.normal), x - place)
-                                         : glm::length(x - place) - c.radius;
+    return reference::surface_at(c, time).touch(x, 0).height;
 }
 
 void measure_penetration(const View& view, StepReport& out)
 {
     for (const Collider& c : view.world.scene().colliders)
+    {
+        const reference::Surface surface = reference::surface_at(c, view.world.time());
         for (std::size_t i = 0; i < view.x.size(); ++i)
             if (!view.model.pinned[i])
-                out.penetration = std::max(out.penetration, -surface_gap(c, view.world.time(), view.x[i]));
+                out.penetration = std::max(out.penetration, -surface.touch(view.x[i], 0).height);
+    }
 }
 
 /// Momentum against the impulse of gravity; only a free, undamped body without contacts has one to keep.
@@ -185,7 +187,8 @@ void measure_momentum(const View& view, StepReport& out)
     out.momentum_error = -1;
     const bool pins =
         std::any_of(view.model.pinned.begin(), view.model.pinned.end(), [](bool p) { return p; });
-    if (pins || !scene.colliders.empty() || scene.damping > 0 || scene.external_forces || view.x.empty())
+    const bool pushed = scene.damping > 0 || scene.external_forces || view.plan.wind != kNoBuffer;
+    if (pins || pushed || !scene.colliders.empty() || view.x.empty())
         return;
     glm::dvec3 now(0), before(0);
     double mass = 0;
@@ -261,8 +264,12 @@ void measure_residuals(const View& view, StepReport& out)
     const auto& sets = view.plan.constraints;
     const bool kept = std::all_of(sets.begin(), sets.end(),
                                   [](const ConstraintSet& s) { return s.multipliers != kNoBuffer; });
+    const bool limited = // by forces that are on no record
+        std::any_of(view.plan.effects.begin(), view.plan.effects.end(), [](const EffectCost& e) {
+            return e.name == "strain_limit" || e.name == "attachment";
+        });
     const bool by_multipliers = method_of(view.world.scene()) == MethodKind::xpbd && kept;
-    if (!by_multipliers || view.plan.predicted == kNoBuffer || view.world.steps() == 0)
+    if (!by_multipliers || limited || view.plan.predicted == kNoBuffer || view.world.steps() == 0)
         return;
     const double h = view.plan.timestep / view.plan.substeps;
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
@@ -354,6 +361,7 @@ StepReport measure(const World& world)
     measure_penetration(view, out);
     measure_momentum(view, out);
     measure_residuals(view, out);
+    out.torn = world.torn();
     out.position_hash = hash_of(world.state());
     out.solver = world.solver_report();
     judge(view, out);

@@ -1,6 +1,7 @@
 #include "taut/report/picture.hpp"
 
 #include "taut/report/image.hpp"
+#include "taut/scene/collider.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -53,6 +54,22 @@ void add_ball(std::vector<glm::dvec3>& points, const glm::dvec3& centre, double 
                     points.push_back(centre + radius * glm::normalize(glm::dvec3(x, y, z)));
 }
 
+/// What a picture should hold of a collider; a plane has no end, so nothing of it.
+void add_collider(std::vector<glm::dvec3>& points, const Collider& collider, double time)
+{
+    const ColliderFrame frame = frame_at(collider, time);
+    if (collider.kind == ColliderKind::sphere)
+        add_ball(points, frame.centre, collider.radius);
+    else if (collider.kind == ColliderKind::capsule)
+        for (const double end : {-frame.half_length, frame.half_length})
+            add_ball(points, frame.outside({0, end, 0}), collider.radius);
+    else if (collider.kind == ColliderKind::cuboid)
+        for (const double x : {-1.0, 1.0})
+            for (const double y : {-1.0, 1.0})
+                for (const double z : {-1.0, 1.0})
+                    points.push_back(frame.outside(collider.half_size * glm::dvec3(x, y, z)));
+}
+
 /// Everything that a picture should hold.
 std::vector<glm::dvec3> points_of(const Scene& scene, std::span<const Moment> moments)
 {
@@ -61,8 +78,7 @@ std::vector<glm::dvec3> points_of(const Scene& scene, std::span<const Moment> mo
     {
         std::copy_if(moment.positions.begin(), moment.positions.end(), std::back_inserter(points), finite);
         for (const Collider& collider : scene.colliders)
-            if (collider.kind == ColliderKind::sphere)
-                add_ball(points, pose(collider.motion, moment.time, collider.point), collider.radius);
+            add_collider(points, collider, moment.time);
     }
     if (points.empty())
         add_ball(points, glm::dvec3(0), 1);
@@ -119,7 +135,8 @@ double round_number(double value)
     return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
 }
 
-Surface sphere_surface(const glm::dvec3& centre, double radius)
+/// A ball drawn out along the y axis of its frame by `half_length` to both sides; 0 for a sphere.
+Surface capsule_surface(const ColliderFrame& frame, double half_length, double radius)
 {
     constexpr std::uint32_t kRings = 48, kSegments = 96;
     Surface out;
@@ -132,7 +149,8 @@ Surface sphere_surface(const glm::dvec3& centre, double radius)
             const double turn = glm::radians(360.0) * k / kSegments;
             const glm::dvec3 n{std::sin(polar) * std::cos(turn), std::cos(polar),
                                std::sin(polar) * std::sin(turn)};
-            out.positions.emplace_back(glm::vec3(centre + radius * n), 1.0f);
+            const double along = half_length == 0 ? 0 : 2 * i <= kRings ? half_length : -half_length;
+            out.positions.emplace_back(glm::vec3(frame.outside(radius * n + glm::dvec3(0, along, 0))), 1.0f);
         }
     for (std::uint32_t i = 0; i < kRings; ++i)
         for (std::uint32_t k = 0; k < kSegments; ++k)
@@ -140,6 +158,30 @@ Surface sphere_surface(const glm::dvec3& centre, double radius)
             const std::uint32_t a = i * kSegments + k, b = i * kSegments + (k + 1) % kSegments;
             for (const std::uint32_t v : {a, b, a + kSegments, b, b + kSegments, a + kSegments})
                 out.triangles.push_back(v);
+        }
+    return out;
+}
+
+Surface cuboid_surface(const ColliderFrame& frame, const glm::dvec3& half)
+{
+    Surface out;
+    out.finish = Finish::solid;
+    out.front = out.back = kSphere;
+    // A face has its own corners, so that its edges stay sharp.
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0})
+        {
+            const auto first = static_cast<std::uint32_t>(out.positions.size());
+            for (const auto& [u, v] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+            {
+                glm::dvec3 corner(0);
+                corner[axis] = side;
+                corner[(axis + 1) % 3] = side * u;
+                corner[(axis + 2) % 3] = v;
+                out.positions.emplace_back(glm::vec3(frame.outside(half * corner)), 1.0f);
+            }
+            for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u})
+                out.triangles.push_back(first + k);
         }
     return out;
 }
@@ -229,16 +271,17 @@ void Pictures::add(Moment moment) { moments_.push_back(std::move(moment)); }
 
 std::vector<Surface> Pictures::cloth(const Moment& moment) const
 {
+    const std::vector<Body>& bodies = moment.scene ? moment.scene->bodies : scene_.bodies;
     std::vector<Surface> out;
     auto next = moment.positions.begin();
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+    for (std::size_t b = 0; b < bodies.size(); ++b)
     {
-        const auto count = static_cast<std::ptrdiff_t>(scene_.bodies[b].mesh.positions.size());
+        const auto count = static_cast<std::ptrdiff_t>(bodies[b].mesh.positions.size());
         if (moment.positions.end() - next < count)
             throw Error(ErrorCode::bad_input, "the moment at " + std::to_string(moment.time) + " s has " +
                                                   std::to_string(moment.positions.size()) +
                                                   " positions, fewer than the scene has vertices");
-        out.push_back(body_surface(scene_.bodies[b], b, [](std::uint32_t v) { return v; }));
+        out.push_back(body_surface(bodies[b], b, [](std::uint32_t v) { return v; }));
         for (const auto end = next + count; next != end; ++next)
             out.back().positions.emplace_back(glm::vec3(*next), 1.0f);
     }
@@ -266,12 +309,19 @@ void Pictures::add_colliders(std::vector<Surface>& surfaces, double time, const 
 {
     for (const Collider& collider : scene_.colliders)
     {
-        const glm::dvec3 point = pose(collider.motion, time, collider.point);
-        const glm::dvec3 ahead =
-            pose(collider.motion, time, collider.point + glm::normalize(collider.normal));
-        surfaces.push_back(collider.kind == ColliderKind::sphere
-                               ? sphere_surface(point, collider.radius)
-                               : plane_surface(point, glm::normalize(ahead - point), shot));
+        const ColliderFrame frame = frame_at(collider, time);
+        if (collider.kind == ColliderKind::plane)
+            surfaces.push_back(plane_surface(frame.centre, frame.y, shot));
+        else if (collider.kind == ColliderKind::cuboid)
+            surfaces.push_back(cuboid_surface(frame, collider.half_size));
+        else if (collider.kind == ColliderKind::capsule)
+            surfaces.push_back(capsule_surface(frame, frame.half_length, collider.radius));
+        else
+        {
+            ColliderFrame upright; // balls do not spin
+            upright.centre = frame.centre;
+            surfaces.push_back(capsule_surface(upright, 0, collider.radius));
+        }
     }
 }
 
@@ -294,7 +344,8 @@ Image Pictures::draw(const World& world, const Shot& shot)
     const bool in_place = &world.device() == renderer_.device().get() && world.position_buffer() &&
                           world.plan().precision == Precision::float32;
     if (!in_place)
-        return draw(Moment{world.time(), world.positions()}, shot);
+        return draw(
+            Moment{world.time(), world.positions(), std::make_shared<const Scene>(world.scene())}, shot);
     std::vector<Surface> surfaces = cloth_in_place(world);
     add_colliders(surfaces, world.time(), shot);
     finish_strands(surfaces, shot);

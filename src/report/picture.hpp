@@ -17,6 +17,8 @@ struct Moment
 {
     double time = 0;                   ///< s
     std::vector<glm::dvec3> positions; ///< m, bodies one after another, as World::positions() gives them
+    /// The meshes at that time, where they are not those of the pictures' scene: cloth may tear.
+    std::shared_ptr<const Scene> scene = nullptr;
 };
 
 struct PictureOptions
@@ -41,7 +43,10 @@ public:
 
     /// For the contact sheet; the last one added is the picture.
     void add(Moment moment);
-    void capture(const World& world) { add({world.time(), world.positions()}); }
+    void capture(const World& world)
+    {
+        add({world.time(), world.positions(), std::make_shared<const Scene>(world.scene())});
+    }
 
     Image draw(const Moment& moment, const Shot& shot);
 

@@ -97,21 +97,21 @@ private:
         for (std::size_t c = 0; c < surfaces_.size(); ++c)
         {
             const Surface now = reference::surface_at(model_.colliders[c], end);
-            const glm::dvec3 shift = now.point - surfaces_[c].point;
             for (std::size_t i = 0; i < x_.size(); ++i)
                 if (!model_.pinned[i])
-                    push_out(i, now, shift, model_.colliders[c].friction);
+                    push_out(i, now, surfaces_[c], model_.colliders[c].friction);
             surfaces_[c] = now;
         }
     }
 
     /// The way out is the normal impulse times h/m, so the cone of Coulomb holds between lengths too.
-    void push_out(std::size_t i, const Surface& surface, const glm::dvec3& shift, double friction)
+    void push_out(std::size_t i, const Surface& surface, const Surface& before, double friction)
     {
         const reference::Touch touch = surface.touch(x_[i], model_.gap[i]);
         if (!(touch.height < 0))
             return;
         glm::dvec3 push = -touch.height * touch.normal;
+        const glm::dvec3 shift = surface.carried(before, x_[i] + push);
         const glm::dvec3 slide = x_[i] + push - before_[i] - shift;
         const glm::dvec3 along = slide - glm::dot(slide, touch.normal) * touch.normal;
         const double length = glm::length(along), most = -friction * touch.height;

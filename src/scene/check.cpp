@@ -177,6 +177,12 @@ void check_springs(const Body& body, const Checker& out)
 void check_body_values(const Body& body, const Checker& out)
 {
     check_material(body.material, out.at("material"));
+    const bool own_springs = !body.springs.empty() || body.shape.network.used;
+    if (body.material.tear_strain > 0 && (own_springs || body.shape.kind == ShapeKind::chain))
+        out.error("material.tear_strain",
+                  "is " + shown(body.material.tear_strain) +
+                      ", but only cloth whose springs are its edges can tear; leave out the network and the "
+                      "springs, or take a grid or a mesh");
     out.finite("velocity", body.velocity, "m/s");
     check_springs(body, out);
     for (std::size_t i = 0; i < body.vertex_masses.size(); ++i)

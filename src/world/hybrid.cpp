@@ -250,6 +250,11 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
     my.scene = meshes ? scene : resolve(scene);
     if (my.scene.bodies.empty())
         throw Error(ErrorCode::bad_input, "a hybrid world has nothing to divide: the scene has no bodies");
+    for (const Body& body : my.scene.bodies)
+        if (body.material.tear_strain > 0)
+            throw Error(ErrorCode::unsupported,
+                        "a hybrid world cannot tear cloth, whose number of vertices changes; use one "
+                        "device, or leave tear_strain out");
     my.options = options;
     my.sides[0].device = std::move(one);
     my.sides[1].device = std::move(other);

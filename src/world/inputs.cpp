@@ -1,5 +1,7 @@
 #include "taut/world/inputs.hpp"
 
+#include "taut/scene/collider.hpp"
+
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
@@ -7,8 +9,10 @@
 #include "taut/kernels/shared/layouts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace taut {
 namespace {
@@ -89,6 +93,78 @@ InputWrite spheres(const Scene& scene, const Plan& plan, double time)
     return write_of(plan.spheres, out);
 }
 
+template <typename Record>
+void put_frame(Record& out, const ColliderFrame& frame)
+{
+    using Real = decltype(out.centre_x);
+    const std::pair<glm::dvec3, std::array<Real*, 3>> parts[] = {
+        {frame.centre, {&out.centre_x, &out.centre_y, &out.centre_z}},
+        {frame.x, {&out.x_x, &out.x_y, &out.x_z}},
+        {frame.y, {&out.y_x, &out.y_y, &out.y_z}},
+        {frame.z, {&out.z_x, &out.z_y, &out.z_z}},
+    };
+    for (const auto& [from, to] : parts)
+        for (int axis = 0; axis < 3; ++axis)
+            *to[static_cast<std::size_t>(axis)] = static_cast<Real>(from[axis]);
+}
+
+/// `fill(record, collider, frame)` of every collider of a kind, at the start of each substep and at the end.
+template <typename Record, typename Fill>
+InputWrite poses(const Scene& scene, const Plan& plan, double time, ColliderKind kind, std::uint32_t buffer,
+                 const Fill& fill)
+{
+    std::vector<Record> out;
+    for (std::uint32_t s = 0; s <= plan.substeps; ++s)
+        for (const Collider& c : scene.colliders)
+            if (c.kind == kind)
+            {
+                const ColliderFrame frame = frame_at(c, time + scene.timestep * s / plan.substeps);
+                put_frame(out.emplace_back(Record{}), frame);
+                fill(out.back(), c, frame);
+            }
+    return write_of(buffer, out);
+}
+
+template <typename Real>
+InputWrite capsules(const Scene& scene, const Plan& plan, double time)
+{
+    using Record = layout::CapsuleCollider<Real>;
+    return poses<Record>(scene, plan, time, ColliderKind::capsule, plan.capsules,
+                         [](Record& out, const Collider& c, const ColliderFrame& frame) {
+                             out.half_length = static_cast<Real>(frame.half_length);
+                             out.radius = static_cast<Real>(c.radius);
+                             out.friction = static_cast<Real>(c.friction);
+                         });
+}
+
+template <typename Real>
+InputWrite cuboids(const Scene& scene, const Plan& plan, double time)
+{
+    using Record = layout::CuboidCollider<Real>;
+    return poses<Record>(scene, plan, time, ColliderKind::cuboid, plan.cuboids,
+                         [](Record& out, const Collider& c, const ColliderFrame&) {
+                             out.half_x = static_cast<Real>(c.half_size.x);
+                             out.half_y = static_cast<Real>(c.half_size.y);
+                             out.half_z = static_cast<Real>(c.half_size.z);
+                             out.friction = static_cast<Real>(c.friction);
+                         });
+}
+
+template <typename Real>
+InputWrite wind(const Scene& scene, const Plan& plan, double time)
+{
+    const glm::dvec3 from = wind_at(scene.wind, time), to = wind_at(scene.wind, time + scene.timestep);
+    layout::WindValues<Real> w{};
+    w.start_x = static_cast<Real>(from.x);
+    w.start_y = static_cast<Real>(from.y);
+    w.start_z = static_cast<Real>(from.z);
+    w.end_x = static_cast<Real>(to.x);
+    w.end_y = static_cast<Real>(to.y);
+    w.end_z = static_cast<Real>(to.z);
+    w.density = static_cast<Real>(scene.wind.density);
+    return write_of(plan.wind, std::vector{w});
+}
+
 template <typename Real>
 InputWrite pin_targets(const Scene& scene, const Plan& plan, double time)
 {
@@ -112,6 +188,12 @@ std::vector<InputWrite> inputs(const Scene& scene, const Plan& plan, double time
         writes.push_back(planes<Real>(scene, plan, time));
     if (plan.spheres != kNoBuffer)
         writes.push_back(spheres<Real>(scene, plan, time));
+    if (plan.capsules != kNoBuffer)
+        writes.push_back(capsules<Real>(scene, plan, time));
+    if (plan.cuboids != kNoBuffer)
+        writes.push_back(cuboids<Real>(scene, plan, time));
+    if (plan.wind != kNoBuffer)
+        writes.push_back(wind<Real>(scene, plan, time));
     if (plan.pin_targets != kNoBuffer)
         writes.push_back(pin_targets<Real>(scene, plan, time));
     return writes;
@@ -121,7 +203,8 @@ std::vector<InputWrite> inputs(const Scene& scene, const Plan& plan, double time
 
 bool inputs_move(const Scene& scene, const Plan& plan)
 {
-    return !plan.moving_pins.empty() || std::any_of(scene.colliders.begin(), scene.colliders.end(),
+    const bool gusts = plan.wind != kNoBuffer && !scene.wind.keys.empty();
+    return gusts || !plan.moving_pins.empty() || std::any_of(scene.colliders.begin(), scene.colliders.end(),
                                                     [](const Collider& c) { return !c.motion.empty(); });
 }
 

@@ -3,6 +3,7 @@
 #include "taut/linear/cg_state.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 #include "taut/world/inputs.hpp"
+#include "taut/world/tearing.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace taut {
 
@@ -26,6 +28,10 @@ struct World::Impl
     std::uint64_t steps = 0;
     Clock clock;
     bool moves = false;
+    PlanOptions options;
+    DeviceTraits traits;
+    std::uint64_t torn = 0;       ///< vertices that came apart
+    std::uint32_t overlong = 0;   ///< what plan.torn counted when it was last looked at
 
     double time() const { return clock.at(steps); }
     void restart_clock(const Clock& before);
@@ -33,6 +39,8 @@ struct World::Impl
     void record();
     void write_inputs();
     void write_all_inputs();
+    void after_step();
+    void replace_scene(const TornScene& next);
     template <typename Real>
     std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
     std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
@@ -109,6 +117,82 @@ std::vector<std::byte> World::Impl::raw(std::uint32_t buffer) const
     return bytes;
 }
 
+/// Cloth that can tear is looked at between steps: one word says whether any spring is too long.
+void World::Impl::after_step()
+{
+    ++steps;
+    if (plan.torn == kNoBuffer)
+        return;
+    const std::uint32_t count = device->read<std::uint32_t>(buffers[plan.torn], 1).front();
+    if (count == overlong)
+        return;
+    overlong = count;
+    const TornScene next = tear(scene, vectors(plan.position, plan.low));
+    if (next.splits > 0)
+        replace_scene(next);
+}
+
+namespace {
+
+/// What a vertex had, for each part of it; `before` and `from` are in the plans' orders.
+std::vector<std::byte> spread(const std::vector<std::byte>& before, const std::vector<std::uint32_t>& from,
+                              std::size_t element)
+{
+    std::vector<std::byte> out(from.size() * element);
+    for (std::size_t v = 0; v < from.size(); ++v)
+        std::memcpy(out.data() + v * element, before.data() + from[v] * element, element);
+    return out;
+}
+
+/// Plan vertex in `before` of each plan vertex in `now`.
+std::vector<std::uint32_t> places(const Plan& before, const Plan& now,
+                                  const std::vector<std::uint32_t>& origin)
+{
+    std::vector<std::uint32_t> place_of(before.vertex_count), out;
+    for (std::uint32_t v = 0; v < before.vertex_count; ++v)
+        place_of[before.original[v]] = v;
+    for (const std::uint32_t v : now.original)
+        out.push_back(place_of[origin[v]]);
+    return out;
+}
+
+} // namespace
+
+/// Plans the scene anew and carries the state over, bit for bit; inverse masses are the new plan's.
+void World::Impl::replace_scene(const TornScene& next)
+{
+    const std::vector<std::byte> position = raw(plan.position), low = raw(plan.low),
+                                 velocity = raw(plan.velocity), delta = raw(plan.delta),
+                                 force = raw(plan.force), events = raw(plan.events);
+    std::vector<std::vector<std::byte>> logs; // of linear solves: they count over the whole run
+    for (const PlanSolver& solver : plan.solvers)
+        logs.push_back(raw(solver.log));
+    const Plan before = std::exchange(plan, make_plan(next.scene, traits, options));
+    scene = next.scene;
+    torn += next.splits;
+    overlong = 0;
+    recording.reset();
+    buffers.clear();
+    create_buffers();
+    record();
+    const std::vector<std::uint32_t> from = places(before, plan, next.origin);
+    const std::size_t element = 4 * real_bytes(plan.precision), mass = 3 * real_bytes(plan.precision);
+    std::vector<std::byte> moved = spread(position, from, element);
+    const std::vector<std::byte>& fresh = plan.buffers[plan.position].initial;
+    for (std::size_t v = 0; v < from.size(); ++v)
+        std::memcpy(moved.data() + v * element + mass, fresh.data() + v * element + mass, element - mass);
+    device->write(buffers[plan.position], 0, moved);
+    device->write(buffers[plan.low], 0, spread(low, from, element));
+    device->write(buffers[plan.velocity], 0, spread(velocity, from, element));
+    device->write(buffers[plan.delta], 0, spread(delta, from, element));
+    device->write(buffers[plan.events], 0, events);
+    for (std::size_t k = 0; k < std::min(logs.size(), plan.solvers.size()); ++k)
+        device->write(buffers[plan.solvers[k].log], 0, logs[k]);
+    if (plan.force != kNoBuffer)
+        device->write(buffers[plan.force], 0, spread(force, from, element));
+    write_all_inputs();
+}
+
 namespace {
 
 Scene resolved(const Scene& scene)
@@ -136,6 +220,8 @@ World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOpti
     // Costs only decide how constraints are grouped: without any, no probe runs.
     const DeviceTraits traits =
         has_constraints(impl_->scene) ? measure_traits(*impl_->device) : limits_as_traits(*impl_->device);
+    impl_->options = options.plan;
+    impl_->traits = traits;
     impl_->plan = make_plan(impl_->scene, traits, options.plan);
     impl_->moves = inputs_move(impl_->scene, impl_->plan);
     impl_->restart_clock({});
@@ -152,7 +238,7 @@ void World::step()
     impl_->write_inputs();
     if (impl_->recording)
         impl_->recording->replay();
-    ++impl_->steps;
+    impl_->after_step();
 }
 
 std::vector<EffectTime> World::step_timed()
@@ -169,7 +255,7 @@ std::vector<EffectTime> World::step_timed()
                     ++effect.dispatches;
                     effect.milliseconds += t.nanoseconds * 1e-6;
                 }
-    ++impl_->steps;
+    impl_->after_step();
     return times;
 }
 
@@ -235,6 +321,8 @@ SolverReport World::solver_report() const
     return out;
 }
 
+std::uint64_t World::torn() const { return impl_->torn; }
+
 BufferPtr World::position_buffer() const
 {
     return impl_->plan.position == kNoBuffer ? nullptr : impl_->buffers[impl_->plan.position];
@@ -242,6 +330,10 @@ BufferPtr World::position_buffer() const
 
 void World::record_into(VkCommandBuffer_T* commands)
 {
+    if (impl_->plan.torn != kNoBuffer)
+        throw Error(ErrorCode::unsupported,
+                    "record_into: cloth that can tear is looked at after every step; use step(), or leave "
+                    "tear_strain out");
     impl_->write_inputs();
     if (impl_->recording)
         record_into_vulkan(*impl_->recording, commands);

@@ -99,9 +99,13 @@ public:
     Events events() const;
     /// Since the world was made, over all systems of the plan. All zero under methods without one.
     SolverReport solver_report() const;
+    /// Vertices that came apart so far (ClothMaterial::tear_strain). Each made a new one, at the end of its
+    /// body's: plan(), scene(), position_buffer() and the number of positions change with it.
+    std::uint64_t torn() const;
 
     WorldState state() const;
-    /// Throws Error{bad_input} when the state is of another plan or holds a value that is not finite.
+    /// Throws Error{bad_input} when the state is of another plan (also of a cloth torn otherwise) or holds a
+    /// value that is not finite.
     void restore(const WorldState& state);
 
     /// Force on one vertex [N] from now on; needs Scene::external_forces. A value that is not finite
@@ -116,8 +120,9 @@ public:
 
     /// For engines: the buffer of rvec4 positions in plan order, and the step as commands.
     BufferPtr position_buffer() const;
-    /// Vulkan devices only (else Error{unsupported}). Updates the step values, then records one step
-    /// into the caller's command buffer; the caller submits it before the next call.
+    /// Vulkan devices only (else Error{unsupported}, also where cloth can tear). Updates the step
+    /// values, then records one step into the caller's command buffer; the caller submits it before the
+    /// next call.
     void record_into(VkCommandBuffer_T* commands);
 
 private:

@@ -1,0 +1,70 @@
+#include "taut/scene/collider.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace taut {
+namespace {
+
+/// x and z of a frame whose y is given.
+void complete(ColliderFrame& frame)
+{
+    const glm::dvec3 other = std::abs(frame.y.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    frame.x = glm::normalize(other - glm::dot(other, frame.y) * frame.y);
+    frame.z = glm::cross(frame.x, frame.y);
+}
+
+ColliderFrame rest_frame(const Collider& c)
+{
+    ColliderFrame out;
+    out.centre = c.point;
+    if (c.kind == ColliderKind::plane)
+    {
+        out.y = glm::normalize(c.normal);
+        complete(out);
+    }
+    else if (c.kind == ColliderKind::capsule)
+    {
+        const glm::dvec3 way = c.end - c.point;
+        const double length = glm::length(way);
+        out.centre = c.point + 0.5 * way;
+        out.half_length = 0.5 * length;
+        out.y = length > 0 ? way / length : glm::dvec3(0, 1, 0);
+        complete(out);
+    }
+    else if (c.kind == ColliderKind::cuboid)
+    {
+        const std::vector<Keyframe> turn{{0, glm::dvec3(0), c.rotate_axis, c.rotate_degrees, glm::dvec3(0)}};
+        for (glm::dvec3* axis : {&out.x, &out.y, &out.z})
+            *axis = pose(turn, 0, *axis);
+    }
+    return out;
+}
+
+} // namespace
+
+glm::dvec3 ColliderFrame::inside(const glm::dvec3& world) const
+{
+    const glm::dvec3 from = world - centre;
+    return {glm::dot(from, x), glm::dot(from, y), glm::dot(from, z)};
+}
+
+glm::dvec3 ColliderFrame::outside(const glm::dvec3& own) const
+{
+    return centre + own.x * x + own.y * y + own.z * z;
+}
+
+ColliderFrame frame_at(const Collider& collider, double time)
+{
+    ColliderFrame out = rest_frame(collider);
+    if (collider.motion.empty())
+        return out;
+    const glm::dvec3 centre = pose(collider.motion, time, out.centre);
+    for (glm::dvec3* axis : {&out.x, &out.y, &out.z})
+        *axis = glm::normalize(pose(collider.motion, time, out.centre + *axis) - centre);
+    out.centre = centre;
+    return out;
+}
+
+} // namespace taut

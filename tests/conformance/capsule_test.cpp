@@ -1,0 +1,181 @@
+#include "taut/kernels/capsule.hpp"
+
+#include "support/turned.hpp"
+
+using namespace taut;
+using namespace taut::conformance;
+using kernels::capsule::Params;
+
+namespace {
+
+template <typename Real>
+using Capsule = layout::CapsuleCollider<Real>;
+
+template <typename Real>
+Capsule<Real> make_capsule(const Frame& frame, double half_length, double radius, double friction)
+{
+    Capsule<Real> c{};
+    put_frame<Real>(c, frame);
+    c.half_length = static_cast<Real>(half_length);
+    c.radius = static_cast<Real>(radius);
+    c.friction = static_cast<Real>(friction);
+    return c;
+}
+
+/// From the segment between (0, -half, 0) and (0, half, 0), its nearest point by the three cases.
+glm::dvec3 from_segment(const glm::dvec3& p, double half)
+{
+    const glm::dvec3 top(0, half, 0), bottom(0, -half, 0);
+    return p.y > half ? p - top : p.y < -half ? p - bottom : glm::dvec3(p.x, 0, p.z);
+}
+
+/// In the frame of the capsule: a vertex that ends inside, on the side that it came from, leaves by the
+/// nearest point; one that entered and went past the axis or out again is stopped where it entered.
+template <typename Real>
+Touch touch_capsule(const std::vector<Capsule<Real>>& poses, const Contacts<Real>& in, std::uint32_t j,
+                    const glm::dvec3& x, const glm::dvec3& d, double kept)
+{
+    const Capsule<Real>& c = poses[in.substep * in.colliders + j];
+    const double half = static_cast<double>(c.half_length), r = static_cast<double>(c.radius) + kept;
+    const Way way = way_of(poses, in, j, x, d);
+    const auto distance = [&](const glm::dvec3& p) { return glm::length(from_segment(p, half)); };
+    const glm::dvec3 qa = from_segment(way.a, half), qe = from_segment(way.e, half);
+    double least = 0, entry = 2;
+    const double depth = distance(way.a) / r;
+    bool doubtful = std::abs(depth * depth - 0.999) < 1e-4;
+    if (way.length() > 0 && depth * depth >= 0.999)
+    {
+        entry = time_of_entry([&](double t) { return distance(way.at(t)) - r; }, least);
+        if (distance(way.a) < r) // a rounding inside counts as the surface
+            entry = glm::dot(qa, way.e - way.a) < 0 ? 0 : 2;
+        else
+            doubtful = doubtful || std::abs(least) < 1e-3 * r; // grazes
+    }
+    const bool same_side = glm::dot(qa, qe) > 0 && glm::length(qe) < r;
+    doubtful = doubtful || (entry <= 1 && std::abs(glm::dot(qa, qe)) < 1e-4 * glm::length(qa) * r);
+    const glm::dvec3 meets = entry <= 1 && !same_side ? way.at(entry) : way.e;
+    const glm::dvec3 towards = from_segment(meets, half);
+    const double size = glm::length(towards);
+    const glm::dvec3 own = size > 0 ? towards / size : glm::dvec3(1, 0, 0);
+    Touch t;
+    t.normal = way.end.turned(own);
+    t.gap_before = distance(way.a) - r;
+    t.gap = glm::dot(own, way.e - (meets - towards)) - r;
+    t.friction = static_cast<double>(c.friction);
+    add_slide(t, way, d);
+    const double slope = entry <= 1 ? std::abs(glm::dot(own, way.e - way.a)) / way.length() : 1;
+    const double turn = size > 0 ? (distance(way.e) + r) / (size * slope) : 1;
+    t.size = doubtful ? kAnyFinite : (way.terms + half + r) * (2 + turn);
+    return t;
+}
+
+template <typename Real>
+void check_capsules(const Contacts<Real>& in, const std::vector<Capsule<Real>>& poses,
+                    const std::string& variant, bool first_iteration, bool report)
+{
+    const KernelInfo& kernel = kernels::capsule::info(variant, precision_of<Real>());
+    const Params params{in.count, in.colliders, in.substep, in.substeps, first_iteration, report};
+    const Rules rules{variant != "", variant == "friction_kept", first_iteration, 0};
+    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("capsule", poses), rules, report,
+                   [&](const glm::dvec3& x, const glm::dvec3& d, double kept, std::uint32_t j) {
+                       return touch_capsule(poses, in, j, x, d, kept);
+                   });
+}
+
+/// Around the first capsule, which stands at the origin, half a metre thick and high to each end.
+template <typename Real>
+void plant(Contacts<Real>& in)
+{
+    const auto put = [&](std::uint32_t i, glm::dvec3 x, double w, glm::dvec3 d) {
+        if (i >= in.count)
+            return;
+        in.position[i] = {glm::vec<3, Real>(x), static_cast<Real>(w)};
+        in.delta[i] = {glm::vec<3, Real>(d), Real(0)};
+    };
+    put(0, {0.5, 0.25, 0}, 1, {-0.125, 0, 0});  // on the side, pressed in
+    put(1, {0.5, 0.25, 0}, 1, {0, 0, 0});       // on the side, at rest
+    put(2, {0, 0.25, 0}, 1, {0, 0, 0});         // on the axis: leaves across it
+    put(3, {0, 0, 0}, 0, {0, 0, 0});            // held on the axis: a conflict
+    put(4, {0, 0.75, 0}, 0, {0, 0, 0});         // held in the cap: a conflict
+    put(5, {-2, 0.25, 0}, 1, {4, 0, 0});        // through the side
+    put(6, {0.125, 3, 0}, 1, {0, -6, 0});       // along the axis, through both caps
+    put(7, {-2, 0.125, 0}, 1, {2.25, 0, 0});    // stops inside, past the axis
+    put(8, {0, 1, 0}, 1, {0, -0.125, 0});       // on the tip, pressed in
+    put(9, {-2, 2, 0}, 1, {4, 0, 0});           // passes by
+    put(10, {0.5, 0, 0}, 1, {0.25, 0.25, 0});   // on the side, leaving
+    put(11, {0.5, 0, 0}, 0, {0, 0, 0});         // held exactly on the surface
+    put(12, {-2, 0, 0}, 1, {1024, 0, 0});       // very fast
+    put(13, {0.49999, 0.1, 0}, 1, {-2, 0, 0});  // a hair inside, into it: still outside
+    put(14, {0.25, 0.125, 0}, 1, {0.0625, 0, 0}); // inside from the start: limited way out
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("vertices end outside every capsule, swept, and friction takes sliding up to its cone",
+                   "[capsule]", float, double)
+{
+    using Real = TestType;
+    const std::string variant = GENERATE("", "friction", "friction_kept");
+    const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 128u, 1000u);
+    const std::uint32_t colliders = GENERATE(1u, 3u);
+    const bool first_iteration = GENERATE(true, false), report = GENERATE(true, false);
+    const double speed = GENERATE(0.1, 3.0);
+    const std::uint64_t seed = 1100 + count;
+    CAPTURE(variant, count, colliders, first_iteration, report, speed, seed);
+    Random random(seed);
+    auto in = random_contacts<Real>(random, count, colliders, 1.2, speed);
+    in.substeps = 4;
+    in.substep = count % 4;
+    std::vector<Capsule<Real>> poses((in.substeps + 1) * colliders);
+    for (std::uint32_t j = 0; j < colliders; ++j)
+    {
+        const bool first = j == 0;
+        const glm::dvec3 centre(random.vec4<double>(1, 0)), way(random.vec4<double>(0.1, 0));
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
+        const double turn = random.uniform(0, 0.2), half = random.uniform(0, 0.5);
+        const double radius = random.uniform(0.2, 0.4), friction = random.uniform(0, 1);
+        for (std::uint32_t s = 0; s <= in.substeps; ++s)
+            poses[s * colliders + j] =
+                first ? make_capsule<Real>({}, 0.5, 0.5, 0.5)
+                      : make_capsule<Real>(make_frame(centre + way * double(s), axis, 1 + turn * s), half,
+                                           radius, friction);
+    }
+    plant(in);
+    check_capsules(in, poses, variant, first_iteration, report);
+}
+
+TEMPLATE_TEST_CASE("a capsule without length is a ball, and none changes nothing", "[capsule]", float,
+                   double)
+{
+    using Real = TestType;
+    Random random(1150);
+    const std::string variant = GENERATE("", "friction", "friction_kept");
+    auto in = random_contacts<Real>(random, 65, GENERATE(0u, 1u), 1, 0.3);
+    const std::vector<Capsule<Real>> poses(2, make_capsule<Real>({}, 0, 0.5, 0.3));
+    check_capsules(in, poses, variant, true, true);
+}
+
+TEMPLATE_TEST_CASE("a capsule that turns takes a vertex that sticks to it along", "[capsule]", float, double)
+{
+    using Real = TestType;
+    Contacts<Real> in;
+    in.count = in.colliders = 1;
+    in.position = {{Real(0.5), Real(0.25), Real(0), Real(1)}};
+    in.delta = {{Real(-0.01), Real(0), Real(0), Real(0)}}; // pressed in, and so held by friction
+    const double angle = 0.01;
+    const std::vector poses{make_capsule<Real>({}, 0.5, 0.5, 10),
+                            make_capsule<Real>(make_frame({0, 0, 0}, {0, 1, 0}, angle), 0.5, 0.5, 10)};
+    const Launch launch =
+        make_launch(kernels::capsule::info("friction", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+    for (const std::string& selector : test_devices())
+    {
+        const auto device = test_device(selector);
+        if (!can_run(*device, precision_of<Real>()))
+            continue;
+        CAPTURE(selector);
+        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("capsule", poses)).at("delta"));
+        CHECK(0.5 + delta[0] == Approx(0.5 * std::cos(angle)).margin(1e-4));
+        CHECK(delta[1] == Approx(0).margin(1e-6));
+        CHECK(delta[2] == Approx(-0.5 * std::sin(angle)).margin(1e-4));
+    }
+}
