@@ -14,8 +14,8 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::uint32_t kReplacementEvery =
-    8; ///< iterations between two places where the residual may be formed
+/// Iterations between two places where the residual may be formed.
+constexpr std::uint32_t kReplacementEvery = 8;
 constexpr const char* kLabel = "cg";
 
 bool is_diagonal(Preconditioner kind)
@@ -52,6 +52,12 @@ void check_preconditioning(const Preconditioning& given, std::uint64_t rows, std
     if (is_stored(given.kind) && !given.stored)
         throw Error(ErrorCode::bad_input, "the preconditioner " + std::string(to_string(given.kind)) +
                                               " needs `stored`: the passes that apply it");
+}
+
+/// Rows, or block rows, as the passes of conjugate gradients share them.
+Grid grid_of(const Operator& op, Preconditioner kind, std::uint32_t groups)
+{
+    return make_grid(kind == Preconditioner::block_jacobi ? op.rows() / 3 : op.rows(), groups);
 }
 
 } // namespace
@@ -110,12 +116,6 @@ void ConjugateGradient::set(const CgSettings& settings)
 void ConjugateGradient::use_part(BufferPtr control, std::uint64_t offset)
 {
     always_ = {groups_, std::move(control), offset};
-}
-
-/// Rows, or block rows, as the passes of conjugate gradients share them.
-static Grid grid_of(const Operator& op, Preconditioner kind, std::uint32_t groups)
-{
-    return make_grid(kind == Preconditioner::block_jacobi ? op.rows() / 3 : op.rows(), groups);
 }
 
 void ConjugateGradient::record_restart(Recorder& recorder, const Gate& gate, bool begin)
