@@ -1,7 +1,8 @@
 // XPBD distance constraint, one invocation per constraint of one colour (no two share a vertex).
 //
 // Based on:
-//   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 18 at `scale`.
+//   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 18 at `scale`, eq. 26 for
+//     the variants with a damper (DAMPED).
 //   Macklin et al. Small Steps in Physics Simulation. SCA 2019: one iteration per substep, where the
 //   multiplier starts at zero and needs no buffer (the variant without LAMBDA).
 // Departures: works on displacements of the substep (`delta`), not on positions, so that many
@@ -10,6 +11,10 @@
 //! variant lambda LAMBDA=1
 //! variant tail TAIL=1
 //! variant tail_lambda TAIL=1 LAMBDA=1
+//! variant damped DAMPED=1
+//! variant damped_lambda DAMPED=1 LAMBDA=1
+//! variant damped_tail DAMPED=1 TAIL=1
+//! variant damped_tail_lambda DAMPED=1 TAIL=1 LAMBDA=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/compliance.glsl"
@@ -40,6 +45,15 @@ UPDATE(6, real, multiplier); // N s^2
 UPDATE(5, real, multiplier);
 #endif
 #endif
+#if DAMPED
+#if TAIL && LAMBDA
+READ(7, real, damping_time); // damper over stiffness, s
+#elif TAIL || LAMBDA
+READ(6, real, damping_time);
+#else
+READ(5, real, damping_time);
+#endif
+#endif
 
 // Whole rvec4 operations, one division and a select instead of a branch keep the native form close to what
 // four lanes can do.
@@ -53,12 +67,21 @@ void project(uint k)
     rvec4 d = (xa - xb) + (da - db);
     real len = length(rvec3(d));
     real scaled = scaled_compliance(c.compliance, step_values[0].inverse_substep);
-    real denominator = ((xa.w + xb.w) + scaled) * len;
+    real weight = xa.w + xb.w;
+#if DAMPED
+    real damper = min(damping_time[k] * step_values[0].inverse_substep, REAL(1e30)); // gamma of eq. 26
+    weight += weight * damper;
+#endif
+    real denominator = (weight + scaled) * len;
     bool usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
     real value = c.rest_length - len;
 #if LAMBDA
     real before = first_iteration != 0u ? real(0) : multiplier[k];
     value -= scaled * before;
+#endif
+#if DAMPED
+    // By how much the ends went apart since the start of the substep; dropped where len is zero.
+    value -= usable ? damper * (dot(rvec3(d), rvec3(da - db)) / len) : real(0);
 #endif
     real scale = value / denominator; // dlambda / len
     scale = usable ? scale : real(0);

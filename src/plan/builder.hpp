@@ -121,6 +121,7 @@ public:
     std::uint32_t pin_vertices = kNoBuffer;
     const Method& method;
     PbdBuffers pbd;
+    std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
 

@@ -108,6 +108,30 @@ Colouring stretch_colouring(const PlanBuilder& b, std::size_t body,
     return colouring;
 }
 
+bool is_damped(const PlanBuilder& b, const ConstraintSet& set)
+{
+    return set.kind == "distance" && b.distance_damping != kNoBuffer;
+}
+
+/// What the springs' dampers need, where there are any.
+void add_damping(PlanBuilder& b, const ConstraintSet& set, const std::vector<StretchElement>& flat)
+{
+    if (std::none_of(flat.begin(), flat.end(), [](const StretchElement& e) { return e.damping > 0; }))
+        return;
+    if (!set.hub_start.empty())
+        throw Error(ErrorCode::unsupported,
+                    "stretch_damping with more than " + std::to_string(ColouringOptions{}.hub_degree) +
+                        " springs at one vertex; xpbd solves those at once and without dampers: use "
+                        "stretch_damping 0, or another method");
+    with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        std::vector<Real> times;
+        for (const StretchElement& e : flat)
+            times.push_back(static_cast<Real>(e.damping * e.compliance));
+        b.distance_damping = b.add_buffer<Real>(set.kind, "damping times", times);
+    });
+}
+
 std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
                          bool grouped)
 {
@@ -117,6 +141,8 @@ std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::ui
         uses.push_back({set.table});
     if (set.multipliers != kNoBuffer)
         uses.push_back({set.multipliers});
+    if (is_damped(b, set))
+        uses.push_back({b.distance_damping});
     return uses;
 }
 
@@ -126,7 +152,10 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
                     const Moment& moment)
 {
     const bool keep = set.multipliers != kNoBuffer;
-    const std::string_view alone = keep ? "lambda" : "", grouped = keep ? "tail_lambda" : "tail";
+    const bool damped = is_damped(b, set);
+    const std::string_view alone = damped ? (keep ? "damped_lambda" : "damped") : (keep ? "lambda" : "");
+    const std::string_view grouped =
+        damped ? (keep ? "damped_tail_lambda" : "damped_tail") : (keep ? "tail_lambda" : "tail");
     const std::uint32_t first_iteration = moment.iteration == 0, report = moment.last;
     std::uint32_t range = first_run_range(set);
     for (const Run& run : runs_of(b, set))
@@ -209,6 +238,8 @@ void prepare_springs(PlanBuilder& b, const SetOptions& options)
         set.buffer =
             b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, set.kind + " constraints", records);
     });
+    if (options.kind == "distance")
+        add_damping(b, set, flat);
     add_buffers(b, set, std::move(table), options.multipliers);
 }
 

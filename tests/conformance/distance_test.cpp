@@ -216,3 +216,79 @@ TEMPLATE_TEST_CASE(
         CHECK((delta[0].y == 0 && delta[0].z == 0 && delta[1].y == 0 && delta[1].z == 0));
     }
 }
+
+namespace {
+
+/// With a damper of `time` times the stiffness: dlambda = -(C + alpha/h^2 lambda + gamma n.(da - db)) /
+/// ((1 + gamma) (wa + wb) + alpha/h^2), gamma = time / h.
+template <typename Real>
+void project_damped(State& s, const Constraint<Real>& c, std::uint32_t k, double time)
+{
+    const double wa = s.position[c.a].w, wb = s.position[c.b].w, rest = static_cast<double>(c.rest_length);
+    const double soft = static_cast<double>(c.compliance) * s.inverse_substep * s.inverse_substep;
+    const double gamma = time * s.inverse_substep, total = (1 + gamma) * (wa + wb) + soft;
+    const glm::dvec3 d = s.at(c.a) - s.at(c.b);
+    const double length = glm::length(d);
+    const double before = s.lambda && !s.first_iteration ? s.multiplier[k] : 0;
+    if (s.lambda)
+        s.multiplier[k] = before;
+    if (length == 0 || total == 0)
+    {
+        s.events[TAUT_EVENT_DEGENERATE] += s.report && wa + wb > 0 && rest > 0 ? 1 : 0;
+        return;
+    }
+    const glm::dvec3 apart(s.delta[c.a] - s.delta[c.b]);
+    const double dlambda = -(length - rest + soft * before + gamma * glm::dot(d, apart) / length) / total;
+    const double moved = glm::length(glm::dvec3(s.delta[c.a])) + glm::length(glm::dvec3(s.delta[c.b]));
+    const double size = length + moved + s.delta_scale[c.a] + s.delta_scale[c.b];
+    const double terms = size + rest + soft * std::abs(before) + gamma * moved * size / length;
+    const double turn = std::abs(dlambda) * size / length;
+    s.push(c.a, d * (wa * dlambda / length), wa * (terms / total + turn));
+    s.push(c.b, d * (-wb * dlambda / length), wb * (terms / total + turn));
+    if (!s.lambda)
+        return;
+    s.multiplier[k] = before + dlambda;
+    s.multiplier_scale[k] = std::abs(before) + terms / total;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("a spring with a damper moves both ends by the damped XPBD formula", "", float, double)
+{
+    using Real = TestType;
+    const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 129u, 1000u);
+    Mode mode;
+    mode.lambda = GENERATE(false, true);
+    mode.tail = GENERATE(false, true);
+    mode.first_iteration = GENERATE(true, false);
+    CAPTURE(count, mode.variant(), mode.first_iteration);
+    Random random(670 + count);
+    const std::uint32_t size = 2 * std::max(count, 5u) + 7;
+    auto in = vertices<Real>(random, size);
+    for (const std::uint32_t n : {5u, count, 5u})
+        add_colour(in, random, n, 0, size);
+    in.groups = {{1, 3}};
+    plant(in);
+    static constexpr double kTimes[] = {0, 1e-4, 1e-2, 1};
+    std::vector<Real> times;
+    for (std::size_t k = 0; k < in.constraint.size(); ++k)
+        times.push_back(static_cast<Real>(kTimes[random.below(4)]));
+    Case c;
+    c.precision = precision_of<Real>();
+    c.in = in.buffers();
+    c.in["damping_time"] = bytes_of(times);
+    c.launches = colour_launches<Params>(
+        [](std::string_view variant, Precision precision) -> const KernelInfo& {
+            const std::string damped = variant.empty() ? "damped" : "damped_" + std::string(variant);
+            return kernels::distance::info(damped, precision);
+        },
+        c.precision, mode, in);
+    State state = state_of(in, mode.lambda, mode.first_iteration, mode.report);
+    for (std::uint32_t k = in.colour_start[1]; k < in.colour_start[3]; ++k)
+        project_damped(state, in.constraint[k], k, static_cast<double>(times[k]));
+    c.expected["delta"] = state.delta_field();
+    if (mode.lambda)
+        c.expected["multiplier"] = {state.multiplier, state.multiplier_scale};
+    c.events = state.events;
+    check_on_every_device(c);
+}
