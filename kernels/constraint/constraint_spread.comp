@@ -10,6 +10,7 @@
 //! variant listed_apply LISTED=1 APPLY=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
+#include "shared/active_rows.h"
 
 PARAMS
 {
@@ -33,7 +34,6 @@ WRITE(5, rvec4, spread);
 #if LISTED
 READ(6, uint, list);  // how many vertices, then the vertices
 READ(7, uint, place); // of each spring: its row, or TAUT_NO_ROW
-#define TAUT_NO_ROW 0xffffffffu
 #endif
 
 GROUP_KERNEL(TAUT_LINEAR_GROUP)

@@ -6,4 +6,26 @@
 /// 0: all of them do.
 #define TAUT_CONTROL_GROUPS 3
 
+/// Of springs that may become constraints (acad): a spring; a constraint; a spring that was a constraint in
+/// the substep before.
+#define TAUT_ACAD_SPRING 0u
+#define TAUT_ACAD_ROW 1u
+#define TAUT_ACAD_RELEASED 2u
+
+/// Words of acad's control buffer: group counts of the passes that choose rows, of the pass that scans, of
+/// the passes over rows, and of what runs once a solve; then how many rows and vertices of rows there are.
+#define TAUT_ACAD_CHOOSE 0
+#define TAUT_ACAD_SCAN 4
+#define TAUT_ACAD_SOLVE 8
+#define TAUT_ACAD_ONCE 12
+#define TAUT_ACAD_ROWS 16
+#define TAUT_ACAD_VERTICES 17
+#define TAUT_ACAD_WORDS 20
+
+/// Event counter behind those of reports: springs that are constraints in this substep or were in the last.
+#define TAUT_EVENT_ACAD 4
+#define TAUT_EVENT_WORDS 8
+
+#define TAUT_NO_ROW 0xffffffffu
+
 #endif

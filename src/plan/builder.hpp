@@ -57,6 +57,8 @@ struct PbdBuffers
     std::uint32_t spring_count = 0, hinge_count = 0;
 };
 
+struct ImplicitConstraints;
+
 class PlanBuilder
 {
 public:
@@ -122,6 +124,7 @@ public:
     const Method& method;
     PbdBuffers pbd;
     std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
+    std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< of the method; null: nothing is constrained
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
 

@@ -2,6 +2,7 @@
 
 #include "taut/plan/builder.hpp"
 #include "taut/plan/constraints.hpp"
+#include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/limits.hpp"
 #include "taut/plan/pbd.hpp"
 #include "taut/plan/wind.hpp"
@@ -318,6 +319,8 @@ constexpr Effect kEffects[] = {
                                         (s.method.bend > 0 && any_bending(s)));
      },
      prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
+    {"implicit_constraints", Stage::solve, any_stretch, prepare_implicit_constraints,
+     record_implicit_constraints, only(MethodKind::implicit_constraints)},
     {"strain_limit", Stage::contact, any_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, any_attachment, prepare_attachment, record_attachment},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below

@@ -1,7 +1,7 @@
 #include "taut/plan/methods.hpp"
 
+#include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/pbd.hpp"
-
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
 
@@ -15,6 +15,7 @@ constexpr Method kMethods[] = {
     //                               contacts each  keeps   
     // kind                          iteration      guess   check    substeps
     {MethodKind::pbd,                true,          false,  check_pbd, nullptr},
+    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, nullptr},
     {MethodKind::xpbd,               true,          false,  nullptr, nullptr},
 };
 // clang-format on

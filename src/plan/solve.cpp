@@ -32,6 +32,13 @@ PlanSolve::PlanSolve(PlanBuilder& builder, std::string_view effect,
     builder.plan.solvers.push_back({effect_, state_, log_});
 }
 
+void PlanSolve::use_part(PlanBuilder& builder, std::uint32_t control, std::uint64_t groups, std::uint64_t once)
+{
+    part_ = control;
+    once_ = once;
+    cg_.use_part(builder.on_paper(control), groups);
+}
+
 void PlanSolve::record(PlanBuilder& builder)
 {
     builder.record(effect_, [this](Recorder& recorder) {
@@ -42,7 +49,11 @@ void PlanSolve::record(PlanBuilder& builder)
         cg_.record_end(recorder);
     });
     const Use uses[] = {{state_}, {log_}};
-    builder.dispatch(effect_, "solve_log", "", uses, kernels::solve_log::Params{1}, 1);
+    if (part_ == kNoBuffer)
+        builder.dispatch(effect_, "solve_log", "", uses, kernels::solve_log::Params{1}, 1);
+    else
+        builder.dispatch_indirect(effect_, "solve_log", "", uses, kernels::solve_log::Params{1}, 1, part_,
+                                  once_);
 }
 
 } // namespace taut

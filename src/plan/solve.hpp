@@ -28,6 +28,17 @@ public:
     /// Of the preconditioner, kNoBuffer where there is none: a real a row, or six a block row.
     std::uint32_t inverse() const { return inverse_; }
 
+    /// layout::CgState<real>: how the last solve ended.
+    std::uint32_t state() const { return state_; }
+
+    /// As ConjugateGradient::use_part, with three words of a plan's buffer at `groups`, and three at `once`
+    /// that say {1, 1, 1}, or {0, 1, 1} where there is nothing to solve. Before record.
+    void use_part(PlanBuilder& builder, std::uint32_t control, std::uint64_t groups, std::uint64_t once);
+    /// Buffers that a pass of the caller writes then: the solver's control words, and sums to clear.
+    std::uint32_t control(PlanBuilder& b) const { return b.adopt(effect_, cg_.control()); }
+    std::uint32_t partials(PlanBuilder& b) const { return b.adopt(effect_, cg_.partials()); }
+    std::uint32_t curvatures(PlanBuilder& b) const { return b.adopt(effect_, cg_.curvatures()); }
+
     /// The whole solve: inverse, begin, room for as many iterations as the limit says (zero groups once it has
     /// ended; where the residual is formed anew up to seven of them pass unused), end, log.
     void record(PlanBuilder& builder);
@@ -42,6 +53,8 @@ private:
     std::shared_ptr<const linear::DeviceInverse> formed_;
     linear::ConjugateGradient cg_;
     std::uint32_t groups_ = 1, iterations_ = 0;
+    std::uint32_t part_ = kNoBuffer; ///< where group counts lie, kNoBuffer: the whole system is in use
+    std::uint64_t once_ = 0;
     std::uint32_t b_ = kNoBuffer, x_ = kNoBuffer, inverse_ = kNoBuffer, state_ = kNoBuffer, log_ = kNoBuffer;
 };
 

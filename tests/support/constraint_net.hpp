@@ -4,6 +4,8 @@
 
 #include "support/linear_groups.hpp"
 
+#include <cstring>
+
 namespace taut::conformance {
 
 template <typename Real>
@@ -18,6 +20,22 @@ struct Net
     std::uint32_t vertices() const { return static_cast<std::uint32_t>(position.size()); }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(row.size()); }
 };
+
+/// A record whose padding is zero, as in buffers that kernels copy member by member.
+template <typename Real>
+layout::Spring<Real> spring_record(std::uint32_t a, std::uint32_t b, Real rest_length, Real stiffness,
+                                   Real damping, std::uint32_t kind)
+{
+    layout::Spring<Real> s;
+    std::memset(static_cast<void*>(&s), 0, sizeof(s));
+    s.a = a;
+    s.b = b;
+    s.rest_length = rest_length;
+    s.stiffness = stiffness;
+    s.damping = damping;
+    s.kind = kind;
+    return s;
+}
 
 /// `rows` springs among about half as many vertices; two of them the same, some vertices held.
 template <typename Real>
@@ -38,7 +56,7 @@ Net<Real> random_net(Random& random, std::uint32_t rows)
         const std::uint32_t a = random.below(vertices), b = (a + 1 + random.below(vertices - 1)) % vertices;
         const Real stiffness = static_cast<Real>(kStiffness[random.below(4)]);
         const Real damping = static_cast<Real>(kDamping[random.below(3)]) * stiffness;
-        net.row.push_back({a, b, random.uniform<Real>(0.1, 2), stiffness, damping, 0});
+        net.row.push_back(spring_record<Real>(a, b, random.uniform<Real>(0.1, 2), stiffness, damping, 0));
         net.p.push_back(random.uniform<Real>(-1, 1));
         glm::dvec3 n = glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 2));
         n = random.chance(0.1) ? glm::dvec3(0) : n; // an empty row

@@ -1,0 +1,68 @@
+#pragma once
+// Internal to src/plan: the system (J W J^T + compliance) x = b of implicit constraints, as an operator that
+// needs no matrix and as one that is assembled on the device.
+
+#include "taut/linear/device_matrix.hpp"
+#include "taut/plan/springs.hpp"
+
+namespace taut {
+
+/// Where the rows of a system lie, numbers of plan buffers.
+struct ConstraintRows
+{
+    std::uint32_t count = 0;             ///< most rows there may be
+    std::uint32_t records = kNoBuffer;   ///< layout::Spring<real> a row; stiffness 0 = rigid
+    std::uint32_t start = kNoBuffer;     ///< springs at each vertex, as in springs.hpp
+    std::uint32_t incident = kNoBuffer;
+    std::uint32_t direction = kNoBuffer; ///< rvec4 a row
+    std::uint32_t spread = kNoBuffer;    ///< rvec4 a vertex: w J^T x
+    // Only where rows are a changing part of the springs (acad):
+    std::uint32_t list = kNoBuffer;  ///< how many vertices have rows, then these
+    std::uint32_t place = kNoBuffer; ///< row of each spring
+};
+
+/// y = J (W (J^T x)) + compliance x by two gathering passes.
+class ConstraintOperator final : public linear::Operator
+{
+public:
+    ConstraintOperator(PlanBuilder& builder, const ConstraintRows& rows);
+
+    std::uint32_t rows() const override { return rows_.count; }
+    Precision precision() const override { return precision_; }
+    std::uint64_t bytes() const override { return bytes_; }
+    void record_product(Recorder&, const linear::Gate&, Binding x, Binding y, Binding partials) const override;
+    void record_residual(Recorder&, const linear::Gate&, Binding x, Binding b, Binding r) const override;
+
+private:
+    void record_spread(Recorder&, const linear::Gate&, Binding x) const;
+
+    ConstraintRows rows_;
+    Precision precision_;
+    std::uint32_t vertices_;
+    std::uint64_t bytes_ = 0;
+    BufferPtr records_, start_, incident_, direction_, position_, spread_, list_, place_;
+};
+
+/// The pattern of A, and what never changes of its values: sum of s_r s_s w_k over the vertices that two
+/// rows share. Row-major, columns ascending, each row with its diagonal.
+/// Throws Error{limit} beyond 2^26 entries, naming their number.
+linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, const Incidence& at,
+                                        std::span<const double> inverse_mass);
+
+/// The matrix on paper, its pattern from constraint_pattern, with the pass that fills it.
+class ConstraintMatrix
+{
+public:
+    ConstraintMatrix(PlanBuilder& builder, std::string_view effect, const linear::SparseMatrix& pattern,
+                     std::uint32_t direction);
+    const std::shared_ptr<linear::DeviceMatrix>& matrix() const { return matrix_; }
+    void record(PlanBuilder& builder) const;
+
+private:
+    std::string effect_;
+    std::shared_ptr<linear::DeviceMatrix> matrix_;
+    std::uint32_t pair_ = kNoBuffer, weight_ = kNoBuffer, direction_ = kNoBuffer, values_ = kNoBuffer;
+    std::uint32_t entries_ = 0;
+};
+
+} // namespace taut

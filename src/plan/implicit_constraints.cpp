@@ -1,0 +1,219 @@
+// Springs as implicit constraints: one linear system a substep, or more, each at the places that the one
+// before led to.
+//
+// Based on:
+//   Hong, Choi, Jung, Welch, Trapp. Effective Constrained Dynamic Simulation Using Implicit Constraint
+//   Enforcement. ICRA 2005: C + J dx = 0 at the end of the step, (J W J^T) lambda = C / h^2 + ...
+//   Goldenthal, Harmon, Fattal, Bercovier, Grinspun. Efficient Simulation of Inextensible Cloth. SIGGRAPH
+//   2007: the further solves (fast projection).
+// Departures: it corrects the displacement that the frame of a substep has guessed, which is the same
+//   (L = h^2 lambda); compliance and damper of a spring stay on the diagonal; the first solve starts from the
+//   multipliers of the last substep.
+
+#include "taut/plan/implicit_constraints.hpp"
+
+#include "taut/kernels/constraint_rows.hpp"
+#include "taut/kernels/constraint_spread.hpp"
+#include "taut/kernels/constraint_total.hpp"
+#include "taut/plan/methods.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+constexpr const char* kEffect = "implicit_constraints";
+
+/// 1/x as a Real, 0 where it is infinite: too little compliance for the precision is none.
+template <typename Real>
+Real stiffness_of(double compliance)
+{
+    const Real value = compliance > 0 ? static_cast<Real>(1 / compliance) : Real(0);
+    return std::isfinite(value) ? value : Real(0);
+}
+
+std::uint32_t groups_of(const PlanBuilder& b, const ImplicitConstraints& c)
+{
+    return linear::group_count_for(c.rows.count, b.paper()->info());
+}
+
+void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
+{
+    std::vector<std::uint32_t> corners;
+    for (const StretchElement& e : c.elements)
+        corners.insert(corners.end(), {e.a, e.b});
+    c.at = incidence_of(b.plan.vertex_count, corners, 2);
+    c.rows.count = static_cast<std::uint32_t>(c.elements.size());
+    check_row_trips(b, c.at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
+    const std::uint64_t vec = 4 * b.real_size();
+    c.rows.records = add_row_records(b, kEffect, c.elements);
+    c.rows.start = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex, start", c.at.start);
+    c.rows.incident = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex", c.at.entries);
+    c.rows.direction = b.add_buffer(kEffect, "row directions", c.rows.count * vec);
+    c.rows.spread = b.add_buffer(kEffect, "moves of vertices", b.plan.vertex_count * vec);
+    if (b.plan.iterations > 1)
+        c.multiplier = b.add_buffer(kEffect, "multipliers of the substep", c.rows.count * b.real_size());
+}
+
+BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
+{
+    return with_real(b.plan.precision, [&](auto zero) {
+        std::vector<decltype(zero)> values;
+        for (const StretchElement& e : c.elements)
+            values.push_back(static_cast<decltype(zero)>(inverse_diagonal(b, e)));
+        const BufferPtr buffer = b.paper()->make_buffer(values.size() * sizeof(zero), "constraint inverse",
+                                                        BufferUse::device);
+        b.paper()->write(buffer, 0, std::as_bytes(std::span(values)));
+        return buffer;
+    });
+}
+
+} // namespace
+
+bool may_be_constrained(const Scene& scene, const StretchElement& spring)
+{
+    return scene.method.constrained == "all" || spring.kind == SpringKind::structural;
+}
+
+void check_constrained_lengths(const Scene& scene)
+{
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+        for (const StretchElement& e : stretch_elements(scene.bodies[body]))
+            if (may_be_constrained(scene, e) && !(e.rest_length > 0))
+                throw Error(ErrorCode::degenerate_rest,
+                            "bodies[" + std::to_string(body) + "]: the spring between the vertices " +
+                                std::to_string(e.a) + " and " + std::to_string(e.b) +
+                                " has no length at rest, and as a constraint no direction there; give it one, "
+                                "or take method.type \"xpbd\"");
+}
+
+void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
+{
+    check_constrained_lengths(scene);
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    {
+        const std::string where = "bodies[" + std::to_string(body) + "]";
+        if (scene.bodies[body].material.bending_stiffness > 0 && !scene.bodies[body].mesh.triangles.empty())
+            throw Error(ErrorCode::unsupported, where + ".material.bending_stiffness is " +
+                                                    shown(scene.bodies[body].material.bending_stiffness) +
+                                                    ", but method.type \"implicit_constraints\" has no hinges "
+                                                    "yet; set it to 0");
+        for (const StretchElement& e : stretch_elements(scene.bodies[body]))
+            if (!may_be_constrained(scene, e))
+                throw Error(ErrorCode::unsupported,
+                            where + " has springs that are not structural, and method.constrained is \"" +
+                                scene.method.constrained +
+                                "\", but springs as forces beside constraints are not there yet; take \"all\"");
+    }
+}
+
+double row_compliance(const Scene& scene, const StretchElement& spring)
+{
+    if (scene.method.constraint_compliance >= 0)
+        return scene.method.constraint_compliance;
+    return method_of(scene) == MethodKind::acad ? 0 : spring.compliance;
+}
+
+double inverse_diagonal(const PlanBuilder& b, const StretchElement& e)
+{
+    const double h = b.plan.timestep / b.plan.substeps, compliance = row_compliance(b.scene, e);
+    const double soft = std::min(compliance / (h * h), 1e30) / (1 + e.damping * compliance / h);
+    return std::clamp(1 / (b.inverse_mass[e.a] + b.inverse_mass[e.b] + soft), 1e-30, 1e30);
+}
+
+std::uint32_t add_row_records(PlanBuilder& b, std::string_view effect,
+                              std::span<const StretchElement> springs)
+{
+    return with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        std::vector<layout::Spring<Real>> records;
+        for (const StretchElement& e : springs)
+            records.push_back({e.a, e.b, static_cast<Real>(e.rest_length),
+                               stiffness_of<Real>(row_compliance(b.scene, e)), static_cast<Real>(e.damping),
+                               static_cast<std::uint32_t>(e.kind)});
+        return b.add_buffer<layout::Spring<Real>>(effect, "rows", records);
+    });
+}
+
+void check_row_trips(const PlanBuilder& b, const Incidence& at, std::uint32_t chunk)
+{
+    const std::uint32_t lanes = TAUT_LINEAR_GROUP;
+    for (std::uint32_t first = 0; first < b.plan.vertex_count; first += chunk)
+        for (std::uint32_t lane = 0; lane < std::min(lanes, chunk); ++lane)
+        {
+            std::uint64_t trips = 0;
+            for (std::uint32_t v = first + lane; v < std::min(first + chunk, b.plan.vertex_count); v += lanes)
+                trips += at.start[v + 1] - at.start[v] + 1;
+            if (trips > kMaxLoopTrips)
+                throw Error(ErrorCode::limit, std::to_string(trips) +
+                                                  " constraints meet at one vertex, or at the few that one "
+                                                  "invocation gathers, and " +
+                                                  std::to_string(kMaxLoopTrips) +
+                                                  " are the most; take method.type \"xpbd\", which splits hubs");
+        }
+}
+
+void prepare_implicit_constraints(PlanBuilder& b)
+{
+    auto c = std::make_shared<ImplicitConstraints>();
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (const StretchElement& e : acting_springs(b, body))
+            if (may_be_constrained(b.scene, e))
+                c->elements.push_back(e);
+    if (c->elements.empty())
+        return;
+    add_row_buffers(b, *c);
+    std::shared_ptr<const linear::Operator> system;
+    if (b.scene.method.linear_operator == "assembled")
+    {
+        c->matrix.emplace(b, kEffect, constraint_pattern(c->elements, c->at, b.inverse_mass),
+                          c->rows.direction);
+        system = c->matrix->matrix();
+    }
+    else
+        system = std::make_shared<ConstraintOperator>(b, c->rows);
+    c->solve.emplace(b, kEffect, system,
+                     linear::Preconditioning{linear::Preconditioner::jacobi, diagonal_inverse(b, *c), nullptr});
+    b.plan.kept.push_back(c->solve->x());
+    if (c->multiplier != kNoBuffer)
+        b.plan.kept.push_back(c->multiplier);
+    b.implicit_constraints = std::move(c);
+}
+
+void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
+{
+    if (!b.implicit_constraints)
+        return;
+    ImplicitConstraints& c = *b.implicit_constraints;
+    const std::uint32_t groups = groups_of(b, c), count = c.rows.count;
+    if (c.multiplier != kNoBuffer)
+    {
+        const Use uses[] = {{c.solve->x()}, {c.multiplier}, {c.solve->state(), 0}};
+        b.dispatch(kEffect, "constraint_total", "", uses,
+                   kernels::constraint_total::Params{count, moment.iteration == 0}, count);
+    }
+    std::vector<Use> uses = {{c.rows.records},        {b.plan.position, 2}, {b.plan.delta, 2},
+                             {b.plan.step_values, 0}, {b.plan.events, 0},   {c.rows.direction},
+                             {c.solve->b()}};
+    if (c.multiplier != kNoBuffer)
+        uses.push_back({c.multiplier});
+    const std::uint32_t chunk = linear::make_grid(count, groups).chunk;
+    b.dispatch(kEffect, "constraint_rows", c.multiplier != kNoBuffer ? "kept" : "", uses,
+               kernels::constraint_rows::Params{count, chunk, moment.iteration > 0, moment.last}, groups, count);
+    if (c.matrix)
+        c.matrix->record(b);
+    c.solve->record(b);
+    const linear::Grid grid = linear::make_grid(b.plan.vertex_count, groups);
+    const Use moved[] = {{c.rows.start},       {c.rows.incident, 12}, {c.rows.direction, 12}, {c.solve->x(), 12},
+                         {b.plan.position},    {b.plan.delta},        {c.solve->state(), 0}};
+    b.dispatch(kEffect, "constraint_spread", "apply", moved,
+               kernels::constraint_spread::Params{grid.count, grid.chunk}, groups, grid.count);
+}
+
+} // namespace taut

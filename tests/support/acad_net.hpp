@@ -1,0 +1,28 @@
+#pragma once
+// What the tests of kernels/acad share: a net whose springs are near their threshold, with flags.
+
+#include "support/constraint_net.hpp"
+
+#include "taut/kernels/shared/active_rows.h"
+
+namespace taut::conformance {
+
+/// `count` elements of which about a share `on` carries TAUT_ACAD_ROW, others one of the other flags.
+inline std::vector<std::uint32_t> random_flags(Random& random, std::uint32_t count, double on)
+{
+    std::vector<std::uint32_t> flags;
+    for (std::uint32_t i = 0; i < count; ++i)
+        flags.push_back(random.chance(on)    ? TAUT_ACAD_ROW
+                        : random.chance(0.5) ? TAUT_ACAD_SPRING
+                                             : TAUT_ACAD_RELEASED);
+    return flags;
+}
+
+/// Integers must come out exactly.
+inline void check_words(const Buffers& out, const char* name, const std::vector<std::uint32_t>& expected)
+{
+    INFO("buffer " << name);
+    CHECK(values_of<std::uint32_t>(out.at(name)) == expected);
+}
+
+} // namespace taut::conformance
