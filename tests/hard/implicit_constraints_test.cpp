@@ -1,0 +1,249 @@
+// Hard cases of implicit constraints (methods.md 2.B, 2.C, 2.F): redundant, contradictory and degenerate rows.
+
+#include "hard/cases.hpp"
+
+using namespace taut;
+using namespace taut::hard;
+
+namespace {
+
+Scene constrained(Scene scene, double compliance = 0)
+{
+    scene.method.type = "implicit_constraints";
+    scene.method.substeps = 4;
+    scene.method.linear_iterations = 200;
+    scene.method.constraint_compliance = compliance;
+    return scene;
+}
+
+/// A solve may end unsolved here, but then the report must say so in one of these words.
+StepReport check_honest(const World& world)
+{
+    const StepReport report = measure(world);
+    CHECK(finite(world.positions()));
+    CHECK(finite(world.velocities()));
+    CHECK(to_string(report.status) == "completed");
+    for (const auto& [word, count] : report.warnings)
+        CHECK((word == "iteration_limit" || word == "solve_failed"));
+    return report;
+}
+
+/// n x n vertices, 1 m, hung by two corners, every spring of the network rigid.
+Scene stiff_network(std::uint32_t n, double shear, double bend)
+{
+    Scene scene;
+    Body body;
+    body.shape.cells = {n - 1, n - 1};
+    body.shape.network = {true, 1000, shear, bend};
+    Pin pin;
+    pin.corners = {"top_left", "top_right"};
+    body.pins = {pin};
+    scene.bodies = {body};
+    return resolve(scene);
+}
+
+double largest_length_error(const World& world)
+{
+    double worst = 0;
+    const auto x = world.positions();
+    for (const StretchElement& e : stretch_elements(world.scene().bodies[0]))
+        worst = std::max(worst, std::abs(glm::distance(x[e.a], x[e.b]) - e.rest_length));
+    return worst;
+}
+
+} // namespace
+
+TEST_CASE("F02: a pendulum's length does not drift in a million steps", "[long]")
+{
+    Body body = particles({{0, 0, 0}, {1, 0, 0}});
+    body.springs = {{0, 1, 1, 0}};
+    body.pins = {hold({0})};
+    Scene scene = constrained(alone(body));
+    scene.gravity = {0, -9.81, 0};
+    scene.method.linear_iterations = 2;
+    scene.method.substeps = 100;
+    scene.method.precision = "double";
+    const auto device = test_device("cpu:serial");
+    World world(scene, device);
+    double early = 0, late = 0;
+    for (int step = 0; step < 10000; ++step)
+    {
+        world.step();
+        double& worst = step < 5000 ? early : late;
+        worst = std::max(worst, std::abs(glm::length(world.positions()[1]) - 1));
+    }
+    note("F02", *device, "|C| in the first half", early);
+    note("F02", *device, "|C| in the second half", late);
+    CHECK(late < 1.02 * early);
+}
+
+TEST_CASE("F04, C06: every edge twice gives the same places")
+{
+    on_every_device([](const auto& device) {
+        for (const char* linear_operator : {"assembled", "matrix_free"})
+        {
+            std::vector<std::vector<glm::dvec3>> end;
+            for (const bool twice : {false, true})
+            {
+                Scene scene = constrained(stiff_network(6, 0, 0));
+                scene.method.linear_operator = linear_operator;
+                scene.method.linear_tolerance = 1e-6;
+                auto& springs = scene.bodies[0].springs;
+                if (twice)
+                    springs.insert(springs.end(), springs.begin(), springs.end());
+                World world(scene, device);
+                run(world, 30);
+                check_honest(world);
+                end.push_back(world.positions());
+            }
+            const double apart = largest_distance(end[0], end[1]);
+            note("F04", *device, linear_operator, apart);
+            CHECK(apart < 1e-4);
+        }
+    });
+}
+
+TEST_CASE("F05: more rigid springs than freedom end in a word of the report, bounded; compliance solves them")
+{
+    on_every_device([](const auto& device) {
+        for (const double compliance : {0.0, 1e-4})
+        {
+            Scene scene = constrained(stiff_network(8, 1000, 1000), compliance);
+            World world(scene, device);
+            run(world, steps_for(*device, 240, 30));
+            const StepReport report = check_honest(world);
+            note("F05", *device, compliance > 0 ? "worst |C| with compliance, m" : "worst |C|, m",
+                 largest_length_error(world));
+            note("F05", *device, "failed solves", double(world.solver_report().failed));
+            CHECK(largest_length_error(world) < 0.1);
+            CHECK(report.max_speed < 20);
+            if (compliance > 0)
+                CHECK(world.solver_report().failed == 0);
+        }
+    });
+}
+
+TEST_CASE("F06: a triangle of lengths 1, 1, 3 stays bounded and comes to rest")
+{
+    on_every_device([](const auto& device) {
+        for (const double compliance : {0.0, 1e-3})
+        {
+            Body body = particles({{0, 0, 0}, {1, 0, 0}, {0.5, 0.5, 0}});
+            body.springs = {{0, 2, 1, 0}, {1, 2, 1, 0}, {0, 1, 3, 0}};
+            Scene scene = constrained(alone(body), compliance);
+            scene.damping = 1;
+            scene.method.iterations = 2;
+            World world(scene, device);
+            run(world, steps_for(*device, 600, 60));
+            const StepReport report = check_honest(world);
+            note("F06", *device, compliance > 0 ? "worst |C| with compliance, m" : "worst |C|, m",
+                 largest_length_error(world));
+            note("F06", *device, "kinetic energy, J", report.kinetic_energy);
+            CHECK(largest_length_error(world) < 1.1);
+            CHECK(report.kinetic_energy < 1e-2);
+        }
+    });
+}
+
+TEST_CASE("F07, A13: a violated row between held vertices is dropped")
+{
+    on_every_device([](const auto& device) {
+        std::vector<std::vector<glm::dvec3>> end;
+        for (const bool violated : {false, true})
+        {
+            Body body = particles({{0, 0, 0}, {2, 0, 0}, {0, -1, 0}});
+            body.springs = {{0, 2, 1, 0}};
+            if (violated)
+                body.springs.push_back({0, 1, 1, 0});
+            body.pins = {hold({0, 1})};
+            Scene scene = constrained(alone(body));
+            scene.gravity = {1, -9.81, 0};
+            World world(scene, device);
+            run(world, 60);
+            check_sound(world, violated ? Words{"conflict"} : Words{});
+            end.push_back(world.positions());
+        }
+        CHECK(end[0] == end[1]);
+    });
+}
+
+TEST_CASE("B01: a spring without a length at rest is refused as a constraint")
+{
+    Body body = particles({{0, 0, 0}, {0.1, 0, 0}});
+    body.springs = {{0, 1, 0, 0}};
+    std::string text;
+    CHECK(refusal_of([&] { World(constrained(alone(body)), test_device("cpu:serial")); }, &text) ==
+          "degenerate_rest");
+    INFO(text);
+    CHECK(text.find("vertices 0 and 1") != text.npos);
+}
+
+TEST_CASE("B02, B03: ends that coincide make no row and disturb nobody")
+{
+    on_every_device([](const auto& device) {
+        for (const double apart : {0.0, 1e-30, 1e-20})
+        {
+            Body body = particles({{0, 0, 0}, {0, 0, 0}, {5, 0, 0}, {6.1, 0, 0}});
+            body.mesh.positions[1].x = apart;
+            body.springs = {{0, 1, 0.1, 0}, {2, 3, 1, 0}};
+            Scene scene = constrained(alone(body));
+            World world(scene, device);
+            run(world, 3);
+            check_sound(world, {"degenerate"});
+            const auto x = world.positions();
+            CHECK(glm::distance(x[0], x[1]) < 1e-15);
+            CHECK(std::abs(glm::distance(x[2], x[3]) - 1) < 1e-5);
+        }
+    });
+}
+
+TEST_CASE("F17: compliance 0 is rigid, 1e12 is free flight")
+{
+    on_every_device([](const auto& device) {
+        for (const double compliance : {0.0, 1e-12, 1.0, 1e12})
+        {
+            Body body = particles({{0, 0, 0}, {1, 0, 0}});
+            body.springs = {{0, 1, 1, compliance}};
+            body.pins = {hold({0})};
+            Scene scene = constrained(alone(body), -1);
+            scene.gravity = {0, -9.81, 0};
+            World world(scene, device);
+            run(world, 60);
+            check_sound(world);
+            const double length = glm::length(world.positions()[1]), n = 240, h = 1.0 / 240;
+            note("F17", *device, "length", length);
+            if (compliance < 1e-6)
+                CHECK(length == Approx(1).epsilon(1e-3));
+            if (compliance > 1e6)
+                CHECK(-world.positions()[1].y == Approx(9.81 * h * h * n * (n + 1) / 2).epsilon(1e-4));
+        }
+    });
+}
+
+TEST_CASE("B19: millimetres and kilometres by powers of two are the same to the last bit")
+{
+    on_every_device([](const auto& device) {
+        std::vector<std::vector<glm::dvec3>> end;
+        for (const double unit : {1.0, 1024.0, 1.0 / 1024})
+        {
+            Scene scene = constrained(stiff_network(6, 0, 0));
+            Body& body = scene.bodies[0];
+            for (glm::dvec3& x : body.mesh.positions)
+                x *= unit;
+            body.start_positions = body.mesh.positions;
+            for (Body::Spring& s : body.springs)
+                s.rest_length *= unit;
+            body.vertex_masses.assign(36, 1.0 / 64);
+            scene.gravity *= unit;
+            scene.max_speed = 1e9 * unit;
+            World world(scene, device);
+            run(world, 20);
+            auto x = world.positions();
+            for (glm::dvec3& place : x)
+                place /= unit;
+            end.push_back(x);
+        }
+        CHECK(end[0] == end[1]);
+        CHECK(end[0] == end[2]);
+    });
+}
