@@ -98,7 +98,8 @@ linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, co
         {
             const std::uint32_t v = end == 0 ? rows[r].a : rows[r].b;
             for (std::uint32_t k = at.start[v]; inverse_mass[v] > 0 && k < at.start[v + 1]; ++k)
-                row.emplace_back(at.entries[k] / 2, at.entries[k] % 2 == end ? inverse_mass[v] : -inverse_mass[v]);
+                row.emplace_back(at.entries[k] / 2,
+                                 at.entries[k] % 2 == end ? inverse_mass[v] : -inverse_mass[v]);
         }
         std::stable_sort(row.begin(), row.end(), [](auto& x, auto& y) { return x.first < y.first; });
         for (std::size_t k = 0; k < row.size(); ++k)
@@ -114,8 +115,8 @@ linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, co
     return out;
 }
 
-ConstraintMatrix::ConstraintMatrix(PlanBuilder& b, std::string_view effect, const linear::SparseMatrix& pattern,
-                                   std::uint32_t direction)
+ConstraintMatrix::ConstraintMatrix(PlanBuilder& b, std::string_view effect,
+                                   const linear::SparseMatrix& pattern, std::uint32_t direction)
     : effect_(effect),
       direction_(direction)
 {
@@ -146,7 +147,8 @@ ConstraintMatrix::ConstraintMatrix(PlanBuilder& b, std::string_view effect, cons
 void ConstraintMatrix::record(PlanBuilder& b) const
 {
     const Use uses[] = {{pair_, 2}, {weight_}, {direction_, 2}, {values_}};
-    b.dispatch(effect_, "constraint_matrix", "", uses, kernels::constraint_matrix::Params{entries_}, entries_);
+    b.dispatch(effect_, "constraint_matrix", "", uses, kernels::constraint_matrix::Params{entries_},
+               entries_);
 }
 
 } // namespace taut

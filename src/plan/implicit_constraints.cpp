@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace taut {
 namespace {
@@ -52,7 +53,8 @@ void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
     c.rows.count = static_cast<std::uint32_t>(c.elements.size());
     check_row_trips(b, c.at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
     const std::uint64_t vec = 4 * b.real_size();
-    c.rows.records = add_row_records(b, kEffect, c.elements);
+    c.compliances = row_compliances(b, c.elements);
+    c.rows.records = add_row_records(b, kEffect, c.elements, c.compliances);
     c.rows.start = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex, start", c.at.start);
     c.rows.incident = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex", c.at.entries);
     c.rows.direction = b.add_buffer(kEffect, "row directions", c.rows.count * vec);
@@ -65,10 +67,11 @@ BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
 {
     return with_real(b.plan.precision, [&](auto zero) {
         std::vector<decltype(zero)> values;
-        for (const StretchElement& e : c.elements)
-            values.push_back(static_cast<decltype(zero)>(inverse_diagonal(b, e)));
-        const BufferPtr buffer = b.paper()->make_buffer(values.size() * sizeof(zero), "constraint inverse",
-                                                        BufferUse::device);
+        for (std::size_t k = 0; k < c.elements.size(); ++k)
+            values.push_back(
+                static_cast<decltype(zero)>(inverse_diagonal(b, c.elements[k], c.compliances[k])));
+        const BufferPtr buffer =
+            b.paper()->make_buffer(values.size() * sizeof(zero), "constraint inverse", BufferUse::device);
         b.paper()->write(buffer, 0, std::as_bytes(std::span(values)));
         return buffer;
     });
@@ -86,11 +89,12 @@ void check_constrained_lengths(const Scene& scene)
     for (std::size_t body = 0; body < scene.bodies.size(); ++body)
         for (const StretchElement& e : stretch_elements(scene.bodies[body]))
             if (may_be_constrained(scene, e) && !(e.rest_length > 0))
-                throw Error(ErrorCode::degenerate_rest,
-                            "bodies[" + std::to_string(body) + "]: the spring between the vertices " +
-                                std::to_string(e.a) + " and " + std::to_string(e.b) +
-                                " has no length at rest, and as a constraint no direction there; give it one, "
-                                "or take method.type \"xpbd\"");
+                throw Error(
+                    ErrorCode::degenerate_rest,
+                    "bodies[" + std::to_string(body) + "]: the spring between the vertices " +
+                        std::to_string(e.a) + " and " + std::to_string(e.b) +
+                        " has no length at rest, and as a constraint no direction there; give it one, "
+                        "or take method.type \"xpbd\"");
 }
 
 void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
@@ -100,43 +104,64 @@ void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
     {
         const std::string where = "bodies[" + std::to_string(body) + "]";
         if (scene.bodies[body].material.bending_stiffness > 0 && !scene.bodies[body].mesh.triangles.empty())
-            throw Error(ErrorCode::unsupported, where + ".material.bending_stiffness is " +
-                                                    shown(scene.bodies[body].material.bending_stiffness) +
-                                                    ", but method.type \"implicit_constraints\" has no hinges "
-                                                    "yet; set it to 0");
+            throw Error(ErrorCode::unsupported,
+                        where + ".material.bending_stiffness is " +
+                            shown(scene.bodies[body].material.bending_stiffness) +
+                            ", but method.type \"implicit_constraints\" has no hinges "
+                            "yet; set it to 0");
         for (const StretchElement& e : stretch_elements(scene.bodies[body]))
             if (!may_be_constrained(scene, e))
-                throw Error(ErrorCode::unsupported,
-                            where + " has springs that are not structural, and method.constrained is \"" +
-                                scene.method.constrained +
-                                "\", but springs as forces beside constraints are not there yet; take \"all\"");
+                throw Error(
+                    ErrorCode::unsupported,
+                    where + " has springs that are not structural, and method.constrained is \"" +
+                        scene.method.constrained +
+                        "\", but springs as forces beside constraints are not there yet; take \"all\"");
     }
 }
 
-double row_compliance(const Scene& scene, const StretchElement& spring)
+std::vector<double> row_compliances(const PlanBuilder& b, std::span<const StretchElement> springs)
 {
-    if (scene.method.constraint_compliance >= 0)
-        return scene.method.constraint_compliance;
-    return method_of(scene) == MethodKind::acad ? 0 : spring.compliance;
+    const double given = b.scene.method.constraint_compliance, h = b.plan.timestep / b.plan.substeps;
+    const bool rigid = method_of(b.scene) == MethodKind::acad;
+    std::vector<double> out;
+    std::size_t first = 0;
+    for (std::size_t body = 0; body + 1 < b.plan.body_start.size(); ++body)
+    {
+        std::size_t free = 0, last = first;
+        for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
+            free += b.inverse_mass[v] > 0;
+        // The same spring twice is twice the same equation, which conjugate gradients do not mind.
+        std::set<std::pair<std::uint32_t, std::uint32_t>> different;
+        for (; last < springs.size() && springs[last].a < b.plan.body_start[body + 1]; ++last)
+            different.insert(std::minmax(springs[last].a, springs[last].b));
+        const double floor = different.size() > 3 * free ? kRegularisation * h * h : 0;
+        for (; first < last; ++first)
+        {
+            const StretchElement& e = springs[first];
+            const double own = given >= 0 ? given : rigid ? 0 : e.compliance;
+            out.push_back(std::max(own, floor * (b.inverse_mass[e.a] + b.inverse_mass[e.b])));
+        }
+    }
+    return out;
 }
 
-double inverse_diagonal(const PlanBuilder& b, const StretchElement& e)
+double inverse_diagonal(const PlanBuilder& b, const StretchElement& e, double compliance)
 {
-    const double h = b.plan.timestep / b.plan.substeps, compliance = row_compliance(b.scene, e);
+    const double h = b.plan.timestep / b.plan.substeps;
     const double soft = std::min(compliance / (h * h), 1e30) / (1 + e.damping * compliance / h);
     return std::clamp(1 / (b.inverse_mass[e.a] + b.inverse_mass[e.b] + soft), 1e-30, 1e30);
 }
 
 std::uint32_t add_row_records(PlanBuilder& b, std::string_view effect,
-                              std::span<const StretchElement> springs)
+                              std::span<const StretchElement> springs, std::span<const double> compliances)
 {
     return with_real(b.plan.precision, [&](auto zero) {
         using Real = decltype(zero);
         std::vector<layout::Spring<Real>> records;
-        for (const StretchElement& e : springs)
-            records.push_back({e.a, e.b, static_cast<Real>(e.rest_length),
-                               stiffness_of<Real>(row_compliance(b.scene, e)), static_cast<Real>(e.damping),
-                               static_cast<std::uint32_t>(e.kind)});
+        for (std::size_t k = 0; k < springs.size(); ++k)
+            records.push_back({springs[k].a, springs[k].b, static_cast<Real>(springs[k].rest_length),
+                               stiffness_of<Real>(compliances[k]), static_cast<Real>(springs[k].damping),
+                               static_cast<std::uint32_t>(springs[k].kind)});
         return b.add_buffer<layout::Spring<Real>>(effect, "rows", records);
     });
 }
@@ -151,11 +176,12 @@ void check_row_trips(const PlanBuilder& b, const Incidence& at, std::uint32_t ch
             for (std::uint32_t v = first + lane; v < std::min(first + chunk, b.plan.vertex_count); v += lanes)
                 trips += at.start[v + 1] - at.start[v] + 1;
             if (trips > kMaxLoopTrips)
-                throw Error(ErrorCode::limit, std::to_string(trips) +
-                                                  " constraints meet at one vertex, or at the few that one "
-                                                  "invocation gathers, and " +
-                                                  std::to_string(kMaxLoopTrips) +
-                                                  " are the most; take method.type \"xpbd\", which splits hubs");
+                throw Error(ErrorCode::limit,
+                            std::to_string(trips) +
+                                " constraints meet at one vertex, or at the few that one "
+                                "invocation gathers, and " +
+                                std::to_string(kMaxLoopTrips) +
+                                " are the most; take method.type \"xpbd\", which splits hubs");
         }
 }
 
@@ -178,8 +204,9 @@ void prepare_implicit_constraints(PlanBuilder& b)
     }
     else
         system = std::make_shared<ConstraintOperator>(b, c->rows);
-    c->solve.emplace(b, kEffect, system,
-                     linear::Preconditioning{linear::Preconditioner::jacobi, diagonal_inverse(b, *c), nullptr});
+    c->solve.emplace(
+        b, kEffect, system,
+        linear::Preconditioning{linear::Preconditioner::jacobi, diagonal_inverse(b, *c), nullptr});
     b.plan.kept.push_back(c->solve->x());
     if (c->multiplier != kNoBuffer)
         b.plan.kept.push_back(c->multiplier);
@@ -205,13 +232,14 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
         uses.push_back({c.multiplier});
     const std::uint32_t chunk = linear::make_grid(count, groups).chunk;
     b.dispatch(kEffect, "constraint_rows", c.multiplier != kNoBuffer ? "kept" : "", uses,
-               kernels::constraint_rows::Params{count, chunk, moment.iteration > 0, moment.last}, groups, count);
+               kernels::constraint_rows::Params{count, chunk, moment.iteration > 0, moment.last}, groups,
+               count);
     if (c.matrix)
         c.matrix->record(b);
     c.solve->record(b);
     const linear::Grid grid = linear::make_grid(b.plan.vertex_count, groups);
-    const Use moved[] = {{c.rows.start},       {c.rows.incident, 12}, {c.rows.direction, 12}, {c.solve->x(), 12},
-                         {b.plan.position},    {b.plan.delta},        {c.solve->state(), 0}};
+    const Use moved[] = {{c.rows.start},    {c.rows.incident, 12}, {c.rows.direction, 12}, {c.solve->x(), 12},
+                         {b.plan.position}, {b.plan.delta},        {c.solve->state(), 0}};
     b.dispatch(kEffect, "constraint_spread", "apply", moved,
                kernels::constraint_spread::Params{grid.count, grid.chunk}, groups, grid.count);
 }

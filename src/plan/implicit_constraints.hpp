@@ -12,6 +12,7 @@ namespace taut {
 struct ImplicitConstraints
 {
     std::vector<StretchElement> elements; ///< the constrained springs, in plan vertices
+    std::vector<double> compliances;      ///< m/N, of each as a row
     Incidence at;
     ConstraintRows rows;
     std::uint32_t multiplier = kNoBuffer; ///< real a row; with more than one solve a substep
@@ -26,14 +27,17 @@ bool may_be_constrained(const Scene& scene, const StretchElement& spring);
 void check_constrained_lengths(const Scene& resolved);
 void check_implicit_constraints(const Scene& resolved, const DeviceTraits&);
 
-/// The compliance [m/N] that a constrained spring has as a row: the scene's, or where that is "material" the
-/// spring's own (under acad none: beyond the threshold its own would be softer than the spring).
-double row_compliance(const Scene& scene, const StretchElement& spring);
+/// The compliance [m/N] of each spring as a row: the scene's, or where that is "material" the spring's own
+/// (under acad none: beyond the threshold its own would be softer than the spring). A body with more
+/// different rows than its vertices have directions to move in has at least kRegularisation of what makes a
+/// row's diagonal: its system is singular, and in motion nothing solves it.
+std::vector<double> row_compliances(const PlanBuilder& builder, std::span<const StretchElement> springs);
+inline constexpr double kRegularisation = 1e-4;
 /// kg: one over the diagonal of A in the row of a spring.
-double inverse_diagonal(const PlanBuilder& builder, const StretchElement& spring);
+double inverse_diagonal(const PlanBuilder& builder, const StretchElement& spring, double compliance);
 /// layout::Spring<real> a spring, as constraint_rows.comp reads them.
 std::uint32_t add_row_records(PlanBuilder& builder, std::string_view effect,
-                              std::span<const StretchElement> springs);
+                              std::span<const StretchElement> springs, std::span<const double> compliances);
 /// Throws Error{limit} where a vertex has more rows than one invocation may loop over.
 void check_row_trips(const PlanBuilder& builder, const Incidence& at, std::uint32_t chunk);
 

@@ -32,7 +32,8 @@ PlanSolve::PlanSolve(PlanBuilder& builder, std::string_view effect,
     builder.plan.solvers.push_back({effect_, state_, log_});
 }
 
-void PlanSolve::use_part(PlanBuilder& builder, std::uint32_t control, std::uint64_t groups, std::uint64_t once)
+void PlanSolve::use_part(PlanBuilder& builder, std::uint32_t control, std::uint64_t groups,
+                         std::uint64_t once)
 {
     part_ = control;
     once_ = once;

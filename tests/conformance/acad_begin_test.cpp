@@ -13,8 +13,8 @@ TEST_CASE("acad_begin lets rows be chosen only where a spring asks for it")
     events[TAUT_EVENT_ACAD] = asked;
     Case c;
     c.in = {{"control", bytes_of(control)}, {"flags", bytes_of(flags)}, {"events", bytes_of(events)}};
-    c.launches = {make_launch(kernels::acad_begin::info("", c.precision),
-                              kernels::acad_begin::Params{1, 3, 5}, 1)};
+    c.launches = {
+        make_launch(kernels::acad_begin::info("", c.precision), kernels::acad_begin::Params{1, 3, 5}, 1)};
     const bool any = asked > 0;
     flags[5] = any ? 1 : 0;
     control[TAUT_ACAD_CHOOSE] = any ? 3 : 0;

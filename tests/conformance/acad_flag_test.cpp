@@ -33,16 +33,18 @@ TEMPLATE_TEST_CASE("acad_flag finds the springs beyond their threshold and count
     }
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"spring", bytes_of(net.row)}, {"position", bytes_of(net.position)}, {"low", bytes_of(low)},
-            {"flags", bytes_of(flags)}, {"multiplier", bytes_of(multiplier)},
+    c.in = {{"spring", bytes_of(net.row)},
+            {"position", bytes_of(net.position)},
+            {"low", bytes_of(low)},
+            {"flags", bytes_of(flags)},
+            {"multiplier", bytes_of(multiplier)},
             {"sums", bytes_of(std::vector<std::uint32_t>(dealt.groups + 2, 77))}};
     const float strain = 0.05f, least = static_cast<float>(release);
-    c.launches = {make_launch(
-        kernels::acad_flag::info("", c.precision),
-        kernels::acad_flag::Params{dealt.count, dealt.chunk(), dealt.groups, strain,
-                                   static_cast<float>(activate - double(strain)), least,
-                                   static_cast<float>(release - double(least))},
-        dealt.dispatched())};
+    c.launches = {make_launch(kernels::acad_flag::info("", c.precision),
+                              kernels::acad_flag::Params{dealt.count, dealt.chunk(), dealt.groups, strain,
+                                                         static_cast<float>(activate - double(strain)), least,
+                                                         static_cast<float>(release - double(least))},
+                              dealt.dispatched())};
     std::vector<std::uint32_t> sums(dealt.groups + 2, 77);
     std::fill(sums.begin(), sums.end() - 2, 0u);
     for (std::uint32_t r = 0; r < net.rows(); ++r)
@@ -61,8 +63,8 @@ TEMPLATE_TEST_CASE("acad_flag finds the springs beyond their threshold and count
         }
         else
             now = true;
-        c.expected["multiplier"].add(r >= dealt.count || (was && now) ? static_cast<double>(multiplier[r]) : 0,
-                                     0);
+        c.expected["multiplier"].add(
+            r >= dealt.count || (was && now) ? static_cast<double>(multiplier[r]) : 0, 0);
     }
     look_on_every_device(c, [&](const Buffers& out) {
         check_words(out, "flags", flags);

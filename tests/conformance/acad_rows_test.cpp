@@ -27,9 +27,13 @@ TEMPLATE_TEST_CASE("acad_rows copies the springs of a list side by side", "", fl
     std::vector<Real> x(dealt.count, Real(9)), m(dealt.count, Real(9));
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"row_list", bytes_of(list)}, {"candidate", bytes_of(net.row)},
-            {"candidate_inverse", bytes_of(inverse)}, {"multiplier", bytes_of(multiplier)},
-            {"row", bytes_of(row)}, {"x", bytes_of(x)}, {"inverse", bytes_of(m)}};
+    c.in = {{"row_list", bytes_of(list)},
+            {"candidate", bytes_of(net.row)},
+            {"candidate_inverse", bytes_of(inverse)},
+            {"multiplier", bytes_of(multiplier)},
+            {"row", bytes_of(row)},
+            {"x", bytes_of(x)},
+            {"inverse", bytes_of(m)}};
     c.launches = {make_launch(kernels::acad_rows::info("", c.precision),
                               kernels::acad_rows::Params{dealt.count, dealt.chunk(), further},
                               dealt.dispatched())};

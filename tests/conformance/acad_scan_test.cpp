@@ -33,8 +33,12 @@ TEMPLATE_TEST_CASE("acad_scan says where the rows of each group begin and how ma
     std::vector<std::uint32_t> control(TAUT_ACAD_WORDS, 9), solver(12, 9), list(2, 9);
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"sums", bytes_of(sums)}, {"control", bytes_of(control)}, {"solver_control", bytes_of(solver)},
-            {"row_list", bytes_of(list)}, {"list", bytes_of(list)}, {"row", bytes_of(row)},
+    c.in = {{"sums", bytes_of(sums)},
+            {"control", bytes_of(control)},
+            {"solver_control", bytes_of(solver)},
+            {"row_list", bytes_of(list)},
+            {"list", bytes_of(list)},
+            {"row", bytes_of(row)},
             {"partials", bytes_of(std::vector<Real>(3 * groups + 1, Real(7)))},
             {"curvatures", bytes_of(std::vector<Real>(groups + 1, Real(7)))}};
     // One group more than needed: on some devices counts are rounded up.

@@ -27,7 +27,9 @@ TEST_CASE("acad_scatter puts what carries the flag side by side in its own order
             expected[1 + at++] = i;
     }
     Case c;
-    c.in = {{"flags", bytes_of(flags)}, {"sums", bytes_of(sums)}, {"list", bytes_of(list)},
+    c.in = {{"flags", bytes_of(flags)},
+            {"sums", bytes_of(sums)},
+            {"list", bytes_of(list)},
             {"place", bytes_of(places)}};
     c.launches = {make_launch(kernels::acad_scatter::info(place ? "place" : "", c.precision),
                               kernels::acad_scatter::Params{dealt.count, dealt.chunk(), first, dealt.groups},

@@ -5,8 +5,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("acad_store gives multipliers to their springs and releases rows that the spring holds", "",
-                   float, double)
+TEMPLATE_TEST_CASE("acad_store gives multipliers to their springs and releases rows that the spring holds",
+                   "", float, double)
 {
     using Real = TestType;
     const Dealt dealt = GENERATE(from_range(deals()));
@@ -31,14 +31,19 @@ TEMPLATE_TEST_CASE("acad_store gives multipliers to their springs and releases r
 
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"row_list", bytes_of(list)}, {"x", bytes_of(x)}, {"multiplier", bytes_of(multiplier)},
-            {"flags", bytes_of(flags)}, {"hold", bytes_of(hold)}, {"state", bytes_of(std::vector{state})},
+    c.in = {{"row_list", bytes_of(list)},
+            {"x", bytes_of(x)},
+            {"multiplier", bytes_of(multiplier)},
+            {"flags", bytes_of(flags)},
+            {"hold", bytes_of(hold)},
+            {"state", bytes_of(std::vector{state})},
             {"step_values", bytes_of(std::vector{step})},
             {"total", bytes_of(std::vector<Real>(dealt.count + 2, Real(9)))}};
     c.launches = {make_launch(kernels::acad_store::info(total ? "total" : "", c.precision),
                               kernels::acad_store::Params{dealt.count, dealt.chunk(), further, release},
                               dealt.dispatched())};
-    std::vector<double> found(x.begin(), x.end()), sum(multiplier.begin(), multiplier.end()), size(sum.size(), 0);
+    std::vector<double> found(x.begin(), x.end()), sum(multiplier.begin(), multiplier.end()),
+        size(sum.size(), 0);
     std::vector<double> rows_total(x.size(), 9), rows_size(x.size(), 0);
     const double h = static_cast<double>(step.substep);
     for (std::uint32_t r = 0; r < list[0]; ++r)

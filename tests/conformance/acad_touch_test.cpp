@@ -16,8 +16,11 @@ TEST_CASE("acad_touch finds the vertices that are ends of constraints and counts
     const std::vector<std::uint32_t> flags = random_flags(random, net.rows(), 0.2);
     Case c;
     std::vector<std::uint32_t> touched(net.vertices(), 77), sums(2 * dealt.groups, 77);
-    c.in = {{"start", bytes_of(net.start)}, {"incident", bytes_of(net.incident)}, {"flags", bytes_of(flags)},
-            {"touched", bytes_of(touched)}, {"sums", bytes_of(sums)}};
+    c.in = {{"start", bytes_of(net.start)},
+            {"incident", bytes_of(net.incident)},
+            {"flags", bytes_of(flags)},
+            {"touched", bytes_of(touched)},
+            {"sums", bytes_of(sums)}};
     c.launches = {make_launch(kernels::acad_touch::info("", c.precision),
                               kernels::acad_touch::Params{dealt.count, dealt.chunk(), dealt.groups},
                               dealt.dispatched())};

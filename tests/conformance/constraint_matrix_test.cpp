@@ -5,8 +5,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("constraint_matrix gives each pair of rows weight times the cosine between them", "", float,
-                   double)
+TEMPLATE_TEST_CASE("constraint_matrix gives each pair of rows weight times the cosine between them", "",
+                   float, double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 127u, 128u, 129u, 1000u);
@@ -24,7 +24,9 @@ TEMPLATE_TEST_CASE("constraint_matrix gives each pair of rows weight times the c
 
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"pair", bytes_of(pair)}, {"weight", bytes_of(weight)}, {"direction", bytes_of(net.direction)},
+    c.in = {{"pair", bytes_of(pair)},
+            {"weight", bytes_of(weight)},
+            {"direction", bytes_of(net.direction)},
             {"values", bytes_of(std::vector<Real>(all, Real(7)))}};
     c.launches = {make_launch(kernels::constraint_matrix::info("", c.precision),
                               kernels::constraint_matrix::Params{count}, count)};

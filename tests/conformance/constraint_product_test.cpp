@@ -20,9 +20,13 @@ TEMPLATE_TEST_CASE("constraint_product is what the moves of both ends do to each
 
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"row", bytes_of(net.row)}, {"direction", bytes_of(net.direction)}, {"spread", bytes_of(spread)},
-            {"x", bytes_of(net.p)}, {"y", bytes_of(std::vector<Real>(net.rows(), Real(7)))},
-            {"partials", bytes_of(std::vector<Real>(dealt.groups, Real(7)))}, {"b", bytes_of(b)}};
+    c.in = {{"row", bytes_of(net.row)},
+            {"direction", bytes_of(net.direction)},
+            {"spread", bytes_of(spread)},
+            {"x", bytes_of(net.p)},
+            {"y", bytes_of(std::vector<Real>(net.rows(), Real(7)))},
+            {"partials", bytes_of(std::vector<Real>(dealt.groups, Real(7)))},
+            {"b", bytes_of(b)}};
     c.launches = {make_launch(kernels::constraint_product::info(variant, c.precision),
                               kernels::constraint_product::Params{dealt.count, dealt.chunk(), dealt.groups},
                               dealt.dispatched())};

@@ -23,9 +23,9 @@ std::uint32_t plant(Net<Real>& net)
     }
     for (std::uint32_t k = 0; k < 4; ++k)
         net.row[k] = {v + 2 * k, v + 2 * k + 1, Real(0.1), Real(0), Real(0), 0};
-    net.row[1].rest_length = 0;           // at rest: empty, not counted
-    net.position[v + 4].x = Real(1e-20);  // nearly coincident: the same as coincident
-    net.position[v + 6].x = Real(1e-12);  // near, and a direction
+    net.row[1].rest_length = 0;          // at rest: empty, not counted
+    net.position[v + 4].x = Real(1e-20); // nearly coincident: the same as coincident
+    net.position[v + 6].x = Real(1e-12); // near, and a direction
     return 2;
 }
 
@@ -48,10 +48,14 @@ TEMPLATE_TEST_CASE("constraint_rows forms directions and what is left of each le
     Case c;
     c.precision = precision_of<Real>();
     const std::vector<typename Net<Real>::Vec> before(net.rows(), {7, 7, 7, 7});
-    c.in = {{"row", bytes_of(net.row)}, {"position", bytes_of(net.position)},
-            {"delta", bytes_of(net.delta)}, {"step_values", bytes_of(std::vector{net.step})},
-            {"events", no_events()}, {"direction", bytes_of(before)},
-            {"b", bytes_of(std::vector<Real>(net.rows(), Real(7)))}, {"multiplier", bytes_of(multiplier)}};
+    c.in = {{"row", bytes_of(net.row)},
+            {"position", bytes_of(net.position)},
+            {"delta", bytes_of(net.delta)},
+            {"step_values", bytes_of(std::vector{net.step})},
+            {"events", no_events()},
+            {"direction", bytes_of(before)},
+            {"b", bytes_of(std::vector<Real>(net.rows(), Real(7)))},
+            {"multiplier", bytes_of(multiplier)}};
     c.launches = {make_launch(kernels::constraint_rows::info(kept ? "kept" : "", c.precision),
                               kernels::constraint_rows::Params{dealt.count, dealt.chunk(), further, 1},
                               dealt.dispatched())};

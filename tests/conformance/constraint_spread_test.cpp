@@ -53,11 +53,11 @@ TEMPLATE_TEST_CASE("constraint_spread gathers w J^T x, and the variants apply ta
     Case c;
     c.precision = precision_of<Real>();
     const std::vector<typename Net<Real>::Vec> before(net.vertices(), {7, 7, 7, 7});
-    c.in = {{"start", bytes_of(net.start)}, {"incident", bytes_of(net.incident)},
+    c.in = {{"start", bytes_of(net.start)},         {"incident", bytes_of(net.incident)},
             {"direction", bytes_of(net.direction)}, {"x", bytes_of(net.p)},
-            {"position", bytes_of(net.position)}, {"delta", bytes_of(net.delta)},
-            {"spread", bytes_of(before)}, {"state", bytes_of(std::vector{state})},
-            {"list", bytes_of(chosen.list)}, {"place", bytes_of(chosen.place)}};
+            {"position", bytes_of(net.position)},   {"delta", bytes_of(net.delta)},
+            {"spread", bytes_of(before)},           {"state", bytes_of(std::vector{state})},
+            {"list", bytes_of(chosen.list)},        {"place", bytes_of(chosen.place)}};
     const std::string variant = listed ? apply ? "listed_apply" : "listed" : apply ? "apply" : "";
     c.launches = {make_launch(kernels::constraint_spread::info(variant, c.precision),
                               kernels::constraint_spread::Params{dealt.count, dealt.chunk()},

@@ -20,7 +20,8 @@ TEMPLATE_TEST_CASE("constraint_total sums the solves of a substep and starts the
 
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"x", bytes_of(x)}, {"multiplier", bytes_of(multiplier)}, {"state", bytes_of(std::vector{state})}};
+    c.in = {
+        {"x", bytes_of(x)}, {"multiplier", bytes_of(multiplier)}, {"state", bytes_of(std::vector{state})}};
     c.launches = {make_launch(kernels::constraint_total::info("", c.precision),
                               kernels::constraint_total::Params{count, first}, count)};
     for (std::uint32_t i = 0; i < count + 4; ++i)

@@ -78,11 +78,10 @@ TEST_CASE("a rigid pendulum goes through the golden places (A6)")
             Scene scene = constrained(pendulum(1.0 / 60));
             scene.method.linear_operator = linear_operator;
             World world(scene, device);
-            const std::map<int, glm::dvec3> golden = {
-                {1, {1, -0.002725, 0}},
-                {2, {0.99998143606845624, -0.0081749494132865429, 0}},
-                {3, {0.99989975772227957, -0.016349382859847841, 0}},
-                {60, {-0.988696318402145, -0.15294491887389117, 0}}};
+            const std::map<int, glm::dvec3> golden = {{1, {1, -0.002725, 0}},
+                                                      {2, {0.99998143606845624, -0.0081749494132865429, 0}},
+                                                      {3, {0.99989975772227957, -0.016349382859847841, 0}},
+                                                      {60, {-0.988696318402145, -0.15294491887389117, 0}}};
             double worst = 0;
             for (int step = 1; step <= 60; ++step)
             {
@@ -99,7 +98,8 @@ TEST_CASE("a rigid pendulum goes through the golden places (A6)")
 TEST_CASE("a rigid pendulum is off its length by v^2 h^2 / 2 and no more (F01)")
 {
     on_every_device([](const auto& device) {
-        const std::pair<int, double> table[] = {{60, 2.716e-3}, {120, 6.81e-4}, {240, 1.70e-4}, {480, 4.26e-5}};
+        const std::pair<int, double> table[] = {
+            {60, 2.716e-3}, {120, 6.81e-4}, {240, 1.70e-4}, {480, 4.26e-5}};
         for (const auto& [rate, expected] : table)
         {
             if (rate > 120 && device->info().executor != "cpu:serial")
@@ -168,8 +168,8 @@ TEST_CASE("the multiplier method holds a rope of any mass ratio (A06, A08)")
                 x = {0, -x.x, 0};
             scene.damping = 2;
             scene.method.iterations = 1;
-            // The condition of the system grows with the ratio, up to 8e6 (A6), and with it what a residual in
-            // double can reach.
+            // The condition of the system grows with the ratio, up to 8e6 (A6), and with it what a residual
+            // in double can reach.
             const double tolerance = scene.method.linear_tolerance = ratio > 1e4 ? 1e-8 : 1e-10;
             scene.method.linear_iterations = 1000;
             World world(scene, device);
@@ -300,8 +300,8 @@ TEST_CASE("a held end that moves takes its chain along")
         }
         note("pins", *device, "stretch of a led chain", worst);
         CHECK(worst < 2e-3);
-        CHECK(glm::distance(world.positions()[0], pose(scene.bodies[0].pins[0].motion, world.time(), {0, 0, 0})) <
-              1e-12);
+        CHECK(glm::distance(world.positions()[0],
+                            pose(scene.bodies[0].pins[0].motion, world.time(), {0, 0, 0})) < 1e-12);
         check_sound(world);
     });
 }

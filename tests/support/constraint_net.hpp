@@ -60,7 +60,8 @@ Net<Real> random_net(Random& random, std::uint32_t rows)
         net.p.push_back(random.uniform<Real>(-1, 1));
         glm::dvec3 n = glm::normalize(glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 2));
         n = random.chance(0.1) ? glm::dvec3(0) : n; // an empty row
-        net.direction.push_back({glm::vec<3, Real>(n), random.chance(0.5) ? Real(0) : random.uniform<Real>(0, 9)});
+        net.direction.push_back(
+            {glm::vec<3, Real>(n), random.chance(0.5) ? Real(0) : random.uniform<Real>(0, 9)});
     }
     if (rows > 5)
         net.row[4] = net.row[3];
