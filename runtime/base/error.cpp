@@ -16,6 +16,7 @@ std::string_view to_string(ErrorCode code)
     case ErrorCode::out_of_memory: return "out_of_memory";
     case ErrorCode::io: return "io";
     case ErrorCode::kernel_compilation: return "kernel_compilation";
+    case ErrorCode::unstable_timestep: return "unstable_timestep";
     }
     return "unknown";
 }

@@ -20,6 +20,7 @@ enum class ErrorCode
     out_of_memory,      ///< the host or the device has no room left
     io,                 ///< a file could not be read or written
     kernel_compilation, ///< a kernel text does not compile
+    unstable_timestep,  ///< longer than the stiffness allows an explicit method
 };
 
 /// The word for a code, as reports and messages print it ("bad_input").

@@ -56,7 +56,9 @@ PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOption
 {
     plan.precision = s.method.precision == "double" ? Precision::float64 : Precision::float32;
     plan.timestep = s.timestep;
-    plan.substeps = method.substeps != nullptr ? method.substeps(s) : s.method.substeps;
+    const Substeps taken = method.substeps != nullptr ? method.substeps(s) : Substeps{s.method.substeps};
+    plan.substeps = taken.count;
+    plan.largest_substep = taken.largest;
     plan.iterations = s.method.iterations;
     plan.body_start.push_back(0);
     for (const Body& body : s.bodies)

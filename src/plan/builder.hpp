@@ -12,6 +12,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -56,6 +57,8 @@ struct PbdBuffers
     std::uint32_t other = kNoBuffer; ///< the iterate that is not in the plan's `delta`
     std::uint32_t spring_count = 0, hinge_count = 0;
 };
+struct ForceBuffers;
+struct BlockBuffers;
 
 struct ImplicitConstraints;
 
@@ -127,6 +130,8 @@ public:
     std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< of the method; null: nothing is constrained
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
+    std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp
+    std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
 
     // Of effects that have more than one pass of an account: wind, limits, tearing.
     std::uint32_t wind_triangles = kNoBuffer, wind_start = kNoBuffer, wind_incident = kNoBuffer,

@@ -8,6 +8,8 @@
 #include "taut/plan/wind.hpp"
 #include "taut/kernels/capsule.hpp"
 #include "taut/kernels/cuboid.hpp"
+#include "taut/plan/mass_spring.hpp"
+#include "taut/plan/vbd.hpp"
 #include "taut/kernels/damping.hpp"
 #include "taut/kernels/external_force.hpp"
 #include "taut/kernels/finish.hpp"
@@ -297,14 +299,25 @@ bool any_tearing(const Scene& scene)
                                              [](const Body& b) { return b.material.tear_strain > 0; });
 }
 
+bool any_elements(const Scene& scene) { return any_stretch(scene) || any_bending(scene); }
+
+constexpr MethodSet kVbd = only(MethodKind::vbd);
+constexpr MethodSet kMassSpring = only(MethodKind::mass_spring);
+
 constexpr Effect kEffects[] = {
     {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr,
      record_damping},
     {"external_force", Stage::force, [](const Scene& s) { return has_bodies(s) && s.external_forces; },
      prepare_external_force, record_external_force},
     {"wind", Stage::force, wants_wind, prepare_wind, record_wind},
+    {"spring_force", Stage::force, any_stretch, prepare_spring_force, record_spring_force, kMassSpring},
+    {"hinge_force", Stage::force, any_bending, prepare_hinge_force, record_hinge_force, kMassSpring},
+    {"force_kick", Stage::force, [](const Scene& s) { return has_bodies(s) && wants_kick(s); },
+     prepare_force_kick, record_force_kick, kMassSpring},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
+    {"vbd_start", Stage::start, any_elements, prepare_vbd, record_vbd_start, kVbd},
+    {"vbd_solve", Stage::solve, any_elements, nullptr, record_vbd_solve, kVbd},
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance, only(MethodKind::xpbd)},
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending, only(MethodKind::xpbd)},
     {"pbd_stretch", Stage::solve,
@@ -323,6 +336,7 @@ constexpr Effect kEffects[] = {
      record_implicit_constraints, only(MethodKind::implicit_constraints)},
     {"strain_limit", Stage::contact, any_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, any_attachment, prepare_attachment, record_attachment},
+    {"vbd_start", Stage::contact, any_elements, nullptr, record_vbd_mark, kVbd},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
      prepare_plane, record_plane},
@@ -334,6 +348,13 @@ constexpr Effect kEffects[] = {
      prepare_cuboid, record_cuboid},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
     {"tearing", Stage::after, any_tearing, prepare_tearing, record_tearing},
+    {"vbd_start", Stage::after, any_elements, nullptr, record_vbd_share, kVbd},
+    {"spring_force", Stage::after, [](const Scene& s) { return any_stretch(s) && wants_forces_after(s); },
+     nullptr, record_spring_force_after, kMassSpring},
+    {"hinge_force", Stage::after, [](const Scene& s) { return any_bending(s) && wants_forces_after(s); },
+     nullptr, record_hinge_force_after, kMassSpring},
+    {"force_kick", Stage::after, [](const Scene& s) { return has_bodies(s) && wants_kick_after(s); },
+     nullptr, record_force_kick_after, kMassSpring},
 };
 
 } // namespace

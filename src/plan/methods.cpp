@@ -1,7 +1,10 @@
 #include "taut/plan/methods.hpp"
 
 #include "taut/plan/implicit_constraints.hpp"
+#include "taut/plan/mass_spring.hpp"
 #include "taut/plan/pbd.hpp"
+#include "taut/plan/stability.hpp"
+#include "taut/plan/vbd.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
 
@@ -12,11 +15,13 @@ namespace {
 
 // clang-format off
 constexpr Method kMethods[] = {
-    //                               contacts each  keeps   
-    // kind                          iteration      guess   check    substeps
-    {MethodKind::pbd,                true,          false,  check_pbd, nullptr},
+    //                                 contacts each  keeps
+    // kind                            iteration      guess   check                       substeps
+    {MethodKind::mass_spring,          false,         false,  check_mass_spring,          stable_substeps},
     {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, nullptr},
-    {MethodKind::xpbd,               true,          false,  nullptr, nullptr},
+    {MethodKind::pbd,                  true,          false,  check_pbd,                  nullptr},
+    {MethodKind::xpbd,                 true,          false,  nullptr,                    nullptr},
+    {MethodKind::vbd,                  false,         true,   check_vbd,                  nullptr},
 };
 // clang-format on
 

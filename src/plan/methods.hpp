@@ -30,6 +30,13 @@ using MethodSet = std::uint32_t;
 constexpr MethodSet only(MethodKind kind) { return MethodSet{1} << static_cast<unsigned>(kind); }
 inline constexpr MethodSet kAllMethods = (MethodSet{1} << kMethodNames.size()) - 1;
 
+/// Substeps of a time step, and the longest that a substep may become later, s; 0 = any length.
+struct Substeps
+{
+    std::uint32_t count = 1;
+    double largest = 0;
+};
+
 struct Method
 {
     MethodKind kind;
@@ -39,8 +46,8 @@ struct Method
     bool keeps_guess;
     /// Throws Error{unsupported, bad_timestep, ...} for what the method cannot do; may be null.
     void (*check)(const Scene& resolved, const DeviceTraits&);
-    /// Substeps that the method takes where the scene says so many; null: as the scene says.
-    std::uint32_t (*substeps)(const Scene& resolved);
+    /// Substeps that the method takes; null: as the scene says. Throws Error{unstable_timestep}.
+    Substeps (*substeps)(const Scene& resolved);
 };
 
 const Method& find_method(MethodKind kind);

@@ -48,7 +48,7 @@ void warn_of_precision(const Scene& scene, PlanBuilder& builder)
         low = glm::min(low, x);
         high = glm::max(high, x);
     }
-    const double h = scene.timestep / scene.method.substeps, fall = glm::length(scene.gravity) * h * h;
+    const double h = scene.timestep / builder.plan.substeps, fall = glm::length(scene.gravity) * h * h;
     const double last_digit = kUnit * kUnit * far;
     std::vector<PlanWarning>& warnings = builder.plan.warnings;
     if (fall > 0 && last_digit > 0.25 * fall)
@@ -117,12 +117,17 @@ void record_step(PlanBuilder& builder, const std::vector<const Effect*>& rows)
 
 } // namespace
 
-void check_timestep(double timestep, std::uint32_t substeps)
+void check_timestep(double timestep, std::uint32_t substeps, double largest)
 {
     if (!(timestep > 0) || timestep > 1 || timestep / substeps < kMinSubstep)
         throw Error(ErrorCode::bad_timestep,
                     "timestep is " + shown(timestep) + " s in " + std::to_string(substeps) +
                         " substeps; it must lie in (0, 1] s, a substep at least 1e-15 s");
+    if (largest > 0 && timestep / substeps > largest)
+        throw Error(ErrorCode::unstable_timestep,
+                    "timestep is " + shown(timestep, 4) + " s in " + std::to_string(substeps) +
+                        " substeps; the longest stable substep is " + shown(largest, 4) + " s, so " +
+                        shown(std::ceil(timestep / largest)) + " would do");
 }
 
 Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOptions& options)

@@ -102,7 +102,7 @@ struct MovingPin
 /// Something a user should know before anything runs. The words are those of docs/statuses.md.
 struct PlanWarning
 {
-    std::string word;        ///< "conflict", "degenerate" or "precision"
+    std::string word;        ///< "conflict", "degenerate", "energy_growth" or "precision"
     std::uint64_t count = 1; ///< how many constraints or hinges it is about
     std::string text;        ///< with the numbers
 
@@ -114,6 +114,7 @@ struct Plan
     Precision precision = Precision::float32;
     double timestep = 0;
     std::uint32_t substeps = 1, iterations = 1;
+    double largest_substep = 0; ///< s, beyond which the method is not stable; 0 = none
 
     std::vector<PlanBuffer> buffers;
     std::vector<Dispatch> passes; ///< one whole time step; buffer numbers index `buffers`; label = effect
@@ -156,10 +157,12 @@ struct Plan
     std::map<std::string, std::uint64_t> colour_counts() const;
 };
 
-/// Throws Error{bad_timestep} unless the step lies in (0, 1] s and its substeps are at least 1e-15 s.
-void check_timestep(double timestep, std::uint32_t substeps);
+/// Throws Error{bad_timestep} unless the step lies in (0, 1] s and its substeps are at least 1e-15 s, and
+/// Error{unstable_timestep} for substeps longer than `largest` (0 = any).
+void check_timestep(double timestep, std::uint32_t substeps, double largest = 0);
 
-/// Compiles a resolved scene. Throws Error{bad_timestep, bad_input, degenerate_rest, limit, unsupported}.
+/// Compiles a resolved scene. Throws Error{bad_timestep, unstable_timestep, bad_input,
+/// degenerate_rest, limit, unsupported}.
 Plan make_plan(const Scene& resolved, const DeviceTraits& = {}, const PlanOptions& = {});
 
 } // namespace taut

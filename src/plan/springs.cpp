@@ -1,10 +1,13 @@
 #include "taut/plan/springs.hpp"
 
+#include "taut/runtime/base/error.hpp"
+
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace taut {
@@ -24,6 +27,45 @@ Incidence incidence_of(std::uint32_t vertex_count, std::span<const std::uint32_t
         for (std::uint32_t c = 0; c < arity; ++c)
             out.entries[next[corners[k * arity + c]]++] = k * arity + c;
     return out;
+}
+
+void refuse_rigid(const Scene& scene)
+{
+    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    {
+        const Body& own = scene.bodies[body];
+        const std::string where =
+            "bodies[" + std::to_string(body) + "], method \"" + scene.method.type + "\": ";
+        std::vector<std::uint32_t> at(own.mesh.positions.size(), 0);
+        for (const StretchElement& e : stretch_elements(own))
+        {
+            const std::string pair = std::to_string(e.a) + " and " + std::to_string(e.b);
+            if (!(e.compliance > 0) && !(e.rest_length > 0))
+                throw Error(ErrorCode::degenerate_rest,
+                            where + "the edge between vertices " + pair +
+                                " has no length, so its stiffness is infinite; weld them");
+            if (!(e.compliance > 0))
+                throw Error(
+                    ErrorCode::unsupported,
+                    where + "the spring between vertices " + pair +
+                        " is rigid; give it a finite stiffness, or take a method with constraints (xpbd)");
+            ++at[e.a];
+            ++at[e.b];
+        }
+        for (const BendElement& e : bend_elements(own))
+        {
+            if (!(e.compliance > 0))
+                throw Error(ErrorCode::unsupported,
+                            where + "bending_stiffness is infinite; give a finite one");
+            for (const std::uint32_t v : {e.edge0, e.edge1, e.wing0, e.wing1})
+                ++at[v];
+        }
+        const auto most = std::max_element(at.begin(), at.end());
+        if (most != at.end() && *most > kMaxLoopTrips)
+            throw Error(ErrorCode::limit, where + std::to_string(*most) + " springs and hinges at vertex " +
+                                              std::to_string(most - at.begin()) + ", at most " +
+                                              std::to_string(kMaxLoopTrips) + " fit one invocation");
+    }
 }
 
 std::vector<StretchElement> acting_springs(PlanBuilder& b, std::size_t body)

@@ -20,6 +20,11 @@ struct Incidence
 Incidence incidence_of(std::uint32_t vertex_count, std::span<const std::uint32_t> corners,
                        std::uint32_t arity);
 
+/// For methods that move by forces. Throws Error{unsupported} for rigid elements, Error{degenerate_rest} for
+/// springs that are rigid because they have no length, Error{limit} for a vertex of more elements than one
+/// invocation may visit.
+void refuse_rigid(const Scene& resolved);
+
 /// Springs of a body that can act (not between two held vertices), in the order of stretch_elements; in plan
 /// vertices. Adds the warning "conflict" for violated ones between held vertices.
 std::vector<StretchElement> acting_springs(PlanBuilder& builder, std::size_t body);

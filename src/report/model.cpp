@@ -1,5 +1,6 @@
 #include "taut/report/model.hpp"
 
+#include "taut/plan/stability.hpp"
 #include "taut/report/hinge.hpp"
 
 #include <glm/geometric.hpp>
@@ -183,27 +184,7 @@ std::size_t rigid_element_count(const PhysicalModel& model)
 
 double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x)
 {
-    std::vector<double> row(x.size(), 0.0);
-    for (const StretchElement& s : model.springs)
-    {
-        row[s.a] += 2 / s.compliance;
-        row[s.b] += 2 / s.compliance;
-    }
-    for (const BendElement& h : model.hinges)
-    {
-        const auto hinge = reference::hinge_angle(corners(h, x));
-        const std::uint32_t vertex[4] = {h.edge0, h.edge1, h.wing0, h.wing1};
-        double size[4] = {}, sum = 0;
-        for (std::size_t c = 0; c < 4; ++c)
-            sum += size[c] = std::sqrt(reference::dot(hinge.gradient[c], hinge.gradient[c]));
-        for (std::size_t c = 0; c < 4; ++c)
-            row[vertex[c]] += size[c] * sum / h.compliance;
-    }
-    double largest = 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-        if (!model.pinned[i])
-            largest = std::max(largest, row[i] / model.mass[i]);
-    return std::sqrt(largest);
+    return std::sqrt(rate_bounds(model.springs, model.hinges, model.mass, model.pinned, x).stiffness);
 }
 
 } // namespace taut

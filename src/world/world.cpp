@@ -418,7 +418,7 @@ void World::restore(const WorldState& state)
 
 void World::set_timestep(double seconds)
 {
-    check_timestep(seconds, impl_->plan.substeps);
+    check_timestep(seconds, impl_->plan.substeps, impl_->plan.largest_substep);
     impl_->scene.timestep = impl_->plan.timestep = seconds;
     impl_->restart_clock(Clock(impl_->clock));
     impl_->write_all_inputs();

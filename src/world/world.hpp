@@ -113,7 +113,8 @@ public:
     void set_force(std::uint32_t vertex, const glm::dvec3& force);
 
     /// From now on; the plan stays as it is. A state of another timestep may be restored, too: velocities
-    /// are in m/s, so a change makes no jump (A12). Throws Error{bad_timestep} outside (0, 1] s (A10).
+    /// are in m/s, so a change makes no jump (A12). Throws Error{bad_timestep} outside (0, 1] s (A10) and
+    /// Error{unstable_timestep} where an explicit method would not be stable.
     void set_timestep(double seconds);
     /// From now on, m/s^2. Throws Error{bad_input} when not finite. Both change nothing when they throw.
     void set_gravity(const glm::dvec3& gravity);

@@ -1,0 +1,189 @@
+// Vertex block descent: one invocation per vertex of one colour (no two share an element) minimises the
+// substep's energy, inertia + springs + hinges, over its own place, by one Newton step of three unknowns.
+//
+// Based on:
+//   Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024: blocks f_i and H_i, one colour at a time.
+//   Chen, Hsieh, et al. Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for Projected Newton.
+//   SIGGRAPH 2024: where a spring is compressed, the curvature across it counts by its size.
+// Departures: that size is at most the stiffness along the spring; hinges by Gauss-Newton (outer product of
+//   the gradient). So every block is positive definite. Leaving the compressed part out (Choi, Ko 2002) lets a
+//   stiff sheet that is slightly compressed gain energy: steps across are then far too long
+//   (docs/methods/vbd.md). Pivots of the 3 x 3 factorisation are at least the inertia m / h^2, below which no
+//   eigenvalue of the block lies, so rounding cannot turn a step around; dampers act along the spring, on the
+//   substep's own displacement. What rounding leaves of a length or an angle at rest counts as zero: steps of
+//   one vertex after another are not opposite, and would push a free sheet along by it.
+// Bytes per vertex: 16 + 48 read, 16 written; per spring 24 + 32 (damped 48), per hinge 24 + 128 (float).
+//! variant hinges HINGES=1
+//! variant damped DAMPED=1
+//! variant hinges_damped HINGES=1 DAMPED=1
+//! variant tail TAIL=1
+//! variant tail_hinges TAIL=1 HINGES=1
+//! variant tail_damped TAIL=1 DAMPED=1
+//! variant tail_hinges_damped TAIL=1 HINGES=1 DAMPED=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/spring.glsl"
+#if HINGES
+#include "shared/hinge.glsl"
+#endif
+
+PARAMS
+{
+    uint first;       // first row
+    uint count;       // rows: of one colour; in the tail variants of several
+    uint report;      // 1: count elements without a direction or an angle
+    float relaxation; // each step times this
+};
+
+READ(0, uint, row);        // four words a row: vertex, first spring end, first hinge corner, colour end
+READ(1, Spring, end);      // a = this vertex, b = the other; those of row k end where row k + 1 begins
+READ(2, rvec4, position);  // xyz m, w = inverse mass 1/kg
+READ(3, rvec4, predicted); // xyz: inertial guess of the displacement, m; w = inertia m / h^2, kg/s^2
+#if TAIL
+GROUP_UPDATE(4, rvec4, delta); // displacement since the start of the substep, m
+#else
+UPDATE(4, rvec4, delta);
+#endif
+COUNTERS(5, events);
+#if HINGES
+READ(6, BendingConstraint, corner); // a hinge of which this vertex is one corner
+#if DAMPED
+READ(7, rvec4, low); // m: where in `delta` a vertex stood before the substep
+#endif
+#elif DAMPED
+READ(6, rvec4, low);
+#endif
+
+#if HINGES
+rvec3 from_to(uint a, uint b)
+{
+    return rvec3(position[b] - position[a]) + rvec3(delta[b] - delta[a]);
+}
+
+/// Whether this vertex is the first corner that moves: it counts for the hinge.
+bool counts_for(uint v, BendingConstraint c)
+{
+    if (v == c.edge0) return true;
+    if (position[c.edge0].w > real(0)) return false;
+    if (v == c.edge1) return true;
+    if (position[c.edge1].w > real(0)) return false;
+    return v == c.wing0 || !(position[c.wing0].w > real(0));
+}
+#endif
+
+/// Relative size of what rounding leaves of the length of a spring at rest: two units of the last digit.
+real last_digits()
+{
+#if TAUT_REAL_DOUBLE
+    return REAL(4.5e-16);
+#else
+    return REAL(2.4e-7);
+#endif
+}
+
+void solve(uint k)
+{
+    uint v = row[4u * k];
+    rvec4 x = position[v];
+    rvec4 d = delta[v];
+    rvec4 y = predicted[v];
+    real inertia = y.w;
+    rvec3 f = rvec3(y - d) * inertia;
+    real even = inertia;                // the block's multiple of the identity
+    rvec3 diagonal = rvec3(real(0));    // the rest: xx, yy, zz
+    rvec3 mixed = rvec3(real(0));       // xy, xz, yz
+#if DAMPED
+    real inverse_substep = sqrt(inertia * x.w);
+    rvec3 moved = rvec3(d - low[v]);
+#endif
+    for (uint j = row[4u * k + 1u]; j < row[4u * k + 5u]; ++j)
+    {
+        Spring s = end[j];
+        rvec4 far = position[s.b];
+        rvec4 far_delta = delta[s.b];
+        rvec3 e = rvec3(x - far) + rvec3(d - far_delta);
+        real len = length(e);
+        bool usable = len > real(0);
+        rvec3 n = e / (usable ? len : real(1));
+        real across = usable ? min(abs(real(1) - s.rest_length / len), real(1)) : real(0);
+        real along = usable ? s.stiffness * (real(1) - across) : real(0);
+        real stretch = len - s.rest_length;
+        stretch = abs(stretch) > last_digits() * len ? stretch : real(0);
+        real pull = s.stiffness * stretch;
+#if DAMPED
+        real drag = s.damping * inverse_substep;
+        pull += drag * dot(n, moved - rvec3(far_delta - low[s.b]));
+        along += usable ? drag : real(0);
+#endif
+        f -= n * pull;
+        even += s.stiffness * across;
+        diagonal += n * n * along;
+        mixed += rvec3(n.x * n.y, n.x * n.z, n.y * n.z) * along;
+        if (report != 0u)
+        {
+            if (!usable && s.rest_length > real(0) && (v < s.b || !(far.w > real(0))))
+                COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+        }
+    }
+#if HINGES
+    for (uint j = row[4u * k + 2u]; j < row[4u * k + 6u]; ++j)
+    {
+        BendingConstraint c = corner[j];
+        HingeShape shape =
+            hinge_shape(from_to(c.edge0, c.edge1), from_to(c.edge0, c.wing0), from_to(c.edge0, c.wing1));
+        rvec3 g = v == c.edge0   ? shape.edge0
+                  : v == c.edge1 ? shape.edge1
+                  : v == c.wing0 ? shape.wing0
+                                 : shape.wing1;
+        g = shape.shaped ? g : rvec3(real(0));
+        rvec3 stiff = g / c.compliance;
+        real turn = angle_difference(shape.angle, c.rest_angle);
+        f -= stiff * (abs(turn) > real(2) * last_digits() ? turn : real(0));
+        diagonal += g * stiff;
+        mixed += rvec3(g.x * stiff.y, g.x * stiff.z, g.y * stiff.z);
+        if (report != 0u)
+        {
+            if (!shape.shaped && counts_for(v, c))
+                COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+        }
+    }
+#endif
+    // L D L^T of the block.
+    real pivot1 = max(diagonal.x + even, inertia);
+    real l21 = mixed.x / pivot1;
+    real l31 = mixed.y / pivot1;
+    real pivot2 = max((diagonal.y + even) - l21 * mixed.x, inertia);
+    real below = mixed.z - l21 * mixed.y;
+    real l32 = below / pivot2;
+    real pivot3 = max((diagonal.z + even) - l31 * mixed.y - l32 * below, inertia);
+    real z2 = f.y - l21 * f.x;
+    real z3 = (f.z - l31 * f.x) - l32 * z2;
+    real step_z = z3 / pivot3;
+    real step_y = z2 / pivot2 - l32 * step_z;
+    real step_x = (f.x / pivot1 - l21 * step_y) - l31 * step_z;
+    bool finite = abs(step_x) + abs(step_y) + abs(step_z) < REAL(1e18);
+    rvec3 push = rvec3(step_x, step_y, step_z) * real(relaxation);
+    delta[v] = finite ? d + rvec4(push, real(0)) : d;
+    if (!finite)
+        COUNT_EVENT(events, TAUT_EVENT_NON_FINITE);
+}
+
+#if TAIL
+// One group does several small colours, one after another. Folded dispatches may bring groups too many.
+GROUP_KERNEL(64)
+{
+    uint last = group == 0u ? first + count : first;
+    for (uint begin = first; begin < last; begin = row[4u * begin + 3u])
+    {
+        PHASE_BEGIN
+        for (uint k = begin + lane; k < row[4u * begin + 3u]; k += 64u)
+            solve(k);
+        PHASE_END
+    }
+}
+#else
+KERNEL(count)
+{
+    solve(first + i);
+}
+#endif

@@ -1,0 +1,244 @@
+// Mass-spring: forces gathered at the vertices, velocities and places by an explicit integrator.
+//
+// Based on: Provot. Deformation Constraints in a Mass-Spring Model to Describe Rigid Cloth Behavior. Graphics
+//   Interface 1995; Hairer, Lubich, Wanner. Geometric Numerical Integration, 2nd ed. 2006, I.1 (explicit and
+//   semi-implicit Euler, velocity Verlet).
+// Departures: the integrators are kicks around the frame's own step v += h g, x += h v, which makes a substep
+// of
+//   every method (docs/decisions.md 25). Verlet forms the forces twice a substep, so that a state needs no
+//   forces of the step before.
+
+#include "taut/plan/mass_spring.hpp"
+
+#include "taut/kernels/force_kick.hpp"
+#include "taut/kernels/hinge_force.hpp"
+#include "taut/kernels/slot_sum.hpp"
+#include "taut/kernels/spring_force.hpp"
+#include "taut/kernels/spring_slots.hpp"
+#include "taut/plan/springs.hpp"
+#include "taut/plan/stability.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+ForceBuffers& forces(PlanBuilder& b)
+{
+    if (!b.forces)
+        b.forces = std::make_shared<ForceBuffers>();
+    return *b.forces;
+}
+
+void add_force_buffer(PlanBuilder& b, std::string_view effect)
+{
+    ForceBuffers& f = forces(b);
+    if (f.force == kNoBuffer)
+        f.force =
+            b.add_buffer(effect, "inner forces", std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
+}
+
+template <typename Real>
+layout::Spring<Real> record_of(const StretchElement& e)
+{
+    return {e.a,
+            e.b,
+            static_cast<Real>(e.rest_length),
+            static_cast<Real>(1 / e.compliance),
+            static_cast<Real>(e.damping),
+            static_cast<std::uint32_t>(e.kind)};
+}
+
+/// Elements that an invocation of one vertex visits, on average, for the accounts.
+std::uint32_t per_vertex(const PlanBuilder& b, std::uint64_t ends)
+{
+    return static_cast<std::uint32_t>(ends / std::max(b.plan.vertex_count, 1u) + 1);
+}
+
+void record_gather(PlanBuilder& b, std::uint32_t report)
+{
+    const ForceBuffers& f = *b.forces;
+    const std::uint32_t n = b.plan.vertex_count, each = per_vertex(b, 2 * std::uint64_t(f.springs));
+    std::vector<Use> uses = {
+        {f.start}, {f.ends, each},    {b.plan.position, 1 + each}, {b.plan.low, 1 + each},
+        {f.force}, {b.plan.events, 0}};
+    if (f.damped)
+        uses.push_back({b.plan.velocity, 1 + each});
+    b.dispatch("spring_force", "spring_force", f.damped ? "damped" : "", uses,
+               kernels::spring_force::Params{n, report}, n);
+}
+
+void record_slots(PlanBuilder& b, std::uint32_t report)
+{
+    const ForceBuffers& f = *b.forces;
+    const std::uint32_t n = b.plan.vertex_count, each = per_vertex(b, 2 * std::uint64_t(f.springs));
+    std::vector<Use> uses = {
+        {f.records}, {b.plan.position, 2}, {b.plan.low, 2}, {f.slots}, {b.plan.events, 0}};
+    if (f.damped)
+        uses.push_back({b.plan.velocity, 2});
+    b.dispatch("spring_force", "spring_slots", f.damped ? "damped" : "", uses,
+               kernels::spring_slots::Params{f.springs, report}, f.springs);
+    const Use sum[] = {{f.start}, {f.incident, each}, {f.slots, each}, {f.force}};
+    b.dispatch("spring_force", "slot_sum", "", sum, kernels::slot_sum::Params{n}, n);
+}
+
+void record_springs(PlanBuilder& b, bool report)
+{
+    if (forces(b).springs == 0)
+        return;
+    if (forces(b).node_centric)
+        record_gather(b, report);
+    else
+        record_slots(b, report);
+}
+
+void record_hinges(PlanBuilder& b, bool report)
+{
+    const ForceBuffers& f = forces(b);
+    if (f.hinges == 0)
+        return;
+    const std::uint32_t n = b.plan.vertex_count, each = per_vertex(b, 4 * std::uint64_t(f.hinges));
+    const Use uses[] = {{f.hinge_start},         {f.hinge_incident, each},
+                        {f.hinge_records, each}, {b.plan.position, 4 * each},
+                        {b.plan.low, 4 * each},  {f.force},
+                        {b.plan.events, 0}};
+    const std::uint32_t add = f.springs > 0;
+    b.dispatch("hinge_force", "hinge_force", "", uses, kernels::hinge_force::Params{n, add, report}, n);
+}
+
+void record_kick(PlanBuilder& b, float force_share, float gravity_share)
+{
+    const std::uint32_t n = b.plan.vertex_count;
+    const Use uses[] = {
+        {b.plan.position}, {b.forces->force}, {b.plan.velocity}, {b.plan.step_values, 0}, {b.plan.events, 0}};
+    b.dispatch("force_kick", "force_kick", "", uses,
+               kernels::force_kick::Params{n, force_share, gravity_share}, n);
+}
+
+bool report_now(const PlanBuilder& b, const Moment& moment) { return moment.substep + 1 == b.plan.substeps; }
+
+/// Explicit Euler multiplies a mode's amplitude by sqrt(1 + h^2 omega^2) in every substep.
+void warn_of_growth(PlanBuilder& b)
+{
+    const double h = b.plan.timestep / b.plan.substeps, rate = rate_bounds(b.scene).stiffness;
+    if (b.scene.method.integrator != "explicit" || !(rate > 0))
+        return;
+    b.plan.warnings.push_back(
+        {"energy_growth", 1,
+         "explicit Euler gains energy in every substep: the stiffest motion grows by up to a factor of " +
+             shown(std::exp(std::log1p(rate * h * h) / (2 * h)), 3) +
+             " a second where nothing damps it; use integrator \"semi_implicit\" or \"verlet\""});
+}
+
+} // namespace
+
+void check_mass_spring(const Scene& scene, const DeviceTraits&) { refuse_rigid(scene); }
+
+bool wants_forces_after(const Scene& scene) { return scene.method.integrator == "verlet"; }
+bool wants_kick_after(const Scene& scene) { return scene.method.integrator != "semi_implicit"; }
+
+bool wants_kick(const Scene& scene)
+{
+    return wants_kick_after(scene) ||
+           std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
+               return b.material.stretch_stiffness > 0 || !b.springs.empty() ||
+                      (b.material.bending_stiffness > 0 && !b.mesh.triangles.empty());
+           });
+}
+
+void prepare_spring_force(PlanBuilder& b)
+{
+    std::vector<StretchElement> elements;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (const StretchElement& e : acting_springs(b, body))
+            elements.push_back(e);
+    ForceBuffers& f = forces(b);
+    f.springs = static_cast<std::uint32_t>(elements.size());
+    if (elements.empty())
+        return;
+    f.node_centric = b.scene.method.scheme != "spring_centric";
+    std::vector<std::uint32_t> corners;
+    for (const StretchElement& e : elements)
+    {
+        corners.insert(corners.end(), {e.a, e.b});
+        f.damped = f.damped || e.damping > 0;
+    }
+    const Incidence at = incidence_of(b.plan.vertex_count, corners, 2);
+    with_real(b.plan.precision, [&](auto zero) {
+        using Record = layout::Spring<decltype(zero)>;
+        std::vector<Record> records, ends;
+        for (const StretchElement& e : elements)
+            records.push_back(record_of<decltype(zero)>(e));
+        if (!f.node_centric)
+        {
+            f.records = b.add_buffer<Record>("spring_force", "springs", records);
+            return;
+        }
+        for (const std::uint32_t entry : at.entries)
+        {
+            ends.push_back(records[entry / 2]);
+            if (entry % 2 == 1)
+                std::swap(ends.back().a, ends.back().b);
+        }
+        f.ends = b.add_buffer<Record>("spring_force", "spring ends", ends);
+    });
+    f.start = b.add_buffer<std::uint32_t>("spring_force", "springs at a vertex, start", at.start);
+    if (!f.node_centric)
+    {
+        f.incident = b.add_buffer<std::uint32_t>("spring_force", "springs at a vertex", at.entries);
+        f.slots = b.add_buffer("spring_force", "slots", std::uint64_t(f.springs) * 4 * b.real_size());
+    }
+    add_force_buffer(b, "spring_force");
+}
+
+void prepare_hinge_force(PlanBuilder& b)
+{
+    const HingeBuffers hinges = make_hinge_buffers(b, "hinge_force");
+    ForceBuffers& f = forces(b);
+    f.hinges = static_cast<std::uint32_t>(hinges.elements.size());
+    if (f.hinges == 0)
+        return;
+    f.hinge_start = hinges.start;
+    f.hinge_incident = hinges.incident;
+    f.hinge_records = hinges.records;
+    add_force_buffer(b, "hinge_force");
+}
+
+void prepare_force_kick(PlanBuilder& b)
+{
+    if (wants_kick_after(b.scene))
+        add_force_buffer(b, "force_kick"); // zero, where nothing pulls
+    warn_of_growth(b);
+}
+
+void record_spring_force(PlanBuilder& b, const Moment& moment) { record_springs(b, report_now(b, moment)); }
+void record_hinge_force(PlanBuilder& b, const Moment& moment) { record_hinges(b, report_now(b, moment)); }
+void record_spring_force_after(PlanBuilder& b, const Moment&) { record_springs(b, false); }
+void record_hinge_force_after(PlanBuilder& b, const Moment&) { record_hinges(b, false); }
+
+void record_force_kick(PlanBuilder& b, const Moment&)
+{
+    if (forces(b).force == kNoBuffer)
+        return;
+    const std::string& integrator = b.scene.method.integrator;
+    if (integrator == "explicit")
+        record_kick(b, 0, -1);
+    else if (integrator == "verlet")
+        record_kick(b, 0.5f, -0.5f);
+    else
+        record_kick(b, 1, 0);
+}
+
+void record_force_kick_after(PlanBuilder& b, const Moment&)
+{
+    const float share = b.scene.method.integrator == "verlet" ? 0.5f : 1;
+    record_kick(b, share, share);
+}
+
+} // namespace taut

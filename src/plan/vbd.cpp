@@ -1,0 +1,365 @@
+// Vertex block descent: rows of vertices by colour, sweeps over them, the start of a substep and its history.
+//
+// Based on: Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024.
+// Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a body
+//   moves bitwise as it would alone; runs of small colours share one group; contacts are projected once a
+//   substep, after the last sweep: sweeps would undo a part of each projection, a different part along the
+//   surface than across it, and Coulomb's cone would be wrong by the ratio.
+
+#include "taut/plan/vbd.hpp"
+
+#include "taut/kernels/vbd_accelerate.hpp"
+#include "taut/kernels/vbd_mark.hpp"
+#include "taut/kernels/vbd_progress.hpp"
+#include "taut/kernels/vbd_share.hpp"
+#include "taut/kernels/vbd_solve.hpp"
+#include "taut/kernels/vbd_start.hpp"
+#include "taut/plan/grouping.hpp"
+#include "taut/plan/springs.hpp"
+#include "taut/plan/vertex_colouring.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+constexpr std::uint32_t kPlainIterations = 3; ///< before the acceleration starts
+constexpr std::uint32_t kFewIterations = 8;   ///< fewer are not accelerated
+
+/// Springs and hinges of all bodies with those at each vertex.
+struct Elements
+{
+    std::vector<StretchElement> springs;
+    std::vector<BendElement> hinges;
+    Incidence at_spring, at_hinge;
+};
+
+Elements elements_of(PlanBuilder& b)
+{
+    Elements out;
+    std::vector<std::uint32_t> ends, corners;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        for (const StretchElement& e : acting_springs(b, body))
+        {
+            out.springs.push_back(e);
+            ends.insert(ends.end(), {e.a, e.b});
+        }
+        for (const BendElement& e : acting_hinges(b, body))
+        {
+            out.hinges.push_back(e);
+            corners.insert(corners.end(), {e.edge0, e.edge1, e.wing0, e.wing1});
+        }
+    }
+    out.at_spring = incidence_of(b.plan.vertex_count, ends, 2);
+    out.at_hinge = incidence_of(b.plan.vertex_count, corners, 4);
+    return out;
+}
+
+/// Plan vertices that move, colour by colour; colour k of all bodies together.
+std::vector<std::vector<std::uint32_t>> colours_of(const PlanBuilder& b, const Elements& elements)
+{
+    std::vector<std::vector<std::uint32_t>> out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        const std::uint32_t first = b.plan.body_start[body], end = b.plan.body_start[body + 1];
+        std::vector<bool> free;
+        for (std::uint32_t v = first; v < end; ++v)
+            free.push_back(b.inverse_mass[v] > 0);
+        VertexGraph graph(std::move(free));
+        const auto add = [&](std::initializer_list<std::uint32_t> corners) {
+            std::vector<std::uint32_t> own;
+            for (const std::uint32_t v : corners)
+                own.push_back(v - first);
+            graph.add(own, static_cast<std::uint32_t>(own.size()));
+        };
+        for (const StretchElement& e : elements.springs)
+            if (e.a >= first && e.a < end)
+                add({e.a, e.b});
+        for (const BendElement& e : elements.hinges)
+            if (e.edge0 >= first && e.edge0 < end)
+                add({e.edge0, e.edge1, e.wing0, e.wing1});
+        graph.finish();
+        const VertexColours found = colour_vertices(graph, b.scene.bodies[body].mesh.grid_columns);
+        out.resize(std::max<std::size_t>(out.size(), found.count));
+        for (std::uint32_t v = 0; v < graph.vertex_count; ++v)
+            if (found.colour[v] != kNoColour)
+                out[found.colour[v]].push_back(first + v);
+    }
+    std::erase_if(out, [](const auto& colour) { return colour.empty(); });
+    return out;
+}
+
+std::uint32_t size_of(const std::vector<std::uint32_t>& colour)
+{
+    return static_cast<std::uint32_t>(colour.size());
+}
+
+/// Small colours in a row share a group, as far as its loops may go. A row costs as much as its elements.
+std::vector<BlockBuffers::Run> runs_of(const PlanBuilder& b,
+                                       const std::vector<std::vector<std::uint32_t>>& colours,
+                                       std::uint32_t each, std::uint32_t most)
+{
+    const std::uint32_t limit = small_colour(b.traits) / std::max(each, 1u);
+    std::vector<BlockBuffers::Run> runs;
+    std::uint32_t row = 0;
+    for (std::size_t c = 0; c < colours.size();)
+    {
+        std::uint64_t trips = 0, rows = 0;
+        std::size_t end = c;
+        while (end < colours.size() && size_of(colours[end]) <= limit)
+        {
+            const std::uint64_t more = (size_of(colours[end]) / kGroupSize + 1) * (std::uint64_t(most) + 2);
+            if (trips + more >= kMaxLoopTrips)
+                break;
+            trips += more;
+            rows += size_of(colours[end++]);
+        }
+        const bool grouped = end - c >= 2;
+        if (!grouped)
+        {
+            end = c + 1;
+            rows = size_of(colours[c]);
+        }
+        runs.push_back({row, static_cast<std::uint32_t>(rows), grouped});
+        row += static_cast<std::uint32_t>(rows);
+        c = end;
+    }
+    return runs;
+}
+
+/// Rows and their elements, in the order of the sweep.
+template <typename Real>
+void add_rows(PlanBuilder& b, BlockBuffers& f, const Elements& elements,
+              const std::vector<std::vector<std::uint32_t>>& colours)
+{
+    std::vector<std::uint32_t> row;
+    std::vector<layout::Spring<Real>> ends;
+    std::vector<layout::BendingConstraint<Real>> corners;
+    const auto mark = [&](std::uint32_t vertex, std::uint32_t end) {
+        row.insert(row.end(), {vertex, static_cast<std::uint32_t>(ends.size()),
+                               static_cast<std::uint32_t>(corners.size()), end});
+    };
+    std::uint32_t colour_end = 0;
+    for (const auto& colour : colours)
+    {
+        colour_end += size_of(colour);
+        for (const std::uint32_t v : colour)
+        {
+            mark(v, colour_end);
+            for (std::uint32_t k = elements.at_spring.start[v]; k < elements.at_spring.start[v + 1]; ++k)
+            {
+                const StretchElement& e = elements.springs[elements.at_spring.entries[k] / 2];
+                ends.push_back({v, e.a == v ? e.b : e.a, static_cast<Real>(e.rest_length),
+                                static_cast<Real>(1 / e.compliance), static_cast<Real>(e.damping),
+                                static_cast<std::uint32_t>(e.kind)});
+            }
+            for (std::uint32_t k = elements.at_hinge.start[v]; k < elements.at_hinge.start[v + 1]; ++k)
+            {
+                const BendElement& e = elements.hinges[elements.at_hinge.entries[k] / 4];
+                corners.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
+                                   static_cast<Real>(e.compliance)});
+            }
+        }
+    }
+    mark(0, colour_end); // the end of the last row's elements
+    f.springs_each = static_cast<std::uint32_t>(ends.size() / std::max(f.rows, 1u) + 1);
+    f.hinges_each = static_cast<std::uint32_t>(corners.size() / std::max(f.rows, 1u) + 1);
+    if (ends.empty())
+        ends.push_back({}); // never read
+    f.row = b.add_buffer<std::uint32_t>("vbd_solve", "rows", row);
+    f.ends = b.add_buffer<layout::Spring<Real>>("vbd_solve", "spring ends", ends);
+    if (f.hinges)
+        f.corners = b.add_buffer<layout::BendingConstraint<Real>>("vbd_solve", "hinge corners", corners);
+}
+
+bool adaptive(const PlanBuilder& b) { return b.scene.method.start == "adaptive"; }
+
+/// 2 * body + 1 for bodies with held vertices, by vertex.
+std::vector<std::uint32_t> support_of(const PlanBuilder& b)
+{
+    std::vector<std::uint32_t> out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        const std::uint32_t first = b.plan.body_start[body], end = b.plan.body_start[body + 1];
+        const bool held = std::any_of(b.inverse_mass.begin() + first, b.inverse_mass.begin() + end,
+                                      [](double w) { return !(w > 0); });
+        out.insert(out.end(), end - first, 2 * static_cast<std::uint32_t>(body) + (held ? 1 : 0));
+    }
+    return out;
+}
+
+void prepare_start(PlanBuilder& b, BlockBuffers& f)
+{
+    const std::uint64_t n = b.plan.vertex_count;
+    if (adaptive(b) || !f.omega.empty())
+        f.support = b.add_buffer<std::uint32_t>("vbd_start", "support", support_of(b));
+    if (!adaptive(b))
+        return;
+    with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        const std::vector<Real> whole(n, Real(1));
+        f.share = b.add_buffer<Real>("vbd_start", "share of gravity", whole);
+    });
+    b.plan.kept.push_back(f.share);
+    if (b.scene.colliders.empty())
+        return;
+    f.touched = b.add_buffer("vbd_start", "touched", b.scene.bodies.size() * sizeof(std::uint32_t));
+    f.seen = b.add_buffer("vbd_start", "touched before", n * 2 * sizeof(std::uint32_t));
+    f.solved = b.add_buffer("vbd_start", "displacement before contact", n * 4 * b.real_size());
+    b.plan.kept.insert(b.plan.kept.end(), {f.touched, f.seen});
+}
+
+void prepare_acceleration(PlanBuilder& b, BlockBuffers& f)
+{
+    if (f.omega.empty())
+        return;
+    const std::uint64_t bytes = std::uint64_t(b.plan.vertex_count) * 4 * b.real_size();
+    f.newest = b.add_buffer("vbd_accelerate", "newest iterate", bytes);
+    f.older = b.add_buffer("vbd_accelerate", "older iterate", bytes);
+    f.body = b.add_buffer<std::uint32_t>("vbd_accelerate", "vertices of bodies", b.plan.body_start);
+    f.progress = b.add_buffer("vbd_accelerate", "progress", b.scene.bodies.size() * 2 * b.real_size());
+}
+
+void record_acceleration(PlanBuilder& b, std::uint32_t iteration)
+{
+    const BlockBuffers& f = *b.blocks;
+    const std::uint32_t n = b.plan.vertex_count;
+    if (iteration > 0)
+    {
+        const auto bodies = static_cast<std::uint32_t>(b.scene.bodies.size());
+        const Use uses[] = {{f.body, 2}, {b.plan.position}, {b.plan.delta}, {f.newest}, {f.progress, 0}};
+        b.dispatch("vbd_accelerate", "vbd_progress", "", uses,
+                   kernels::vbd_progress::Params{bodies, iteration == 1}, bodies, n);
+    }
+    const Use uses[] = {{b.plan.delta}, {f.newest}, {f.older}, {f.support}, {f.progress, 0}};
+    b.dispatch("vbd_accelerate", "vbd_accelerate", "", uses,
+               kernels::vbd_accelerate::Params{n, f.omega[iteration]}, n);
+}
+
+} // namespace
+
+void check_vbd(const Scene& scene, const DeviceTraits&) { refuse_rigid(scene); }
+
+std::vector<float> chebyshev_factors(double radius, std::uint32_t iterations)
+{
+    if (!(radius > 0) || iterations < kFewIterations)
+        return {};
+    const double most = 1 - 1.0 / (iterations - kPlainIterations);
+    const double square = std::min(radius, most) * std::min(radius, most);
+    std::vector<float> out(iterations, 1.0f);
+    double omega = 1;
+    for (std::uint32_t i = kPlainIterations + 1; i < iterations; ++i)
+    {
+        omega = i == kPlainIterations + 1 ? 2 / (2 - square) : 4 / (4 - square * omega);
+        out[i] = static_cast<float>(omega);
+    }
+    return out;
+}
+
+void prepare_vbd(PlanBuilder& b)
+{
+    b.blocks = std::make_shared<BlockBuffers>();
+    BlockBuffers& f = *b.blocks;
+    const Elements elements = elements_of(b);
+    if (elements.springs.empty() && elements.hinges.empty())
+        return;
+    const auto colours = colours_of(b, elements);
+    for (const auto& colour : colours)
+        f.rows += size_of(colour);
+    f.hinges = !elements.hinges.empty();
+    f.damped = std::any_of(elements.springs.begin(), elements.springs.end(),
+                           [](const StretchElement& e) { return e.damping > 0; });
+    std::uint32_t most = 0;
+    for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
+        most = std::max(most, elements.at_spring.start[v + 1] - elements.at_spring.start[v] +
+                                  elements.at_hinge.start[v + 1] - elements.at_hinge.start[v]);
+    with_real(b.plan.precision, [&](auto zero) { add_rows<decltype(zero)>(b, f, elements, colours); });
+    f.runs = runs_of(b, colours, f.springs_each + (f.hinges ? 4 * f.hinges_each : 0), most);
+    f.omega = chebyshev_factors(b.scene.method.spectral_radius, b.plan.iterations);
+    prepare_start(b, f);
+    prepare_acceleration(b, f);
+    ConstraintSet set;
+    set.kind = "vbd_solve";
+    set.buffer = f.row;
+    set.count = f.rows;
+    set.colour_start.push_back(0);
+    for (const auto& colour : colours)
+        set.colour_start.push_back(set.colour_start.back() + size_of(colour));
+    b.plan.constraints.push_back(set);
+}
+
+void record_vbd_start(PlanBuilder& b, const Moment&)
+{
+    const BlockBuffers& f = *b.blocks;
+    if (f.rows == 0)
+        return;
+    const bool previous = b.scene.method.start == "previous", contact = f.touched != kNoBuffer;
+    std::vector<Use> uses = {{b.plan.position}, {b.plan.predicted}, {b.plan.delta}, {b.plan.step_values, 0}};
+    if (previous)
+        uses.push_back({b.plan.low});
+    if (adaptive(b))
+        uses.push_back({f.share});
+    if (contact)
+        uses.insert(uses.end(), {{f.support}, {f.touched}, {f.seen, 2}});
+    b.dispatch("vbd_start", "vbd_start",
+               previous      ? "previous"
+               : contact     ? "contact"
+               : adaptive(b) ? "adaptive"
+                             : "",
+               uses, kernels::vbd_start::Params{b.plan.vertex_count}, b.plan.vertex_count);
+}
+
+void record_vbd_solve(PlanBuilder& b, const Moment& moment)
+{
+    const BlockBuffers& f = *b.blocks;
+    if (f.rows == 0)
+        return;
+    if (!f.omega.empty())
+        record_acceleration(b, moment.iteration);
+    const std::uint32_t near = 1 + f.springs_each + (f.hinges ? 4 * f.hinges_each : 0);
+    std::vector<Use> uses = {{f.row, 4},         {f.ends, f.springs_each}, {b.plan.position, near},
+                             {b.plan.predicted}, {b.plan.delta, near},     {b.plan.events, 0}};
+    if (f.hinges)
+        uses.push_back({f.corners, f.hinges_each});
+    if (f.damped)
+        uses.push_back({b.plan.low, 1 + f.springs_each});
+    const std::string kinds = std::string(f.hinges ? "hinges" : "") + (f.hinges && f.damped ? "_" : "") +
+                              (f.damped ? "damped" : "");
+    for (const BlockBuffers::Run& run : f.runs)
+    {
+        const std::string variant =
+            std::string(run.grouped ? "tail" : "") + (run.grouped && !kinds.empty() ? "_" : "") + kinds;
+        const kernels::vbd_solve::Params params{run.first, run.rows, moment.last,
+                                                static_cast<float>(b.scene.method.relaxation)};
+        b.dispatch("vbd_solve", "vbd_solve", variant, uses, params, run.grouped ? 1 : run.rows, run.rows);
+    }
+}
+
+void record_vbd_mark(PlanBuilder& b, const Moment&)
+{
+    const BlockBuffers& f = *b.blocks;
+    if (f.rows == 0 || f.solved == kNoBuffer)
+        return;
+    const Use uses[] = {{b.plan.delta}, {f.solved}};
+    b.dispatch("vbd_start", "vbd_mark", "", uses, kernels::vbd_mark::Params{b.plan.vertex_count},
+               b.plan.vertex_count);
+}
+
+void record_vbd_share(PlanBuilder& b, const Moment&)
+{
+    const BlockBuffers& f = *b.blocks;
+    if (f.rows == 0 || !adaptive(b))
+        return;
+    std::vector<Use> uses = {
+        {b.plan.predicted}, {b.plan.delta}, {f.support}, {f.share}, {b.plan.step_values, 0}};
+    if (f.solved != kNoBuffer)
+        uses.insert(uses.end(), {{f.solved}, {f.touched, 0}});
+    b.dispatch("vbd_start", "vbd_share", f.solved != kNoBuffer ? "contact" : "", uses,
+               kernels::vbd_share::Params{b.plan.vertex_count}, b.plan.vertex_count);
+}
+
+} // namespace taut

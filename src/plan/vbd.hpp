@@ -1,0 +1,42 @@
+#pragma once
+// Internal to src/plan: vertex block descent. docs/methods/vbd.md.
+
+#include "taut/plan/builder.hpp"
+
+namespace taut {
+
+/// What the effects of vertex block descent share while a plan is made.
+struct BlockBuffers
+{
+    /// Consecutive colours that one pass does: one of its own, or several small ones in one group.
+    struct Run
+    {
+        std::uint32_t first = 0, rows = 0;
+        bool grouped = false;
+    };
+    std::vector<Run> runs;
+    std::uint32_t rows = 0;                          ///< vertices that move
+    std::uint32_t springs_each = 0, hinges_each = 0; ///< of a row on average, for the accounts
+    bool hinges = false, damped = false;
+    std::uint32_t row = kNoBuffer, ends = kNoBuffer, corners = kNoBuffer;
+    std::uint32_t share = kNoBuffer, support = kNoBuffer;                    ///< adaptive start
+    std::uint32_t touched = kNoBuffer, seen = kNoBuffer, solved = kNoBuffer; ///< and with colliders
+    std::uint32_t newest = kNoBuffer, older = kNoBuffer, body = kNoBuffer,
+                  progress = kNoBuffer; ///< Chebyshev
+    std::vector<float> omega;           ///< by iteration; empty = not accelerated
+};
+
+/// As refuse_rigid.
+void check_vbd(const Scene& resolved, const DeviceTraits&);
+
+/// Factors of the iterations of a substep: 1 for the first ones, then those of the recurrence of Wang 2015
+/// with `radius` (at most what that many iterations bear). Empty where it would not pay.
+std::vector<float> chebyshev_factors(double radius, std::uint32_t iterations);
+
+void prepare_vbd(PlanBuilder& builder);
+void record_vbd_start(PlanBuilder& builder, const Moment& moment);
+void record_vbd_solve(PlanBuilder& builder, const Moment& moment);
+void record_vbd_mark(PlanBuilder& builder, const Moment& moment);
+void record_vbd_share(PlanBuilder& builder, const Moment& moment);
+
+} // namespace taut
