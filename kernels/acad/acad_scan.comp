@@ -1,4 +1,4 @@
-// The second pass of the prefix sum: where the rows, and the vertices of rows, of each group begin. One group.
+// The second pass of the prefix sum: where rows, and vertices of rows, of each group begin. One group.
 // It also sets the group counts of what follows, clears the sums of the solver to which groups without rows
 // add nothing, and fills the last group of rows up with empty ones.
 //

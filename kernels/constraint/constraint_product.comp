@@ -1,4 +1,4 @@
-// The other half of the product A x of implicit constraints, A = J W J^T + compliance: what the moves `spread`
+// The other half of the product A x of implicit constraints, A = J W J^T + compliance: what moves `spread`
 // of both ends (constraint_spread) do to the length of each row.
 //
 // Based on: Hong et al., as constraint_rows.

@@ -20,7 +20,7 @@ LAYOUT_STRUCT(DistanceConstraint)
     real compliance;  // m/N; 0 = rigid
 };
 
-/// A spring with a damper, for methods that work with forces: -(stiffness (|d| - rest_length) + damping v.n) n.
+/// A spring with a damper, for methods of forces: -(stiffness (|d| - rest_length) + damping v.n) n.
 LAYOUT_STRUCT(Spring)
 {
     uint a;

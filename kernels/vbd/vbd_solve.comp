@@ -6,7 +6,7 @@
 //   Chen, Hsieh, et al. Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for Projected Newton.
 //   SIGGRAPH 2024: where a spring is compressed, the curvature across it counts by its size.
 // Departures: that size is at most the stiffness along the spring; hinges by Gauss-Newton (outer product of
-//   the gradient). So every block is positive definite. Leaving the compressed part out (Choi, Ko 2002) lets a
+//   the gradient). So every block is positive definite. Leaving compressed parts out (Choi, Ko 2002) lets a
 //   stiff sheet that is slightly compressed gain energy: steps across are then far too long
 //   (docs/methods/vbd.md). Pivots of the 3 x 3 factorisation are at least the inertia m / h^2, below which no
 //   eigenvalue of the block lies, so rounding cannot turn a step around; dampers act along the spring, on the

@@ -36,7 +36,7 @@ std::string pipeline_cache()
 void add_device_option(CLI::App& command, std::string& selector, const std::string& further)
 {
     command.add_option("--device", selector,
-                       "auto, vulkan, vulkan:1, part of a device's name, opengl, opengl:spirv, cpu, cpu:serial" +
+                       "auto, vulkan, vulkan:1, part of a name, opengl, opengl:spirv, cpu, cpu:serial" +
                            further + " (default: TAUT_DEVICE, else auto)");
 }
 

@@ -58,7 +58,7 @@ protected:
     void check_bytes(std::uint64_t wanted, std::string_view what) const;
 
     /// Throws Error{limit} where a lane of group g, which loops `trips(begin, end)` times for 128 rows
-    /// (units) from `begin` on, would loop more often than kMaxLoopTrips in one dispatch. Native code loops as
+    /// (units) from `begin` on, would loop more often than kMaxLoopTrips in a dispatch. Native code loops as
     /// long as it likes.
     void check_trips(std::uint32_t units,
                      const std::function<std::uint64_t(std::uint32_t begin, std::uint32_t end)>& trips) const;

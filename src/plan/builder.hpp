@@ -127,7 +127,7 @@ public:
     const Method& method;
     PbdBuffers pbd;
     std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
-    std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< of the method; null: nothing is constrained
+    std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< null: nothing is constrained
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp

@@ -30,7 +30,8 @@ public:
     std::uint32_t rows() const override { return rows_.count; }
     Precision precision() const override { return precision_; }
     std::uint64_t bytes() const override { return bytes_; }
-    void record_product(Recorder&, const linear::Gate&, Binding x, Binding y, Binding partials) const override;
+    void record_product(Recorder&, const linear::Gate&, Binding x, Binding y,
+                        Binding partials) const override;
     void record_residual(Recorder&, const linear::Gate&, Binding x, Binding b, Binding r) const override;
 
 private:

@@ -129,7 +129,7 @@ struct Plan
     std::vector<PlanWarning> warnings;
     std::vector<PlanSolver> solvers;
 
-    /// Further buffers that carry something from one step to the next (flags, multipliers, histories): part of
+    /// Further buffers that carry something from one step to the next (flags, histories): part of
     /// a world's state.
     std::vector<std::uint32_t> kept;
 

@@ -39,7 +39,7 @@ public:
     std::uint32_t partials(PlanBuilder& b) const { return b.adopt(effect_, cg_.partials()); }
     std::uint32_t curvatures(PlanBuilder& b) const { return b.adopt(effect_, cg_.curvatures()); }
 
-    /// The whole solve: inverse, begin, room for as many iterations as the limit says (zero groups once it has
+    /// The whole solve: inverse, begin, room for as many iterations as the limit (zero groups once it has
     /// ended; where the residual is formed anew up to seven of them pass unused), end, log.
     void record(PlanBuilder& builder);
 

@@ -23,7 +23,8 @@ TEST_CASE("variants of a scene are compared, and one that is refused is a row wi
     CHECK(json["variants"][1]["difference"].get<double>() > 0);
     CHECK(json["variants"][1]["executor"] == "cpu");
     CHECK(json["variants"][2]["difference"] == 0.0);
-    CHECK(json["variants"][1]["max_stretch"].get<double>() < json["variants"][0]["max_stretch"].get<double>());
+    CHECK(json["variants"][1]["max_stretch"].get<double>() <
+          json["variants"][0]["max_stretch"].get<double>());
     CHECK(program::read(folder / "o/compare.md").find("| coarse | xpbd | cpu:serial |") != std::string::npos);
     CHECK(program::read(folder / "o/compare.csv").rfind("variant,method,executor", 0) == 0);
 }

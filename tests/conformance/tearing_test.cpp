@@ -18,7 +18,8 @@ TEMPLATE_TEST_CASE("springs longer than cloth bears are counted on top of those 
     auto position = random.vec4s<Real>(vertices, 1, 0, 2);
     std::vector<layout::DistanceConstraint<Real>> spring;
     for (std::uint32_t i = 0; i < count + 2; ++i) // two behind the end, which must not be counted
-        spring.push_back({random.below(vertices), random.below(vertices), random.uniform<Real>(0.3, 2), Real(0)});
+        spring.push_back(
+            {random.below(vertices), random.below(vertices), random.uniform<Real>(0.3, 2), Real(0)});
     spring[count].rest_length = spring[count + 1].rest_length = Real(-1);
     if (count > 2)
     {

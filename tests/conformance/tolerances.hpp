@@ -48,7 +48,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"vbd_start", 4, "two products and a difference; a product and a quotient for the inertia"},
     {"vbd_share", 4, "a difference, a dot product, a quotient"},
     {"vbd_mark", 0, "a copy"},
-    {"vbd_progress", 1, "squares of differences, in sums of 16 terms a lane and a tree of 6; scale 8 times that"},
+    {"vbd_progress", 1, "squares of differences, sums of 16 terms a lane, a tree of 6; scale 8 times that"},
     {"vbd_accelerate", 2, "a difference, a product, a sum"},
     {"bending", 8,
      "cross products of cross products: each gradient passes some ten roundings, the angle six"},

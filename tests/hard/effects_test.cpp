@@ -208,7 +208,7 @@ TEST_CASE("E11: cloth on a box's corner and on a spike stays finite and outside 
     });
 }
 
-TEST_CASE("E13: colliders that spin with 50 rad/s give cloth no more than their own speed [hard]", "[effects]")
+TEST_CASE("E13: colliders that spin with 50 rad/s give cloth no more than their speed [hard]", "[effects]")
 {
     on_every_device([](const auto& device) {
         for (const bool round : {true, false})
@@ -262,7 +262,8 @@ TEST_CASE("F13: a corner drawn away ten times the cloth's size in a second, with
                 stretch = std::max(stretch, measure(world).max_stretch);
             }
             check_sound(world);
-            note("F13", *device, iterations == 1 ? "stretch, limit 0.1, 1 iteration" : "the same, 8", stretch);
+            note("F13", *device, iterations == 1 ? "stretch, limit 0.1, 1 iteration" : "the same, 8",
+                 stretch);
             CHECK(stretch < (iterations == 1 ? 0.25 : 0.12));
         }
     });

@@ -26,7 +26,7 @@ Scene base(const std::string& method)
     Scene scene = test::under(test::hanging(6), method);
     scene.method.substeps = 3;
     scene.method.iterations = 2;
-    scene.method.start = "inertial"; // vbd's other start remembers contacts (force_methods_test.cpp counts that)
+    scene.method.start = "inertial"; // the other start remembers contacts (force_methods_test.cpp counts)
     return scene;
 }
 

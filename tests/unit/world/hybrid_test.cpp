@@ -33,8 +33,10 @@ Scene several_cloths()
     Scene scene = parse_scene(R"({"taut": 1, "duration": 1, "method": {"substeps": 4},
         "bodies": [{"grid": {"cells": [6, 6]}, "pins": [{"corners": ["top_left", "top_right"]}]},
                    {"grid": {"cells": [12, 8]}, "transform": {"translate": [3, 0, 0]},
-                    "pins": [{"edge": "top", "motion": [{"time": 0}, {"time": 0.5, "translate": [0, 0.2, 0.1]}]}]},
-                   {"chain": {"links": 9}, "transform": {"translate": [6, 0, 0]}, "pins": [{"corner": "first"}]},
+                    "pins": [{"edge": "top",
+                              "motion": [{"time": 0}, {"time": 0.5, "translate": [0, 0.2, 0.1]}]}]},
+                   {"chain": {"links": 9}, "transform": {"translate": [6, 0, 0]},
+                    "pins": [{"corner": "first"}]},
                    {"grid": {"cells": [3, 3]}, "transform": {"translate": [9, 0, 0]}}],
         "colliders": [{"plane": {"point": [0, -2, 0]}, "friction": 0.2}]})");
     return resolve(scene);
