@@ -1,9 +1,8 @@
-#include "taut/world/world.hpp"
+#include "taut/world/world_impl.hpp"
 
 #include "taut/linear/cg_state.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 #include "taut/world/inputs.hpp"
-#include "taut/world/tearing.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -13,39 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace taut {
-
-struct World::Impl
-{
-    Scene scene;
-    Plan plan;
-    std::shared_ptr<Device> device;
-    std::vector<BufferPtr> buffers;       ///< as plan.buffers
-    std::unique_ptr<Recording> recording; ///< null when nothing is to be done
-    std::uint64_t steps = 0;
-    Clock clock;
-    bool moves = false;
-    PlanOptions options;
-    DeviceTraits traits;
-    std::uint64_t torn = 0;       ///< vertices that came apart
-    std::uint32_t overlong = 0;   ///< what plan.torn counted when it was last looked at
-
-    double time() const { return clock.at(steps); }
-    void restart_clock(const Clock& before);
-    void create_buffers();
-    void record();
-    void write_inputs();
-    void write_all_inputs();
-    void after_step();
-    void replace_scene(const TornScene& next);
-    template <typename Real>
-    std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
-    std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
-    std::vector<std::byte> raw(std::uint32_t buffer) const;
-};
 
 void World::Impl::create_buffers()
 {
@@ -130,67 +99,6 @@ void World::Impl::after_step()
     const TornScene next = tear(scene, vectors(plan.position, plan.low));
     if (next.splits > 0)
         replace_scene(next);
-}
-
-namespace {
-
-/// What a vertex had, for each part of it; `before` and `from` are in the plans' orders.
-std::vector<std::byte> spread(const std::vector<std::byte>& before, const std::vector<std::uint32_t>& from,
-                              std::size_t element)
-{
-    std::vector<std::byte> out(from.size() * element);
-    for (std::size_t v = 0; v < from.size(); ++v)
-        std::memcpy(out.data() + v * element, before.data() + from[v] * element, element);
-    return out;
-}
-
-/// Plan vertex in `before` of each plan vertex in `now`.
-std::vector<std::uint32_t> places(const Plan& before, const Plan& now,
-                                  const std::vector<std::uint32_t>& origin)
-{
-    std::vector<std::uint32_t> place_of(before.vertex_count), out;
-    for (std::uint32_t v = 0; v < before.vertex_count; ++v)
-        place_of[before.original[v]] = v;
-    for (const std::uint32_t v : now.original)
-        out.push_back(place_of[origin[v]]);
-    return out;
-}
-
-} // namespace
-
-/// Plans the scene anew and carries the state over, bit for bit; inverse masses are the new plan's.
-void World::Impl::replace_scene(const TornScene& next)
-{
-    const std::vector<std::byte> position = raw(plan.position), low = raw(plan.low),
-                                 velocity = raw(plan.velocity), delta = raw(plan.delta),
-                                 force = raw(plan.force), events = raw(plan.events);
-    std::vector<std::vector<std::byte>> logs; // of linear solves: they count over the whole run
-    for (const PlanSolver& solver : plan.solvers)
-        logs.push_back(raw(solver.log));
-    const Plan before = std::exchange(plan, make_plan(next.scene, traits, options));
-    scene = next.scene;
-    torn += next.splits;
-    overlong = 0;
-    recording.reset();
-    buffers.clear();
-    create_buffers();
-    record();
-    const std::vector<std::uint32_t> from = places(before, plan, next.origin);
-    const std::size_t element = 4 * real_bytes(plan.precision), mass = 3 * real_bytes(plan.precision);
-    std::vector<std::byte> moved = spread(position, from, element);
-    const std::vector<std::byte>& fresh = plan.buffers[plan.position].initial;
-    for (std::size_t v = 0; v < from.size(); ++v)
-        std::memcpy(moved.data() + v * element + mass, fresh.data() + v * element + mass, element - mass);
-    device->write(buffers[plan.position], 0, moved);
-    device->write(buffers[plan.low], 0, spread(low, from, element));
-    device->write(buffers[plan.velocity], 0, spread(velocity, from, element));
-    device->write(buffers[plan.delta], 0, spread(delta, from, element));
-    device->write(buffers[plan.events], 0, events);
-    for (std::size_t k = 0; k < std::min(logs.size(), plan.solvers.size()); ++k)
-        device->write(buffers[plan.solvers[k].log], 0, logs[k]);
-    if (plan.force != kNoBuffer)
-        device->write(buffers[plan.force], 0, spread(force, from, element));
-    write_all_inputs();
 }
 
 namespace {
@@ -338,82 +246,6 @@ void World::record_into(VkCommandBuffer_T* commands)
     if (impl_->recording)
         record_into_vulkan(*impl_->recording, commands);
     ++impl_->steps;
-}
-
-WorldState World::state() const
-{
-    const Plan& plan = impl_->plan;
-    WorldState out{
-        impl_->steps,           impl_->raw(plan.position), impl_->raw(plan.low), impl_->raw(plan.velocity),
-        impl_->raw(plan.delta), impl_->raw(plan.force),    impl_->clock};
-    for (const std::uint32_t buffer : plan.kept)
-        out.kept.push_back(impl_->raw(buffer));
-    return out;
-}
-
-namespace {
-
-template <typename Real>
-bool all_finite(std::span<const std::byte> bytes)
-{
-    for (std::size_t i = 0; i + sizeof(Real) <= bytes.size(); i += sizeof(Real))
-    {
-        Real value;
-        std::memcpy(&value, bytes.data() + i, sizeof(Real));
-        if (!std::isfinite(value))
-            return false;
-    }
-    return true;
-}
-
-} // namespace
-
-void World::restore(const WorldState& state)
-{
-    const Plan& plan = impl_->plan;
-    const std::pair<std::uint32_t, const std::vector<std::byte>*> parts[] = {
-        {plan.position, &state.position}, {plan.low, &state.low},     {plan.velocity, &state.velocity},
-        {plan.delta, &state.delta},       {plan.force, &state.force},
-    };
-    const char* names[] = {"position", "low", "velocity", "delta", "force"};
-    for (std::size_t i = 0; i < std::size(parts); ++i)
-    {
-        const std::uint64_t expected = parts[i].first == kNoBuffer ? 0 : plan.buffers[parts[i].first].bytes;
-        if (parts[i].second->size() != expected)
-            throw Error(ErrorCode::bad_input, std::string("restore: ") + names[i] + " holds " +
-                                                  std::to_string(parts[i].second->size()) +
-                                                  " bytes, this plan needs " + std::to_string(expected) +
-                                                  ": the state is of another scene or precision");
-        const bool finite = plan.precision == Precision::float64 ? all_finite<double>(*parts[i].second)
-                                                                 : all_finite<float>(*parts[i].second);
-        if (!finite)
-            throw Error(ErrorCode::bad_input,
-                        std::string("restore: ") + names[i] + " holds a value that is not finite");
-    }
-    bool same = state.kept.size() == plan.kept.size();
-    for (std::size_t i = 0; same && i < plan.kept.size(); ++i)
-        same = state.kept[i].size() == plan.buffers[plan.kept[i]].bytes;
-    if (!same)
-        throw Error(ErrorCode::bad_input, "restore: what method \"" + impl_->scene.method.type +
-                                              "\" keeps from step to step is missing or of another size: the "
-                                              "state is of another scene or method");
-    const Clock& clock = state.clock;
-    const double sum = clock.time + clock.timestep + glm::length(clock.gravity) + glm::length(clock.fall);
-    if (!std::isfinite(sum) || clock.timestep < 0 || clock.step > state.step)
-        throw Error(ErrorCode::bad_input, "restore: the clock is not that of step " +
-                                              std::to_string(state.step) +
-                                              ": it must be finite and begin at that step or before");
-    for (const auto& [buffer, bytes] : parts)
-        if (buffer != kNoBuffer)
-            impl_->device->write(impl_->buffers[buffer], 0, *bytes);
-    for (std::size_t i = 0; i < plan.kept.size(); ++i)
-        impl_->device->write(impl_->buffers[plan.kept[i]], 0, state.kept[i]);
-    impl_->steps = state.step;
-    const bool clocked = state.clock.timestep > 0;
-    impl_->clock = clocked ? state.clock : Clock{0, 0, impl_->scene.timestep, impl_->scene.gravity};
-    if (impl_->clock.timestep != impl_->scene.timestep || impl_->clock.gravity != impl_->scene.gravity)
-        impl_->restart_clock(impl_->clock);
-    impl_->write_all_inputs();
 }
 
 void World::set_timestep(double seconds)

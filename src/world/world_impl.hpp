@@ -1,0 +1,41 @@
+#pragma once
+// Internal to src/world: what a World owns. Shared by world.cpp and world_state.cpp.
+
+#include "taut/world/tearing.hpp"
+#include "taut/world/world.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace taut {
+
+struct World::Impl
+{
+    Scene scene;
+    Plan plan;
+    std::shared_ptr<Device> device;
+    std::vector<BufferPtr> buffers;       ///< as plan.buffers
+    std::unique_ptr<Recording> recording; ///< null when nothing is to be done
+    std::uint64_t steps = 0;
+    Clock clock;
+    bool moves = false;
+    PlanOptions options;
+    DeviceTraits traits;
+    std::uint64_t torn = 0;     ///< vertices that came apart
+    std::uint32_t overlong = 0; ///< what plan.torn counted when it was last looked at
+
+    double time() const { return clock.at(steps); }
+    void restart_clock(const Clock& before);
+    void create_buffers();
+    void record();
+    void write_inputs();
+    void write_all_inputs();
+    void after_step();
+    void replace_scene(const TornScene& next);
+    template <typename Real>
+    std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
+    std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
+    std::vector<std::byte> raw(std::uint32_t buffer) const;
+};
+
+} // namespace taut
