@@ -91,6 +91,26 @@ TEST_CASE("run writes meshes and a report, and prints the same report as one JSO
     CHECK(folder.list("o") == files);
 }
 
+TEST_CASE("meshes after a tear have its new vertices and all of their triangles")
+{
+    const Folder folder;
+    const std::string scene = folder.file("tear.json", scenes::tearing_cloth());
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "40", "--every",
+                                       "40", "--out", folder / "o", "--json", "--no-picture"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    const auto report = program::parse(result.out);
+    const auto torn = report["torn"].get<std::size_t>();
+    CHECK(torn > 3);
+    CHECK(report["vertices"] == 25 + torn);
+    const std::string first = program::read(folder / "o/mesh_00000.obj"),
+                      last = program::read(folder / "o/mesh_00001.obj");
+    CHECK(count_lines(first, "v ") == 25);
+    CHECK(count_lines(last, "v ") == 25 + torn);
+    CHECK(count_lines(first, "f ") == 32);
+    CHECK(count_lines(last, "f ") == 32);
+}
+
 TEST_CASE("passes are named by effect, with their dispatches")
 {
     const Folder folder;

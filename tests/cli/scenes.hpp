@@ -21,6 +21,16 @@ inline std::string two_bodies()
         {"chain": {"links": 3, "length": 1}, "transform": {"translate": [0, 2, 0]}}]})";
 }
 
+/// 25 vertices, drawn apart by 2 m/s until they tear.
+inline std::string tearing_cloth()
+{
+    return R"({"taut": 1, "gravity": [0, 0, 0],
+        "bodies": [{"grid": {"cells": [4, 4], "size": [1, 1]},
+                    "material": {"stretch_stiffness": 200, "tear_strain": 0.2},
+                    "pins": [{"edges": ["left"]},
+                             {"edges": ["right"], "motion": [{"time": 0}, {"time": 1, "translate": [2, 0, 0]}]}]}]})";
+}
+
 /// So far away that it counts as diverged, while every number stays finite.
 inline std::string lost_cloth()
 {

@@ -4,6 +4,7 @@
 #include "support/methods.hpp"
 
 #include "taut/plan/material.hpp"
+#include "taut/world/hybrid.hpp"
 #include "taut/world/tearing.hpp"
 
 #include <map>
@@ -217,9 +218,12 @@ TEST_CASE("one overlong spring in the middle opens a slit; held vertices stay wh
     CHECK(edge.scene.bodies[0].pins[0].vertices.size() >= 9);
 }
 
-TEST_CASE("tearing is refused in words where springs are not the edges of cloth", "[tearing]")
+TEST_CASE("tearing is refused in words where springs are not the edges of cloth, and on two devices",
+          "[tearing]")
 {
     Scene scene = pulled(1, 0.3);
+    const auto device = test_device("cpu:serial");
+    CHECK(refusal_of([&] { HybridWorld(scene, device, device); }) == "unsupported");
     scene.bodies[0].springs.push_back({0, 5, 0.1, 1e-3});
     std::string text;
     CHECK(refusal_of([&] { World(scene, test_device("cpu:serial")); }, &text) == "bad_input");

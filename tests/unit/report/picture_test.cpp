@@ -255,6 +255,40 @@ TEST_CASE("one state gives the same picture from every executor, bit for bit")
     CHECK_NOTHING_SAID(device);
 }
 
+TEST_CASE("capsules and boxes are drawn where they lie, turned as they are")
+{
+    TAUT_DRAWING(device);
+    Scene scene = test::hanging(2);
+    const Moment moment = {0, scene.bodies[0].mesh.positions};
+    const Shot shot = frame_shot(scene, std::span(&moment, 1), 320, 240);
+    const auto draw = [&](const Collider& collider) {
+        scene.colliders = {collider};
+        return Pictures(scene, device).draw(moment, shot);
+    };
+    Collider ball, capsule, box;
+    ball.radius = 0.3;
+    ball.point = {0, 0, 0.5};
+    const Image round = draw(ball);
+    capsule = ball;
+    capsule.kind = ColliderKind::capsule;
+    capsule.end = capsule.point; // without length it is a ball
+    CHECK(differing(draw(capsule), round) == 0);
+    capsule.end.y += 0.3;
+    CHECK(differing(draw(capsule), round) > 500);
+    box = ball;
+    box.kind = ColliderKind::cuboid;
+    box.half_size = {0.3, 0.2, 0.1};
+    const Image square = draw(box);
+    CHECK(differing(square, round) > 500);
+    box.rotate_degrees = 90;
+    const Image turned = draw(box);
+    CHECK(differing(turned, square) > 500);
+    box.rotate_degrees = 0;
+    box.motion = {{0, {0, 0, 0}, {0, 1, 0}, 90, box.point}};
+    CHECK(differing(draw(box), turned) < 100); // but for rounding at its edges
+    CHECK_NOTHING_SAID(device);
+}
+
 TEST_CASE("worlds in double precision and chains are drawn")
 {
     TAUT_DRAWING(device);
