@@ -61,6 +61,7 @@ struct ForceBuffers;
 struct BlockBuffers;
 
 struct ImplicitConstraints;
+struct ImplicitEuler; // implicit_euler.cpp
 
 class PlanBuilder
 {
@@ -128,6 +129,7 @@ public:
     PbdBuffers pbd;
     std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
     std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< null: nothing is constrained
+    std::shared_ptr<ImplicitEuler> implicit_euler; ///< under that method
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp

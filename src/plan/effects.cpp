@@ -3,6 +3,7 @@
 #include "taut/plan/builder.hpp"
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/implicit_constraints.hpp"
+#include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/limits.hpp"
 #include "taut/plan/pbd.hpp"
 #include "taut/plan/wind.hpp"
@@ -334,6 +335,10 @@ constexpr Effect kEffects[] = {
      prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
     {"implicit_constraints", Stage::solve, any_stretch, prepare_implicit_constraints,
      record_implicit_constraints, only(MethodKind::implicit_constraints)},
+    {"implicit_euler", Stage::start, any_elements, prepare_implicit_euler, record_implicit_start,
+     only(MethodKind::implicit_euler)},
+    {"implicit_euler", Stage::solve, any_elements, nullptr, record_implicit_step,
+     only(MethodKind::implicit_euler)},
     {"strain_limit", Stage::contact, any_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, any_attachment, prepare_attachment, record_attachment},
     {"vbd_start", Stage::contact, any_elements, nullptr, record_vbd_mark, kVbd},

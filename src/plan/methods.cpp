@@ -1,6 +1,7 @@
 #include "taut/plan/methods.hpp"
 
 #include "taut/plan/implicit_constraints.hpp"
+#include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/mass_spring.hpp"
 #include "taut/plan/pbd.hpp"
 #include "taut/plan/stability.hpp"
@@ -18,6 +19,7 @@ constexpr Method kMethods[] = {
     //                                 contacts each  keeps
     // kind                            iteration      guess   check                       substeps
     {MethodKind::mass_spring,          false,         false,  check_mass_spring,          stable_substeps},
+    {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       nullptr},
     {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, nullptr},
     {MethodKind::pbd,                  true,          false,  check_pbd,                  nullptr},
     {MethodKind::xpbd,                 true,          false,  nullptr,                    nullptr},

@@ -258,6 +258,30 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
     return worst;
 }
 
+/// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2): what its Newton steps left. -1 with
+/// dampers, whose force depends on the way, not on the place.
+double implicit_residual(const View& view)
+{
+    const bool damped = std::any_of(view.model.springs.begin(), view.model.springs.end(),
+                                    [](const StretchElement& e) { return e.damping > 0; });
+    if (view.plan.predicted == kNoBuffer || view.world.steps() == 0 || damped)
+        return -1;
+    const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
+    const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
+    std::vector<glm::dvec3> force(view.x.size(), glm::dvec3(0));
+    add_forces(view.model, view.x, force);
+    double worst = 0;
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        if (view.model.pinned[i] || touches(view, i))
+            continue;
+        const glm::dvec3 elastic = force[i] / view.model.mass[i] - view.model.gravity;
+        const glm::dvec3 left = (moved[i] - guess[i]) / (h * h) - elastic;
+        worst = std::max(worst, glm::length(left) / (gravity > 0 ? gravity : 1.0));
+    }
+    return worst;
+}
+
 void measure_residuals(const View& view, StepReport& out)
 {
     out.primal_residual = out.dual_residual = -1;
@@ -265,9 +289,10 @@ void measure_residuals(const View& view, StepReport& out)
     const bool kept = std::all_of(sets.begin(), sets.end(),
                                   [](const ConstraintSet& s) { return s.multipliers != kNoBuffer; });
     const bool limited = // by forces that are on no record
-        std::any_of(view.plan.effects.begin(), view.plan.effects.end(), [](const EffectCost& e) {
-            return e.name == "strain_limit" || e.name == "attachment";
-        });
+        std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
+                    [](const EffectCost& e) { return e.name == "strain_limit" || e.name == "attachment"; });
+    if (method_of(view.world.scene()) == MethodKind::implicit_euler && !limited)
+        out.primal_residual = implicit_residual(view);
     const bool by_multipliers = method_of(view.world.scene()) == MethodKind::xpbd && kept;
     if (!by_multipliers || limited || view.plan.predicted == kNoBuffer || view.world.steps() == 0)
         return;

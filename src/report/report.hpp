@@ -29,7 +29,8 @@ struct StepReport
     double potential_energy = 0; ///< gravity + elastic, zero of gravity at the origin
     double momentum_error =
         0; ///< |P - P0 - impulse| / (M v_ref); NaN is never used: -1 when pins or contacts make it undefined
-    double primal_residual = 0;  ///< methods: ||M(x - x~) - J^T lambda|| / (m g h^2); -1 without multipliers
+    /// methods: ||M(x - x~) - J^T lambda|| / (m g h^2), -1 without multipliers; implicit_euler: r_acc
+    double primal_residual = 0;
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
     double max_speed = 0;        ///< m/s
     SolverReport solver;         ///< of the run so far

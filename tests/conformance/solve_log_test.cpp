@@ -36,8 +36,8 @@ Counts counted(Counts c, std::uint32_t status, std::uint32_t iterations)
 TEMPLATE_TEST_CASE("solve_log counts every way in which a solve can end", "", float, double)
 {
     using Real = TestType;
-    const auto status = GENERATE(range(std::uint32_t{TAUT_CG_RUNNING},
-                                       std::uint32_t{TAUT_CG_ZERO_RIGHT_HAND_SIDE} + 1));
+    const auto status =
+        GENERATE(range(std::uint32_t{TAUT_CG_RUNNING}, std::uint32_t{TAUT_CG_ZERO_RIGHT_HAND_SIDE} + 1));
     const std::uint32_t count = GENERATE(0u, 1u);
     CAPTURE(status, count);
     const Counts before{7, 90, 30, 2, 1, TAUT_CG_CONVERGED};
@@ -50,9 +50,8 @@ TEMPLATE_TEST_CASE("solve_log counts every way in which a solve can end", "", fl
     c.launches = {
         make_launch(kernels::solve_log::info("", c.precision), kernels::solve_log::Params{count}, 1)};
     const Counts want = count == 0 ? before : counted(before, status, state.iteration);
-    look_on_every_device(c, [&](const Buffers& out) {
-        CHECK((values_of<Counts>(out.at("run_log")).front() == want));
-    });
+    look_on_every_device(
+        c, [&](const Buffers& out) { CHECK((values_of<Counts>(out.at("run_log")).front() == want)); });
 }
 
 TEST_CASE("solve_log adds up over many solves")

@@ -1,0 +1,121 @@
+// By how much a Newton step, whole and halved again and again, would raise the incremental potential
+// 1/2 |displacement - guess|_M^2 + h^2 (energy of springs and hinges): partial sums for every trial, of
+// vertices (no variant), springs or hinges. Differences are formed element by element, so that they are not
+// lost in the potential itself.
+//
+// Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2.
+// Departures: a damper counts with the direction that its spring has before the step.
+// Bytes per vertex 60, per spring end 60 and a spring 24, per hinge corner 44 and a hinge 24 (float).
+//! variant springs SPRINGS=1
+//! variant hinges HINGES=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/reduce.glsl"
+#if HINGES
+#include "shared/hinge.glsl"
+#endif
+
+PARAMS
+{
+    uint count; // vertices, springs or hinges
+    uint chunk; // of them a group
+    uint groups;
+    uint trials; // 1 and the number of halvings
+    uint part;   // of all parts: which sums to write
+    uint parts;
+    float scale; // as in implicit_force
+    float lift;
+};
+
+READ(0, rvec4, position); // m, w = inverse mass 1/kg
+READ(1, rvec4, delta);    // m
+READ(2, real, x);         // the step, lifted
+WRITE(3, real, partials); // trials * parts * groups
+#if SPRINGS
+READ(4, Spring, spring);
+READ_ONE(5, StepValues, step_values);
+READ(6, rvec4, low); // m
+#elif HINGES
+READ(4, BendingConstraint, hinge);
+READ_ONE(5, StepValues, step_values);
+#else
+READ(4, rvec4, predicted); // m
+#endif
+
+SHARED(real, sum, TAUT_LINEAR_GROUP);
+
+/// Of the whole step, lifted.
+rvec3 step_of(uint i) { return rvec3(x[3u * i], x[3u * i + 1u], x[3u * i + 2u]); }
+
+#if SPRINGS
+real rise_of(uint k, real share)
+{
+    Spring s = spring[k];
+    real h = step_values[0].substep;
+    rvec3 d = rvec3(position[s.a] - position[s.b]) + rvec3(delta[s.a] - delta[s.b]);
+    rvec3 w = (step_of(s.a) - step_of(s.b)) * share;
+    rvec3 before = rvec3(delta[s.a] - delta[s.b]) - rvec3(low[s.a] - low[s.b]);
+    real len = length(d);
+    real after = length(d + w / real(lift));
+    real both = len + after;
+    // (after^2 - len^2) / (after + len), lifted.
+    real longer = both > real(0) ? (real(2) * dot(d, w) + dot(w, w) / real(lift)) / both : real(0);
+    real stretch = ((both - s.rest_length) - s.rest_length) * real(lift);
+    real elastic = real(0.5) * ((h * s.stiffness) * h) * (longer * stretch);
+    real along = len > real(0) ? dot(d, w) / len : real(0);
+    real gone = len > real(0) ? dot(d, before) / len * real(lift) : real(0);
+    return elastic + (h * s.damping) * (along * (gone + real(0.5) * along));
+}
+#elif HINGES
+rvec3 between(uint from, uint to, real share)
+{
+    rvec3 way = rvec3(position[to] - position[from]) + rvec3(delta[to] - delta[from]);
+    return way + (step_of(to) - step_of(from)) * (share / real(lift));
+}
+
+HingeShape shape_of(BendingConstraint c, real share)
+{
+    return hinge_shape(between(c.edge0, c.edge1, share), between(c.edge0, c.wing0, share),
+                       between(c.edge0, c.wing1, share));
+}
+
+real rise_of(uint k, real share)
+{
+    BendingConstraint c = hinge[k];
+    real h = step_values[0].substep;
+    HingeShape now = shape_of(c, real(0));
+    HingeShape then = shape_of(c, share);
+    real turn = angle_difference(then.angle, now.angle);
+    real both = real(2) * angle_difference(now.angle, c.rest_angle) + turn;
+    real rise = real(0.5) * ((h / c.compliance) * h) * ((turn * real(lift)) * (both * real(lift)));
+    return now.shaped && then.shaped ? rise : real(0);
+}
+#else
+real rise_of(uint i, real share)
+{
+    real weight = position[i].w;
+    rvec3 s = step_of(i) * share;
+    rvec3 lag = rvec3(delta[i] - predicted[i]) * real(lift);
+    return weight > real(0) ? (dot(lag, s) + real(0.5) * dot(s, s)) / weight : real(0);
+}
+#endif
+
+GROUP_KERNEL(TAUT_LINEAR_GROUP)
+{
+    uint begin = min(group * chunk, count);
+    uint end = min(begin + chunk, count);
+    real share = real(1);
+    for (uint trial = 0u; trial < trials; ++trial)
+    {
+        CLEAR_LANES(sum)
+        EACH_BEGIN(begin, end)
+        sum[lane] += rise_of(uint(i), share) * real(scale);
+        EACH_END
+        SUM_LANES(sum)
+        LANES_BEGIN(1)
+        if (group < groups)
+            partials[(trial * parts + part) * groups + group] = sum[0];
+        LANES_END
+        share *= real(0.5);
+    }
+}

@@ -1,0 +1,66 @@
+// Takes a Newton step: displacement += step, and clears the solver's vector for the next. With SEARCH the
+// step is the first of the trials that does not raise the incremental potential, or where all do the one
+// that raises it least. One group per chunk of vertices; every group decides alike.
+//
+// Based on: Nocedal, Wright. Numerical Optimization, 2nd ed. 2006, 3.1 (backtracking).
+// Departures: all trials are evaluated at once, so that nothing waits for a decision of the host, and any
+//   decrease will do.
+// Bytes per vertex: 28 read, 28 written (float).
+//! variant search SEARCH=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/reduce.glsl"
+#include "shared/cg_state.glsl"
+
+PARAMS
+{
+    uint count; // vertices
+    uint chunk; // of them a group
+    uint groups;
+    uint trials; // with SEARCH, at most 17
+    uint parts;
+    float lift; // as in implicit_force
+};
+
+UPDATE(0, rvec4, delta); // m
+UPDATE(1, real, x);      // the step, lifted
+#if SEARCH
+READ(2, real, partials); // of implicit_trial
+SHARED(real, sum, TAUT_LINEAR_GROUP);
+SHARED(real, rise, 17);
+#endif
+
+GROUP_KERNEL(TAUT_LINEAR_GROUP)
+{
+    real share = real(1);
+#if SEARCH
+    for (uint trial = 0u; trial < trials; ++trial)
+    {
+        SUM_PARTIALS(sum, partials, trial * parts * groups, parts * groups)
+        LANES_BEGIN(1)
+        rise[trial] = sum[0];
+        LANES_END
+    }
+    real least = rise[0];
+    real tried = real(1);
+    for (uint trial = 1u; trial < trials; ++trial)
+    {
+        tried *= real(0.5);
+        if (!(least <= real(0)) && (rise[trial] < least || !taut_is_finite(least)))
+        {
+            least = rise[trial];
+            share = tried;
+        }
+    }
+#endif
+    uint begin = min(group * chunk, count);
+    uint end = min(begin + chunk, count);
+    EACH_BEGIN(begin, end)
+    uint v = uint(i);
+    rvec3 s = rvec3(x[3u * v], x[3u * v + 1u], x[3u * v + 2u]);
+    delta[v] = delta[v] + rvec4(s * (share / real(lift)), real(0));
+    x[3u * v] = real(0);
+    x[3u * v + 1u] = real(0);
+    x[3u * v + 2u] = real(0);
+    EACH_END
+}

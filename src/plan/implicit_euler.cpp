@@ -1,0 +1,364 @@
+// Implicit Euler: each substep minimises 1/2 |delta - guess|_M^2 + h^2 (energy + damping), by Newton steps of
+// which the first is the linearly implicit Euler of the textbook.
+//
+// Based on:
+//   Baraff, Witkin. Large Steps in Cloth Simulation. SIGGRAPH 1998.
+//   Choi, Ko. Stable but Responsive Cloth. SIGGRAPH 2002.
+//   Martin, Thomaszewski, Grinspun, Gross. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2.
+// Departures: unknowns are displacements; the solver starts at the best share of the inertial guess, so that
+//   free fall is exact with any number of iterations; what nothing holds keeps its momentum; vertices without
+//   elements are left out of the system;
+//   matrix and right-hand side are scaled by powers of two, against underflow in float.
+
+#include "taut/plan/implicit_euler.hpp"
+
+#include "taut/plan/implicit_product.hpp"
+#include "taut/plan/implicit_table.hpp"
+#include "taut/plan/solve.hpp"
+#include "taut/plan/springs.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include "taut/kernels/dot.hpp"
+#include "taut/kernels/implicit_force.hpp"
+#include "taut/kernels/implicit_guess.hpp"
+#include "taut/kernels/implicit_hinges.hpp"
+#include "taut/kernels/implicit_matrix.hpp"
+#include "taut/kernels/implicit_momentum.hpp"
+#include "taut/kernels/implicit_start.hpp"
+#include "taut/kernels/implicit_trial.hpp"
+#include "taut/kernels/implicit_update.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+
+constexpr std::string_view kName = "implicit_euler";
+
+/// Everything that the passes of a Newton step bind. Kept by the builder until the plan is made.
+struct ImplicitEuler
+{
+    std::uint32_t springs = kNoBuffer, spring_table = kNoBuffer, spring_count = 0;
+    std::uint32_t hinges = kNoBuffer, hinge_table = kNoBuffer, hinge_count = 0;
+    std::uint32_t held = kNoBuffer, values = kNoBuffer;
+    std::uint32_t part_start = kNoBuffer, part_members = kNoBuffer, part_count = 0;
+    bool damped = false;
+    float scale = 1; ///< of mass: power of two
+    float lift = 1;  ///< of displacements: power of two
+    std::optional<PlanSolve> solve;
+    BufferPtr product, products, curvatures; ///< of the inertial guess
+    BufferPtr trials;                        ///< partial sums of the line search
+    std::uint32_t parts() const { return 1u + (spring_count > 0 ? 1u : 0u) + (hinge_count > 0 ? 1u : 0u); }
+};
+
+namespace {
+
+struct Elements
+{
+    std::vector<StretchElement> springs;
+    std::vector<BendElement> hinges;
+    Corners spring_ends{2, {}}, hinge_corners{4, {}};
+};
+
+Elements acting_elements(PlanBuilder& b)
+{
+    Elements out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        for (const StretchElement& e : acting_springs(b, body))
+        {
+            out.springs.push_back(e);
+            out.spring_ends.vertices.insert(out.spring_ends.vertices.end(), {e.a, e.b});
+        }
+        for (const BendElement& e : acting_hinges(b, body))
+        {
+            out.hinges.push_back(e);
+            out.hinge_corners.vertices.insert(out.hinge_corners.vertices.end(),
+                                              {e.edge0, e.edge1, e.wing0, e.wing1});
+        }
+    }
+    return out;
+}
+
+/// 2^-k with k the exponent of a positive finite value, within what a float parameter may carry twice.
+float power_below(double value)
+{
+    return static_cast<float>(std::ldexp(1.0, std::clamp(-std::ilogb(value), -60, 60)));
+}
+
+template <typename Real>
+void add_records(PlanBuilder& b, ImplicitEuler& m, const Elements& elements)
+{
+    std::vector<layout::Spring<Real>> springs;
+    for (const StretchElement& e : elements.springs)
+        springs.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(1 / e.compliance),
+                           static_cast<Real>(e.damping), static_cast<std::uint32_t>(e.kind)});
+    if (springs.empty())
+        springs.push_back({}); // a binding has bytes; no entry of the table leads here
+    m.springs = b.add_buffer<layout::Spring<Real>>(kName, "springs", springs);
+    if (elements.hinges.empty())
+        return;
+    std::vector<layout::BendingConstraint<Real>> hinges;
+    for (const BendElement& e : elements.hinges)
+        hinges.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
+                          static_cast<Real>(e.compliance)});
+    m.hinges = b.add_buffer<layout::BendingConstraint<Real>>(kName, "hinges", hinges);
+}
+
+void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std::uint32_t arity,
+                 std::string_view what)
+{
+    if (b.traits.executor.starts_with("cpu"))
+        return;
+    const std::uint32_t n = b.plan.vertex_count;
+    const std::uint32_t groups = linear::group_count_for(3 * n, b.paper()->info());
+    const std::uint64_t trips = implicit_trips(table, n, arity, linear::make_grid(n, groups).chunk);
+    if (trips > kMaxLoopTrips)
+        throw Error(ErrorCode::limit, "method implicit_euler: the " + std::string(what) +
+                                          " at one vertex and those that share its lane make " +
+                                          std::to_string(trips) + " loop trips, and " +
+                                          std::to_string(kMaxLoopTrips) +
+                                          " are safe on this device; use the device cpu");
+}
+
+/// Matrix (stored, or of its diagonal blocks alone), tables, preconditioner, solver.
+void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, const std::vector<bool>& solved)
+{
+    const bool assembled = b.scene.method.linear_operator == "assembled";
+    const linear::SparseMatrix pattern =
+        implicit_pattern(solved, elements.spring_ends, elements.hinge_corners, assembled);
+    const linear::UploadOptions options{linear::Format::bcsr3, b.plan.precision, false, 0, false, true};
+    const auto matrix = linear::DeviceMatrix::upload(b.paper(), pattern, options);
+    const std::vector<std::uint32_t> slots = matrix->slots(pattern);
+    const ImplicitTables tables =
+        implicit_tables(solved, elements.spring_ends, elements.hinge_corners, pattern, slots);
+    check_trips(b, tables.springs, 2, "springs");
+    m.values = b.adopt(kName, matrix->values());
+    m.spring_table = b.add_buffer<std::uint32_t>(kName, "springs at a vertex", tables.springs);
+    if (m.hinge_count > 0)
+    {
+        check_trips(b, tables.hinges, 4, "hinges");
+        m.hinge_table = b.add_buffer<std::uint32_t>(kName, "hinges at a vertex", tables.hinges);
+    }
+    std::vector<std::uint32_t> marks;
+    for (const bool moves : solved)
+        marks.insert(marks.end(), 3, moves ? 0u : 1u);
+    m.held = b.add_buffer<std::uint32_t>(kName, "not solved for", marks);
+    const auto kind = linear::Preconditioner::block_jacobi;
+    const auto inverse =
+        std::make_shared<linear::DeviceInverse>(b.paper(), matrix, pattern, kind, b.on_paper(m.held));
+    std::shared_ptr<const linear::Operator> system = matrix;
+    if (!assembled)
+    {
+        ImplicitBuffers at{b.plan.vertex_count,
+                           b.plan.precision,
+                           m.scale,
+                           b.on_paper(b.plan.position),
+                           b.on_paper(b.plan.delta),
+                           b.on_paper(b.plan.step_values),
+                           b.on_paper(m.springs),
+                           b.on_paper(m.spring_table),
+                           nullptr,
+                           nullptr};
+        if (m.hinge_count > 0)
+        {
+            at.hinges = b.on_paper(m.hinges);
+            at.hinge_table = b.on_paper(m.hinge_table);
+        }
+        system = std::make_shared<ImplicitProduct>(std::move(at));
+    }
+    m.solve.emplace(b, kName, system, linear::Preconditioning{kind, inverse->inverse(), nullptr}, inverse);
+}
+
+void add_vectors(PlanBuilder& b, ImplicitEuler& m)
+{
+    const std::uint64_t real = b.real_size(), groups = m.solve->groups();
+    const auto make = [&](std::string_view name, std::uint64_t reals) {
+        const std::uint32_t id = b.add_buffer(kName, name, reals * real);
+        return b.on_paper(id);
+    };
+    m.product = make("product of the guess", 3ull * b.plan.vertex_count);
+    m.products = make("partials of the guess", groups);
+    m.curvatures = make("curvatures of the guess", groups);
+    if (b.scene.method.line_search > 0)
+        m.trials = make("trials", (b.scene.method.line_search + 1ull) * m.parts() * groups);
+}
+
+void record_force(PlanBuilder& b, const ImplicitEuler& m)
+{
+    const std::uint32_t n = b.plan.vertex_count;
+    std::vector<Use> uses = {{b.plan.position},   {b.plan.delta},          {b.plan.predicted}, {m.springs},
+                             {m.spring_table, 2}, {b.plan.step_values, 0}, {m.solve->b(), 3}};
+    if (m.damped)
+        uses.push_back({b.plan.low});
+    b.dispatch(kName, "implicit_force", m.damped ? "damped" : "", uses,
+               kernels::implicit_force::Params{n, m.scale, m.lift}, n);
+}
+
+void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
+{
+    const std::uint32_t n = b.plan.vertex_count;
+    const std::uint32_t report = moment.last ? 1 : 0;
+    const Use springs[] = {{b.plan.position},       {b.plan.delta}, {m.springs},       {m.spring_table, 2},
+                           {b.plan.step_values, 0}, {m.values, 9},  {b.plan.events, 0}};
+    b.dispatch(kName, "implicit_matrix", "", springs, kernels::implicit_matrix::Params{n, report, m.scale},
+               n);
+    if (m.hinge_count == 0)
+        return;
+    const Use hinges[] = {{b.plan.position},       {b.plan.delta},    {m.hinges},    {m.hinge_table, 2},
+                          {b.plan.step_values, 0}, {m.solve->b(), 3}, {m.values, 9}, {b.plan.events, 0}};
+    b.dispatch(kName, "implicit_hinges", "", hinges,
+               kernels::implicit_hinges::Params{n, report, m.scale, m.lift}, n);
+}
+
+/// The solver's start: the inertial guess, as far as it helps.
+void record_guess(PlanBuilder& b, const ImplicitEuler& m)
+{
+    b.record(kName, [&](Recorder& recorder) {
+        const linear::Gate always{m.solve->groups(), nullptr, 0};
+        const linear::Grid rows = linear::make_grid(3 * b.plan.vertex_count, always.groups);
+        const BufferPtr x = b.on_paper(m.solve->x());
+        m.solve->system().record_product(recorder, always, x, m.product, m.curvatures);
+        linear::launch(recorder, always, kernels::dot::info("", b.plan.precision),
+                       {x, b.on_paper(m.solve->b()), m.products},
+                       kernels::dot::Params{rows.count, rows.chunk, always.groups}, kName);
+        linear::launch(recorder, always, kernels::implicit_guess::info("", b.plan.precision),
+                       {m.products, m.curvatures, x},
+                       kernels::implicit_guess::Params{rows.count, rows.chunk, always.groups}, kName);
+    });
+}
+
+/// What nothing holds gets the momentum that it must have.
+void record_momentum(PlanBuilder& b, const ImplicitEuler& m)
+{
+    if (m.part_count == 0)
+        return;
+    const Use uses[] = {{m.part_start}, {m.part_members},   {b.plan.position},
+                        {b.plan.delta}, {b.plan.predicted}, {m.solve->x(), 3}};
+    b.dispatch(kName, "implicit_momentum", "", uses, kernels::implicit_momentum::Params{m.part_count, m.lift},
+               m.part_count, b.plan.vertex_count);
+}
+
+void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
+{
+    const linear::Gate always{m.solve->groups(), nullptr, 0};
+    const std::uint32_t trials = b.scene.method.line_search + 1;
+    std::uint32_t part = 0;
+    const auto add = [&](std::string_view variant, std::uint32_t count, std::vector<Recorder::Binding> more) {
+        const linear::Grid grid = linear::make_grid(count, always.groups);
+        std::vector<Recorder::Binding> bindings = {b.on_paper(b.plan.position), b.on_paper(b.plan.delta),
+                                                   b.on_paper(m.solve->x()), m.trials};
+        bindings.insert(bindings.end(), more.begin(), more.end());
+        linear::launch(recorder, always, kernels::implicit_trial::info(variant, b.plan.precision),
+                       std::move(bindings),
+                       kernels::implicit_trial::Params{grid.count, grid.chunk, always.groups, trials, part++,
+                                                       m.parts(), m.scale, m.lift},
+                       kName);
+    };
+    const BufferPtr step_values = b.on_paper(b.plan.step_values);
+    add("", b.plan.vertex_count, {b.on_paper(b.plan.predicted)});
+    if (m.spring_count > 0)
+        add("springs", m.spring_count, {b.on_paper(m.springs), step_values, b.on_paper(b.plan.low)});
+    if (m.hinge_count > 0)
+        add("hinges", m.hinge_count, {b.on_paper(m.hinges), step_values});
+}
+
+void record_update(PlanBuilder& b, const ImplicitEuler& m)
+{
+    b.record(kName, [&](Recorder& recorder) {
+        const linear::Gate always{m.solve->groups(), nullptr, 0};
+        const linear::Grid grid = linear::make_grid(b.plan.vertex_count, always.groups);
+        std::vector<Recorder::Binding> bindings = {b.on_paper(b.plan.delta), b.on_paper(m.solve->x())};
+        if (m.trials)
+        {
+            record_trials(b, m, recorder);
+            bindings.push_back(m.trials);
+        }
+        linear::launch(recorder, always,
+                       kernels::implicit_update::info(m.trials ? "search" : "", b.plan.precision),
+                       std::move(bindings),
+                       kernels::implicit_update::Params{grid.count, grid.chunk, always.groups,
+                                                        b.scene.method.line_search + 1, m.parts(), m.lift},
+                       kName);
+    });
+}
+
+} // namespace
+
+void check_implicit_euler(const Scene& resolved, const DeviceTraits&)
+{
+    const auto refuse = [](std::size_t body, const char* what, const char* setting) {
+        throw Error(ErrorCode::unsupported, "method.type is \"implicit_euler\", but body " +
+                                                std::to_string(body) + " has rigid " + what +
+                                                ", which have no force; give " + setting +
+                                                " a finite value or take implicit_constraints or xpbd");
+    };
+    for (std::size_t body = 0; body < resolved.bodies.size(); ++body)
+    {
+        for (const StretchElement& e : stretch_elements(resolved.bodies[body]))
+            if (!(e.compliance > 0))
+                refuse(body, "springs", "material.stretch_stiffness or the springs' compliance");
+        for (const BendElement& e : bend_elements(resolved.bodies[body]))
+            if (!(e.compliance > 0))
+                refuse(body, "hinges", "material.bending_stiffness");
+    }
+}
+
+void prepare_implicit_euler(PlanBuilder& b)
+{
+    const Elements elements = acting_elements(b);
+    const std::vector<bool> solved =
+        solved_vertices(b.inverse_mass, elements.spring_ends, elements.hinge_corners);
+    double heaviest = 0;
+    for (std::size_t v = 0; v < solved.size(); ++v)
+        if (solved[v])
+            heaviest = std::max(heaviest, 1 / b.inverse_mass[v]);
+    if (!(heaviest > 0))
+        return; // nothing can move by a force
+    b.implicit_euler = std::make_shared<ImplicitEuler>();
+    ImplicitEuler& m = *b.implicit_euler;
+    m.scale = power_below(heaviest);
+    m.lift = power_below(b.plan.timestep / b.plan.substeps);
+    m.spring_count = static_cast<std::uint32_t>(elements.springs.size());
+    m.hinge_count = static_cast<std::uint32_t>(elements.hinges.size());
+    m.damped = std::any_of(elements.springs.begin(), elements.springs.end(),
+                           [](const StretchElement& e) { return e.damping > 0; });
+    with_real(b.plan.precision, [&](auto zero) { add_records<decltype(zero)>(b, m, elements); });
+    add_system(b, m, elements, solved);
+    add_vectors(b, m);
+    const FreeParts parts = free_parts(b.inverse_mass, elements.spring_ends, elements.hinge_corners);
+    m.part_count = static_cast<std::uint32_t>(parts.start.size() - 1);
+    if (m.part_count == 0)
+        return;
+    m.part_start = b.add_buffer<std::uint32_t>(kName, "free parts, start", parts.start);
+    m.part_members = b.add_buffer<std::uint32_t>(kName, "free parts", parts.member);
+}
+
+void record_implicit_start(PlanBuilder& b, const Moment&)
+{
+    if (!b.implicit_euler)
+        return;
+    const ImplicitEuler& m = *b.implicit_euler;
+    const std::uint32_t n = b.plan.vertex_count;
+    const Use uses[] = {{b.plan.low}, {m.held, 3}, {b.plan.predicted}, {b.plan.delta}, {m.solve->x(), 3}};
+    b.dispatch(kName, "implicit_start", "", uses, kernels::implicit_start::Params{n, m.lift}, n);
+}
+
+void record_implicit_step(PlanBuilder& b, const Moment& moment)
+{
+    if (!b.implicit_euler)
+        return;
+    ImplicitEuler& m = *b.implicit_euler;
+    record_force(b, m);
+    record_matrix(b, m, moment);
+    if (moment.iteration == 0)
+        record_guess(b, m);
+    m.solve->record(b);
+    record_momentum(b, m);
+    record_update(b, m);
+}
+
+} // namespace taut

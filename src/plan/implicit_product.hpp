@@ -1,0 +1,41 @@
+#pragma once
+// Internal to src/plan: the matrix of a Newton step as an operator that stores nothing.
+
+#include "taut/linear/operator.hpp"
+
+namespace taut {
+
+/// Buffers on paper; without springs or hinges their records are null.
+struct ImplicitBuffers
+{
+    std::uint32_t vertices = 0;
+    Precision precision = Precision::float32;
+    float scale = 1; ///< the system is in these units of mass
+    BufferPtr position, delta, step_values;
+    BufferPtr springs, spring_table; ///< always; a table without entries for the mass alone
+    BufferPtr hinges, hinge_table;   ///< null: none
+};
+
+/// (M + h^2 K + h D) x by gathering, with springs and hinges formed again from the places of their corners.
+class ImplicitProduct final : public linear::Operator
+{
+public:
+    explicit ImplicitProduct(ImplicitBuffers buffers) : at_(std::move(buffers)) {}
+
+    std::uint32_t rows() const override { return 3 * at_.vertices; }
+    Precision precision() const override { return at_.precision; }
+    std::uint64_t bytes() const override { return 0; }
+    void record_product(Recorder&, const linear::Gate&, Binding x, Binding y,
+                        Binding partials) const override;
+    void record_residual(Recorder&, const linear::Gate&, Binding x, Binding b, Binding r) const override;
+
+private:
+    /// `last`: partials or b, for the variant that reads or writes it.
+    void record_springs(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
+                        Binding last) const;
+    void record_hinges(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
+                       Binding last) const;
+    ImplicitBuffers at_;
+};
+
+} // namespace taut
