@@ -18,6 +18,7 @@ struct Stats
     std::atomic<std::uint64_t> barriers{0};
     std::atomic<std::uint64_t> bytes{0};
     std::atomic<std::uint64_t> blocks{0};
+    std::atomic<std::uint64_t> made{0}; ///< buffers ever
 };
 
 class CpuBuffer final : public Buffer
