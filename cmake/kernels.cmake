@@ -19,10 +19,30 @@ macro(taut_touch)
     endif()
 endmacro()
 
+# Kernels with a line "//! lanes" are compiled once more, several elements at a time, for processors that the
+# program finds out about when it runs (docs/lanes.md). Bitwise equality between executors, and between the two,
+# needs separate multiply and add, and no other liberties.
+set(taut_kernel_options "$<$<CONFIG:Release,RelWithDebInfo>:-O3>;-ffp-contract=off;-fno-math-errno;-fno-trapping-math;-Wno-shadow;-Wno-conversion;-Wno-sign-conversion;-Wno-unused-parameter")
+set(taut_lanes 0)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8
+   AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    set(taut_lanes 1)
+endif()
+
 foreach(kernel IN LISTS taut_kernel_files)
     cmake_path(GET kernel STEM stem)
     list(APPEND taut_kernel_stems ${stem})
     set(outputs ${taut_generated}/${stem}.hpp ${taut_generated}/${stem}.cpp ${taut_generated}/${stem}.native.cpp)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${kernel})
+    file(STRINGS ${kernel} has_lanes REGEX "^//! lanes$")
+    if(has_lanes)
+        list(APPEND outputs ${taut_generated}/${stem}.lanes.cpp)
+        set_source_files_properties(${taut_generated}/${stem}.lanes.cpp PROPERTIES
+            OBJECT_DEPENDS ${kernel} COMPILE_OPTIONS "${taut_kernel_options};-mavx2")
+        if(NOT taut_lanes)
+            set_source_files_properties(${taut_generated}/${stem}.lanes.cpp PROPERTIES HEADER_FILE_ONLY ON)
+        endif()
+    endif()
     taut_touch(${outputs})
     add_custom_command(
         OUTPUT ${outputs}
@@ -31,10 +51,9 @@ foreach(kernel IN LISTS taut_kernel_files)
         DEPENDS taut-kernelc ${kernel} ${taut_kernel_shared}
         COMMENT "Kernel ${stem}"
         VERBATIM)
-    # Bitwise equality between executors needs separate multiply and add, and no other liberties.
     set_source_files_properties(${taut_generated}/${stem}.native.cpp PROPERTIES
-        OBJECT_DEPENDS ${kernel}
-        COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O3>;-ffp-contract=off;-fno-math-errno;-fno-trapping-math;-Wno-shadow;-Wno-conversion;-Wno-sign-conversion;-Wno-unused-parameter")
+        OBJECT_DEPENDS ${kernel} COMPILE_DEFINITIONS TAUT_LANES=${taut_lanes}
+        COMPILE_OPTIONS "${taut_kernel_options}")
     list(APPEND taut_kernel_sources ${outputs})
 endforeach()
 

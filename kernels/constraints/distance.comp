@@ -8,6 +8,7 @@
 // Departures: works on displacements of the substep (`delta`), not on positions, so that many
 //   substeps do not lose to rounding; coincident ends are skipped and counted.
 // Bytes per element: 16 constraint + 64 read + 32 written (float).
+//! lanes
 //! variant lambda LAMBDA=1
 //! variant tail TAIL=1
 //! variant tail_lambda TAIL=1 LAMBDA=1
@@ -55,25 +56,28 @@ READ(5, real, damping_time);
 #endif
 #endif
 
-// Whole rvec4 operations, one division and a select instead of a branch keep the native form close to what
-// four lanes can do.
-void project(uint k)
+// Whole rvec4 operations and one division: what several lanes do best, and one does not worse.
+void project(ELEMENT k)
 {
     DistanceConstraint c = constraint[k];
     rvec4 xa = position[c.a];
     rvec4 xb = position[c.b];
+    rvec4 d = xa - xb;
+    real wa = xa.w;
+    real wb = xb.w;
     rvec4 da = delta[c.a];
     rvec4 db = delta[c.b];
-    rvec4 d = (xa - xb) + (da - db);
+    rvec4 apart = da - db;
+    d += apart;
     real len = length(rvec3(d));
     real scaled = scaled_compliance(c.compliance, step_values[0].inverse_substep);
-    real weight = xa.w + xb.w;
+    real weight = wa + wb;
 #if DAMPED
     real damper = min(damping_time[k] * step_values[0].inverse_substep, REAL(1e30)); // gamma of eq. 26
     weight += weight * damper;
 #endif
     real denominator = (weight + scaled) * len;
-    bool usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
+    rbool usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
     real value = c.rest_length - len;
 #if LAMBDA
     real before = first_iteration != 0u ? real(0) : multiplier[k];
@@ -81,21 +85,20 @@ void project(uint k)
 #endif
 #if DAMPED
     // By how much the ends went apart since the start of the substep; dropped where len is zero.
-    value -= usable ? damper * (dot(rvec3(d), rvec3(da - db)) / len) : real(0);
+    value -= SELECT(usable, damper * (dot(rvec3(d), rvec3(apart)) / len), real(0));
 #endif
     real scale = value / denominator; // dlambda / len
-    scale = usable ? scale : real(0);
+    scale = SELECT(usable, scale, real(0));
 #if LAMBDA
     multiplier[k] = before + scale * len;
 #endif
-    rvec4 push = d * rvec4(scale, scale, scale, real(0));
-    delta[c.a] = da + push * xa.w;
-    delta[c.b] = db - push * xb.w;
+    rvec4 push = d * scale;
+    push.w = real(0); // delta keeps its own
+    delta[c.a] = da + push * wa;
+    delta[c.b] = db - push * wb;
     if (report != 0u)
-    {
-        if (!usable && xa.w + xb.w > real(0) && c.rest_length > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
-    }
+        COUNT_EVENT_IF(!usable && wa + wb > real(0) && c.rest_length > real(0), events,
+                       TAUT_EVENT_DEGENERATE);
 }
 
 #include "shared/sweep.glsl"

@@ -39,11 +39,21 @@
 //   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
 //                                      it can hold phases; the native build never inlines it, which leaves
 //                                      a hot loop the registers
+//   rbool, SELECT(c, a, b), ANY(c), ELEMENT, COUNT_EVENT_IF(c, name, index)   see below
 //   REAL(0.1)                          a constant of type real with all its digits; GLSL cannot paste a
 //                                      suffix to a number, so flattening writes 0.1f or 0.1lf instead
 // `real`, `rvec3`, `rvec4` are float or double, chosen when the kernel is compiled
 // (TAUT_REAL_DOUBLE). Write real(0.5) for numbers that float holds exactly and REAL(0.1) for others,
 // vec3(p) not p.xyz, INOUT(T) for out parameters.
+//
+// A kernel with the line `//! lanes` also runs several elements at a time on the CPU (docs/lanes.md). It may
+// only be dispatched over elements that do not touch what others write. Its `real` is then one number per
+// element, so what is true of one need not be of the next, and it says
+//   rbool                              for the result of a comparison of reals (uints are the same for all)
+//   SELECT(c, a, b)                    for c ? a : b, both of which are worked out
+//   if (ANY(c))                        for a branch that may be left out when c is false for all
+//   ELEMENT                            for the type of an index of elements, as `i` of KERNEL and EACH is
+//   COUNT_EVENT_IF(c, name, index)     for if (c) COUNT_EVENT(name, index)
 #ifndef __cplusplus
 #ifndef TAUT_SHARED_PORTABLE_GLSL
 #define TAUT_SHARED_PORTABLE_GLSL
@@ -70,6 +80,10 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #define INOUT(T) inout T
 #define PRECISE precise
 #define DECLARE(prototype) prototype;
+#define rbool bool
+#define ELEMENT uint
+#define SELECT(condition, a, b) ((condition) ? (a) : (b))
+#define ANY(condition) (condition)
 #define APART
 #define LAYOUT_STRUCT(name) struct name
 
@@ -87,6 +101,7 @@ real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
 #define COUNTERS(slot, name) layout(std430, binding = slot) buffer name##_counters { uint name[]; }
 #define SHARED(T, name, n) shared T name[n]
 #define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
+#define COUNT_EVENT_IF(condition, buffer, index) if (condition) COUNT_EVENT(buffer, index)
 #define ADD_TWO(sum, a, k, b0, b1) sum = (sum + a[k] * (b0)) + a[(k) + 1u] * (b1)
 #define PREFETCH(buffer, index)
 #define WIDE uint

@@ -1,4 +1,4 @@
-// The two ways through a list of coloured constraints, for every kernel that has `project(uint k)`, the
+// The two ways through a list of coloured constraints, for every kernel that has `project(ELEMENT k)`, the
 // parameters `first` and `count`, and in the TAIL variant the buffer `table`.
 #ifndef TAUT_SHARED_SWEEP_GLSL
 #define TAUT_SHARED_SWEEP_GLSL
@@ -13,10 +13,9 @@ GROUP_KERNEL(64)
     uint end = group < count ? table[range + 1u] : begin;
     for (uint colour = begin; colour < end; ++colour)
     {
-        PHASE_BEGIN
-        for (uint k = table[colour] + lane; k < table[colour + 1u]; k += 64u)
-            project(k);
-        PHASE_END
+        EACH_BEGIN(table[colour], table[colour + 1u])
+        project(i);
+        EACH_END
     }
 }
 #else

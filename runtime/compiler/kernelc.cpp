@@ -1,5 +1,6 @@
 // taut-kernelc: the build's kernel compiler.
-//   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR     writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp
+//   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR     writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp, and
+//                                                     <stem>.lanes.cpp if the kernel has a line "//! lanes"
 //   taut-kernelc --includes INCLUDE_ROOT OUT_FILE     embeds kernels/shared/* as text
 
 #include "taut/runtime/compiler/compiler.hpp"
@@ -112,7 +113,8 @@ void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
     const std::string id = identifier(k);
     out << "const std::uint32_t vulkan_" << id << "[] = {" << words(k.spirv_vulkan) << "};\n"
         << "const std::uint32_t opengl_" << id << "[] = {" << words(k.spirv_opengl) << "};\n"
-        << "const char glsl_" << id << "[] =\n" << literal(k.glsl) << ";\n";
+        << "const char glsl_" << id << "[] =\n"
+        << literal(k.glsl) << ";\n";
     out << "const BindingInfo bindings_" << id << "[] = {\n";
     for (const auto& b : k.bindings)
         out << "    {\"" << b.name << "\", " << b.slot << ", static_cast<Access>("
@@ -167,10 +169,39 @@ std::string source_text(const std::string& stem, const Kernels& kernels)
     return out.str();
 }
 
-void native_kernel(std::ostringstream& out, const std::string& path, const taut::CompiledKernel& k,
-                   const taut::KernelVariant& variant, const std::vector<std::string>& shared)
+/// What differs between the two native forms of a kernel: one element at a time, and several.
+struct NativeForm
 {
-    const std::string id = identifier(k);
+    const char* prefix; ///< of its namespace: the linker must never take one form for the other
+    const char* room;   ///< where its types live
+    const char* types;
+    const char* members; ///< of struct Kernel, besides the kernel's own
+};
+
+constexpr NativeForm kScalar = {"", "taut::native",
+                                "using rvec3 = glm::vec<3, real>;\nusing rvec4 = glm::vec<4, real>;\n", ""};
+constexpr NativeForm kLanes = {"lanes_", "taut::lanes",
+                               "using rvec3 = taut::lanes::Vec3;\nusing rvec4 = taut::lanes::Vec4;\n"
+                               "using rbool = taut::lanes::Bool;\n",
+                               "std::uint32_t taut_active = 0xFF;\n"};
+
+/// Whether a kernel asks to run several elements at a time.
+bool has_lanes(const std::string& text) { return text.find("\n//! lanes\n") != std::string::npos; }
+
+std::string native_head(const std::string& stem, const std::string& portable)
+{
+    return "// Generated. Do not edit.\n#include \"taut/runtime/cpu/" + portable +
+           "\"\n#include \"taut/kernels/" + stem + ".hpp\"\n\nnamespace taut::kernels::" + stem + " {\n";
+}
+
+constexpr const char* kRange = "(const void* p, void* const* b, std::uint32_t begin, std::uint32_t end)";
+
+/// The kernel as `struct Kernel` in a namespace of its own.
+void native_kernel(std::ostringstream& out, const std::string& path, const taut::CompiledKernel& k,
+                   const taut::KernelVariant& variant, const std::vector<std::string>& shared,
+                   const NativeForm& form)
+{
+    const std::string id = form.prefix + identifier(k);
     for (const std::string& file : shared)
     {
         std::string guard = "TAUT_SHARED_" + file;
@@ -182,25 +213,47 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     for (const auto& [name, value] : variant.defines)
         out << "#define " << name << " " << value << "\n";
     const bool is_double = k.info.precision == taut::Precision::float64;
-    out << "#define TAUT_REAL_DOUBLE " << (is_double ? 1 : 0) << "\n"
-        << "namespace " << id
-        << " {\nusing namespace taut::native;\nusing real = " << (is_double ? "double" : "float")
-        << ";\nusing rvec3 = glm::vec<3, real>;\nusing rvec4 = glm::vec<4, real>;\nstruct Kernel\n{\n"
-           "#include \""
-        << path << "\"\n    void bind([[maybe_unused]] const void* params, void* const* buffers)\n    {\n";
+    const char* real = &form == &kLanes ? "taut::lanes::Real" : is_double ? "double" : "float";
+    out << "#define TAUT_REAL_DOUBLE " << (is_double ? 1 : 0) << "\nnamespace " << id
+        << " {\nusing namespace " << form.room << ";\nusing real = " << real << ";\n"
+        << form.types << "struct Kernel\n{\n"
+        << form.members << "#include \"" << path
+        << "\"\n    void bind([[maybe_unused]] const void* params, void* const* buffers)\n    {\n";
     if (!k.params.empty())
         out << "        const Params& p = *static_cast<const Params*>(params);\n";
     for (const auto& p : k.params)
         out << "        " << p.name << " = p." << p.name << ";\n";
     for (const auto& b : k.bindings)
-        out << "        taut::native::attach(" << b.name << ", buffers[" << b.slot << "]);\n";
+        out << "        " << form.room << "::attach(" << b.name << ", buffers[" << b.slot << "]);\n";
     out << "    }\n};\n} // namespace " << id << "\n#undef TAUT_REAL_DOUBLE\n";
     for (const auto& define : variant.defines)
         out << "#undef " << define.first << "\n";
-    out << "void native_" << id
-        << "(const void* p, void* const* b, std::uint32_t begin, std::uint32_t end)\n{\n"
-        << "    taut::native::run_" << (k.info.group_kernel ? "groups" : "elements") << "<" << id
-        << "::Kernel>(p, b, begin, end);\n}\n\n";
+}
+
+const char* runner(const taut::CompiledKernel& k)
+{
+    return k.info.group_kernel ? "run_groups" : "run_elements";
+}
+
+/// The function that the table names. With lanes it leaves what it can to them.
+void native_entry(std::ostringstream& out, const taut::CompiledKernel& k, bool lanes)
+{
+    const std::string id = identifier(k);
+    if (lanes)
+        out << "#if TAUT_LANES\nstd::uint32_t lanes_run_" << id << kRange << ";\n#endif\n";
+    out << "void native_" << id << kRange << "\n{\n";
+    if (lanes)
+        out << "#if TAUT_LANES\n    if (taut::native::has_lanes())\n        begin = lanes_run_" << id
+            << "(p, b, begin, end);\n    if (begin == end)\n        return;\n#endif\n";
+    out << "    taut::native::" << runner(k) << "<" << id << "::Kernel>(p, b, begin, end);\n}\n\n";
+}
+
+/// Gives the first element back that is left to do.
+void lanes_entry(std::ostringstream& out, const taut::CompiledKernel& k)
+{
+    const std::string id = identifier(k);
+    out << "std::uint32_t lanes_run_" << id << kRange << "\n{\n    return taut::lanes::" << runner(k)
+        << "<lanes_" << id << "::Kernel>(p, b, begin, end);\n}\n\n";
 }
 
 void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& out_dir)
@@ -211,24 +264,35 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
                            text.find("layouts.h") != std::string::npos;
     const auto shared = shared_files(root);
     Kernels kernels;
-    std::ostringstream native;
-    native
-        << "// Generated. Do not edit.\n#include \"taut/runtime/cpu/portable.hpp\"\n#include \"taut/kernels/"
-        << stem << ".hpp\"\n\nnamespace taut::kernels::" << stem << " {\n";
+    const bool lanes = has_lanes(text);
+    std::ostringstream native, several;
+    native << native_head(stem, "portable.hpp");
+    several << native_head(stem, "lane_portable.hpp");
     for (const auto& variant : taut::kernel_variants(stem, text))
         for (const auto precision : {taut::Precision::float32, taut::Precision::float64})
         {
             if (precision == taut::Precision::float64 && !uses_real)
                 continue;
             const auto kernel = taut::compile_kernel({stem, text, root, variant, precision});
-            native_kernel(native, fs::absolute(kernel_path).string(), *kernel, variant, shared);
+            const std::string path = fs::absolute(kernel_path).string();
+            native_kernel(native, path, *kernel, variant, shared, kScalar);
+            const bool has_form = lanes && precision == taut::Precision::float32;
+            native_entry(native, *kernel, has_form);
+            if (has_form)
+            {
+                native_kernel(several, path, *kernel, variant, shared, kLanes);
+                lanes_entry(several, *kernel);
+            }
             kernels.push_back(kernel);
         }
-    native << "} // namespace taut::kernels::" << stem << "\n";
+    for (std::ostringstream* out : {&native, &several})
+        *out << "} // namespace taut::kernels::" << stem << "\n";
     fs::create_directories(out_dir);
     write_text(out_dir / (stem + ".hpp"), header_text(stem, kernels));
     write_text(out_dir / (stem + ".cpp"), source_text(stem, kernels));
     write_text(out_dir / (stem + ".native.cpp"), native.str());
+    if (lanes)
+        write_text(out_dir / (stem + ".lanes.cpp"), several.str());
 }
 
 void embed_includes(const fs::path& root, const fs::path& out_file)

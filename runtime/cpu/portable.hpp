@@ -24,6 +24,21 @@ namespace taut::native {
 
 using namespace glm;
 using uint = std::uint32_t;
+using rbool = bool;
+
+#if TAUT_LANES
+/// Whether this processor has what kernels that run several elements at a time are compiled for. Without
+/// optimisation they would be slower than one at a time, and nobody could follow them in a debugger.
+inline bool has_lanes()
+{
+#ifdef __OPTIMIZE__
+    static const bool yes = __builtin_cpu_supports("avx2");
+    return yes;
+#else
+    return false;
+#endif
+}
+#endif
 
 /// Points a buffer member at its memory. READ_ONE members are copies: a value that no store can change
 /// stays in registers through the loop.
@@ -215,6 +230,9 @@ inline void count_event(std::uint32_t& counter)
 #define APART [[gnu::noinline]]
 #define LAYOUT_STRUCT(name) struct name
 #define REAL(x) real(x)
+#define ELEMENT uint
+#define SELECT(condition, a, b) ((condition) ? (a) : (b))
+#define ANY(condition) (condition)
 
 #define PARAMS struct
 #define READ(slot, T, name) const T* __restrict name
@@ -225,6 +243,11 @@ inline void count_event(std::uint32_t& counter)
 #define COUNTERS(slot, name) std::uint32_t* __restrict name
 #define SHARED(T, name, n) T name[n]
 #define COUNT_EVENT(buffer, index) taut::native::count_event(buffer[index])
+#define COUNT_EVENT_IF(condition, buffer, index)                                                             \
+    do                                                                                                       \
+        if (condition)                                                                                       \
+            COUNT_EVENT(buffer, index);                                                                      \
+    while (false)
 #define WIDER_PRODUCT(a, b, high, low) taut::native::wider_product(a, b, high, low)
 #define ADD_TWO(sum, a, k, b0, b1) sum = taut::native::add_two(sum, a + (k), b0, b1)
 #define PREFETCH(buffer, index) taut::native::prefetch(buffer, index)

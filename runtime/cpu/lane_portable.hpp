@@ -1,0 +1,116 @@
+#pragma once
+// C++ twin of kernels/shared/portable.glsl for kernels that run several elements at a time (`//! lanes`).
+// What is not defined here, such a kernel must not use: it would not compile.
+
+#include "taut/runtime/cpu/lane_records.hpp"
+
+namespace taut::lanes {
+
+/// A bit for each lane whose element is one of the first `count`.
+TAUT_LANE uint active_lanes(uint count)
+{
+    uint out = 0;
+    for (uint element = 0; element < count; ++element)
+        out |= 1u << lane_of(element);
+    return out;
+}
+
+/// Adds the number of lanes in `lanes` in which `happened` is true.
+TAUT_LANE void count_events(uint& counter, Bool happened, uint lanes)
+{
+    if (const uint which = bits(happened) & lanes)
+        __atomic_fetch_add(&counter, static_cast<uint>(__builtin_popcount(which)), __ATOMIC_RELAXED);
+}
+
+/// As taut::native::run_lean: with `report` a constant 0 there is no counting in the loop.
+template <typename Kernel, typename Run>
+TAUT_LANE void run_lean(Kernel& kernel, Run run)
+{
+    if constexpr (requires { kernel.report; })
+    {
+        if (kernel.report == 0)
+        {
+            kernel.report = 0;
+            run(kernel);
+            return;
+        }
+    }
+    run(kernel);
+}
+
+/// Runs the elements of a KERNEL in whole blocks. Gives the first element back that is left.
+template <typename Kernel>
+[[gnu::flatten]] uint run_elements(const void* params, void* const* buffers, uint begin, uint end)
+{
+    Kernel kernel;
+    kernel.bind(params, buffers);
+    const uint count = kernel.element_count();
+    if (end > count)
+        end = count;
+    if (end < begin + kLanes || end < begin)
+        return begin;
+    const uint blocks = (end - begin) / kLanes;
+    run_lean(kernel, [=](Kernel& k) __attribute__((always_inline)) {
+        for (uint block = 0; block < blocks; ++block)
+            k.element(Index{begin + block * kLanes});
+    });
+    return begin + blocks * kLanes;
+}
+
+template <typename Kernel>
+[[gnu::flatten]] uint run_groups(const void* params, void* const* buffers, uint begin, uint end)
+{
+    Kernel kernel;
+    kernel.bind(params, buffers);
+    run_lean(kernel, [=](Kernel& k) __attribute__((always_inline)) {
+        for (uint group = begin; group < end; ++group)
+            k.body(group);
+    });
+    return end;
+}
+
+/// The elements first .. end - 1 in blocks; the last one may be short. `active` is set to what `body` may
+/// count.
+template <typename Body>
+TAUT_LANE void each(uint& active, uint first, uint end, Body body)
+{
+    active = active_lanes(kLanes);
+    uint i = first;
+    for (; end - i >= kLanes; i += kLanes)
+        body(Index{i});
+    if (i == end)
+        return;
+    active = active_lanes(end - i);
+    body(Index{i, end - i});
+}
+
+} // namespace taut::lanes
+
+#define INOUT(T) T&
+#define PRECISE
+#define LAYOUT_STRUCT(name) struct name : taut::lanes::RecordTypes
+#define REAL(x) real(x)
+#define ELEMENT taut::lanes::Index
+#define SELECT(condition, a, b) taut::lanes::select(condition, a, b)
+#define ANY(condition) (taut::lanes::bits(condition) != 0)
+
+#define PARAMS struct
+#define READ(slot, T, name) taut::lanes::Read<T> name
+#define READ_ONE(slot, T, name) taut::lanes::One<T> name
+#define WRITE(slot, T, name) taut::lanes::Update<T> name
+#define UPDATE(slot, T, name) taut::lanes::Update<T> name
+#define GROUP_UPDATE(slot, T, name) taut::lanes::Update<T> name
+#define COUNTERS(slot, name) std::uint32_t* name
+#define COUNT_EVENT_IF(condition, buffer, index) \
+    taut::lanes::count_events(buffer[index], condition, taut_active)
+
+#define KERNEL(count)                                                                                        \
+    std::uint32_t element_count() const { return std::uint32_t(count); }                                     \
+    TAUT_LANE void element(const ELEMENT i)
+
+#define GROUP_KERNEL(size) void body(const uint group)
+
+#define EACH_BEGIN(first, end)                                                                               \
+    taut::lanes::each(taut_active, uint(first), uint(end),                                                   \
+                      [&](const ELEMENT i) __attribute__((always_inline)) {
+#define EACH_END });
