@@ -7,6 +7,7 @@
 //   digits near flat and has a singular gradient there); the difference to the rest angle is wrapped
 //   to (-pi, pi]; a wing whose height is below 1e-6 of its edges has no usable normal: skipped, counted.
 // Bytes per element: 24 constraint + 128 read + 64 written (float).
+//! lanes
 //! variant lambda LAMBDA=1
 //! variant tail TAIL=1
 //! variant tail_lambda TAIL=1 LAMBDA=1
@@ -42,7 +43,7 @@ UPDATE(5, real, multiplier);
 #endif
 #endif
 
-void project(uint k)
+void project(ELEMENT k)
 {
     BendingConstraint c = constraint[k];
     rvec4 p0 = position[c.edge0];
@@ -53,25 +54,29 @@ void project(uint k)
     rvec4 d1 = delta[c.edge1];
     rvec4 d2 = delta[c.wing0];
     rvec4 d3 = delta[c.wing1];
-    rvec3 e = rvec3(p1 - p0) + rvec3(d1 - d0);
-    rvec3 a = rvec3(p2 - p0) + rvec3(d2 - d0);
-    rvec3 b = rvec3(p3 - p0) + rvec3(d3 - d0);
+    rvec3 e = rvec3((p1 - p0) + (d1 - d0));
+    rvec3 a = rvec3((p2 - p0) + (d2 - d0));
+    rvec3 b = rvec3((p3 - p0) + (d3 - d0));
+    real w0 = p0.w;
+    real w1 = p1.w;
+    real w2 = p2.w;
+    real w3 = p3.w;
     rvec3 n1 = cross(e, a);
     rvec3 n2 = cross(b, e);
     real e2 = dot(e, e);
     real area1 = dot(n1, n1);
     real area2 = dot(n2, n2);
-    bool shaped = area1 > REAL(1e-12) * e2 * dot(a, a) && area2 > REAL(1e-12) * e2 * dot(b, b);
+    rbool shaped = area1 > REAL(1e-12) * e2 * dot(a, a) && area2 > REAL(1e-12) * e2 * dot(b, b);
 
     // Safe stand-ins keep every lane on one path; their result is dropped at `push`.
-    e2 = shaped ? e2 : real(1);
-    area1 = shaped ? area1 : real(1);
-    area2 = shaped ? area2 : real(1);
+    e2 = SELECT(shaped, e2, real(1));
+    area1 = SELECT(shaped, area1, real(1));
+    area2 = SELECT(shaped, area2, real(1));
     real edge = sqrt(e2);
     real angle = angle_of(dot(cross(n1, n2), e) / edge, dot(n1, n2));
     real value = angle - c.rest_angle;
-    value = value > REAL(3.14159265358979323846) ? value - REAL(6.28318530717958647693) : value;
-    value = value < REAL(-3.14159265358979323846) ? value + REAL(6.28318530717958647693) : value;
+    value = SELECT(value > REAL(3.14159265358979323846), value - REAL(6.28318530717958647693), value);
+    value = SELECT(value < REAL(-3.14159265358979323846), value + REAL(6.28318530717958647693), value);
 
     rvec3 g2 = n1 * (-edge / area1);
     rvec3 g3 = n2 * (-edge / area2);
@@ -80,23 +85,23 @@ void project(uint k)
     rvec3 g0 = g2 * (s2 - real(1)) + g3 * (s3 - real(1));
     rvec3 g1 = g2 * -s2 + g3 * -s3;
 
-    real weight = p0.w * dot(g0, g0) + p1.w * dot(g1, g1) + p2.w * dot(g2, g2) + p3.w * dot(g3, g3);
-    bool usable = shaped && weight > real(0); // held vertices alone may carry the gradient
+    real weight = w0 * dot(g0, g0) + w1 * dot(g1, g1) + w2 * dot(g2, g2) + w3 * dot(g3, g3);
+    rbool usable = shaped && weight > real(0); // held vertices alone may carry the gradient
     real scaled = scaled_compliance(c.compliance, step_values[0].inverse_substep);
-    real total = usable ? weight + scaled : real(1);
+    real total = SELECT(usable, weight + scaled, real(1));
 #if LAMBDA
     real before = first_iteration != 0u ? real(0) : multiplier[k];
-    real dlambda = usable ? -(value + scaled * before) / total : real(0);
+    real dlambda = SELECT(usable, -(value + scaled * before) / total, real(0));
     multiplier[k] = before + dlambda;
 #else
-    real dlambda = usable ? -value / total : real(0);
+    real dlambda = SELECT(usable, -value / total, real(0));
 #endif
-    delta[c.edge0] = d0 + rvec4(g0 * (p0.w * dlambda), real(0));
-    delta[c.edge1] = d1 + rvec4(g1 * (p1.w * dlambda), real(0));
-    delta[c.wing0] = d2 + rvec4(g2 * (p2.w * dlambda), real(0));
-    delta[c.wing1] = d3 + rvec4(g3 * (p3.w * dlambda), real(0));
-    if (report != 0u && !shaped && p0.w + p1.w + p2.w + p3.w > real(0))
-        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    delta[c.edge0] = d0 + rvec4(g0 * (w0 * dlambda), real(0));
+    delta[c.edge1] = d1 + rvec4(g1 * (w1 * dlambda), real(0));
+    delta[c.wing0] = d2 + rvec4(g2 * (w2 * dlambda), real(0));
+    delta[c.wing1] = d3 + rvec4(g3 * (w3 * dlambda), real(0));
+    if (report != 0u)
+        COUNT_EVENT_IF(!shaped && w0 + w1 + w2 + w3 > real(0), events, TAUT_EVENT_DEGENERATE);
 }
 
 #include "shared/sweep.glsl"

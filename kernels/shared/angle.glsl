@@ -31,13 +31,13 @@ real angle_of(real y, real x)
     real ay = abs(y);
     real large = max(ax, ay);
     real small = min(ax, ay);
-    real t = large > real(0) ? small / large : real(0);
-    bool fold = t > REAL(0.41421356237309504880);
-    real reduced = fold ? (t - real(1)) / (t + real(1)) : t;
-    real angle = small_arctangent(reduced) + (fold ? REAL(0.78539816339744830962) : real(0));
-    angle = ay > ax ? REAL(1.57079632679489661923) - angle : angle;
-    angle = x < real(0) ? REAL(3.14159265358979323846) - angle : angle;
-    return y < real(0) ? -angle : angle;
+    real t = SELECT(large > real(0), small / large, real(0));
+    rbool fold = t > REAL(0.41421356237309504880);
+    real reduced = SELECT(fold, (t - real(1)) / (t + real(1)), t);
+    real angle = small_arctangent(reduced) + SELECT(fold, REAL(0.78539816339744830962), real(0));
+    angle = SELECT(ay > ax, REAL(1.57079632679489661923) - angle, angle);
+    angle = SELECT(x < real(0), REAL(3.14159265358979323846) - angle, angle);
+    return SELECT(y < real(0), -angle, angle);
 }
 
 #endif

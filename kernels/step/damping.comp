@@ -3,6 +3,7 @@
 // Applied before gravity is added: the other order would scale gravity by exp(-c h) and bias the rest
 // state (a static error of 0.8 % at c = 2/s and 4 substeps).
 // Bytes per element: 16 read, 16 written (float).
+//! lanes
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 
@@ -16,5 +17,8 @@ READ_ONE(1, StepValues, step_values);
 
 KERNEL(count)
 {
-    velocity[i] = rvec4(rvec3(velocity[i]) * step_values[0].damping_factor, real(0));
+    rvec4 v = velocity[i];
+    v = v * step_values[0].damping_factor;
+    v.w = real(0);
+    velocity[i] = v;
 }

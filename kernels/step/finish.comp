@@ -9,6 +9,7 @@
 //   finite place; the velocity is a quotient, because a product with a rounded 1/h would change every
 //   velocity by the same factor in every substep (2e-8 at h = 1/600 s: 1e-5 of the momentum in a second).
 // Bytes per element: 48 read, 64 written (float).
+//! lanes
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 
@@ -30,20 +31,21 @@ KERNEL(count)
     rvec3 x = rvec3(p);
     rvec4 kept = low[i];
     rvec3 lost = rvec3(kept);
-    rvec3 d = rvec3(delta[i]);
+    rvec4 moved = delta[i];
+    rvec3 d = rvec3(moved);
     real size = abs(d.x) + abs(d.y) + abs(d.z) + abs(x.x) + abs(x.y) + abs(x.z);
-    bool finite = size < REAL(1e18); // squares of coordinates must stay finite in float
-    d = finite ? d : lost;
+    rbool finite = size < REAL(1e18); // squares of coordinates must stay finite in float
+    d = SELECT(finite, d, lost);
 
     PRECISE rvec3 sum = x + d;
     PRECISE rvec3 part = sum - x;
     PRECISE rvec3 error = (x - (sum - part)) + (d - part);
     position[i] = rvec4(sum, p.w);
     low[i] = rvec4(error, kept.w);
-    velocity[i] = rvec4(finite ? (d - lost) / step_values[0].substep : rvec3(real(0)), real(0));
-    if (!finite)
+    velocity[i] = rvec4(SELECT(finite, (d - lost) / step_values[0].substep, rvec3(real(0))), real(0));
+    if (ANY(!finite))
     {
-        delta[i] = kept;
-        COUNT_EVENT(events, TAUT_EVENT_NON_FINITE);
+        delta[i] = SELECT(finite, moved, kept);
+        COUNT_EVENT_IF(!finite, events, TAUT_EVENT_NON_FINITE);
     }
 }

@@ -4,6 +4,7 @@
 // Departures: the result is a displacement that also carries what the position lost to rounding
 //   (`low`), so constraints see the full position; speeds beyond max_speed are clamped and counted.
 // Bytes per element: 48 read, 16 written (float).
+//! lanes
 //! variant kept KEPT=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
@@ -27,17 +28,21 @@ KERNEL(count)
 {
     real h = step_values[0].substep;
     real limit = step_values[0].max_speed;
-    bool moves = position[i].w > real(0);
-    rvec3 v = rvec3(velocity[i]) +
-              rvec3(step_values[0].gravity_x, step_values[0].gravity_y, step_values[0].gravity_z) * h;
-    real speed = length(v);
-    bool fast = moves && !(speed <= limit);
-    v = fast ? v * (limit / speed) : v;
+    rbool moves = position[i].w > real(0);
+    rvec4 v = velocity[i];
+    v += rvec4(step_values[0].gravity_x, step_values[0].gravity_y, step_values[0].gravity_z, real(0)) * h;
+    v.w = real(0);
+    real speed = length(rvec3(v));
+    rbool fast = moves && !(speed <= limit);
+    if (ANY(fast))
+    {
+        v = SELECT(fast, v * (limit / speed), v);
+        COUNT_EVENT_IF(fast, events, TAUT_EVENT_SPEED_CLAMP);
+    }
     rvec4 rest = low[i];
-    rvec4 guess = moves ? rvec4(v * h, real(0)) + rest : rest;
+    rvec4 guess = SELECT(moves, v * h + rest, rest);
     delta[i] = guess;
 #if KEPT
     predicted[i] = guess;
 #endif
-    if (fast) COUNT_EVENT(events, TAUT_EVENT_SPEED_CLAMP);
 }

@@ -223,7 +223,7 @@ std::vector<Row> distance_rows()
         {rivals[0].name, loop, rivals[0].best(), 0, 1, "", 0},
         {rivals[1].name, rivals[1].median(), rivals[1].best(), 0, rivals[1].median() / loop, rivals[0].name,
          0},
-        {rivals[2].name, one, rivals[2].best(), serial_error, one / loop, rivals[0].name, 1.1},
+        {rivals[2].name, one, rivals[2].best(), serial_error, one / loop, rivals[0].name, 0.55},
         {rivals[3].name, rivals[3].median(), rivals[3].best(), parallel_error, rivals[3].median() / one,
          rivals[2].name, 0.6},
         {crowded[0].name, crowded[0].median(), crowded[0].best(), serial_error, 1, "", 0},
