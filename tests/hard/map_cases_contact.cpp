@@ -139,7 +139,8 @@ void add_constraints(std::vector<MapCase>& out)
                        s.damping = 1;
                        return s;
                    }(),
-                   120, [](const Journey& j) { return above("speed at the end", j.last.max_speed, 20); }});
+                   120, [](const Journey& j) { return above("speed at the end", j.last.max_speed, 20); },
+                   kLinearised});
     for (const double stiffness : {1e-6, 1e12})
         out.push_back({"F17", "stretch stiffness " + shown(stiffness) + " N/m",
                        with_stretch(hanging(4), stiffness), 60, calm});
