@@ -31,7 +31,6 @@ KERNEL(count)
     rbool moves = position[i].w > real(0);
     rvec4 v = velocity[i];
     v += rvec4(step_values[0].gravity_x, step_values[0].gravity_y, step_values[0].gravity_z, real(0)) * h;
-    v.w = real(0);
     real speed = length(rvec3(v));
     rbool fast = moves && !(speed <= limit);
     if (ANY(fast))
@@ -39,6 +38,7 @@ KERNEL(count)
         v = SELECT(fast, v * (limit / speed), v);
         COUNT_EVENT_IF(fast, events, TAUT_EVENT_SPEED_CLAMP);
     }
+    v.w = real(0); // behind the clamp, whose factor may be no number
     rvec4 rest = low[i];
     rvec4 guess = SELECT(moves, v * h + rest, rest);
     delta[i] = guess;
