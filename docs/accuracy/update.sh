@@ -1,6 +1,7 @@
 #!/bin/sh
-# Measures what accuracy costs for the example scenes and writes this folder anew: no number in README.md
-# is typed by hand. Run it on a machine that does nothing else; it takes a minute or two.
+# Measures what accuracy costs, with every method, and writes this folder anew: no number in README.md is typed
+# by hand. Two studies run side by side on one core each; times are CPU time, so that a busy machine spoils
+# little. It takes some ten minutes.
 #
 #   docs/accuracy/update.sh build/release/taut
 set -eu
@@ -10,46 +11,43 @@ cd "$(dirname "$0")/../.."
 folder=docs/accuracy
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+common="--device cpu:serial --rank cpu --timing-seconds 0.3"
 
-study() # NAME SCENE DEVICE [OPTION...]
+study() # NAME SCENE [OPTION...]
 {
-    name=$1 scene=$2 device=$3
-    shift 3
-    "$program" cost "$scene" --device "$device" "$@" --out "$scratch/$name" > "$scratch/$name.txt"
-    for file in cost.csv cost.svg cost_work.svg; do
-        mv "$scratch/$name/$file" "$folder/${name}_$file"
-    done
-    {
-        echo "## $name"
-        echo
-        echo "    taut cost $scene --device $device${*:+ $*} --out OUT"
-        echo
-        grep '^reference\|^ *passed over' "$scratch/$name.txt" | sed 's/^reference */Reference /; s/^ */ /; s/^ Ref/Ref/'
-        echo
-        grep '^[0-9.]* %' "$scratch/$name.txt" | sed 's/^/- /'
-        echo
-        echo "![error against time](${name}_cost.svg)"
-        echo
-        echo "![error against sweeps](${name}_cost_work.svg)"
-        echo
-        echo "All settings ([CSV](${name}_cost.csv)):"
-        echo
-        sed -n '/^precision/,/^[0-9.]* %/p' "$scratch/$name.txt" | sed '/^[0-9.]* %/d; s/^/    /'
-        echo
-    } >> "$scratch/README.md"
+    name=$1 scene=$2
+    shift 2
+    mkdir -p "$scratch/$name"
+    echo "taut cost $scene $*" > "$scratch/$name/command"
+    "$program" cost "$scene" "$@" --out "$scratch/$name" > "$scratch/$name/text" || [ $? -eq 1 ]
 }
 
+first()
 {
-    echo "# Results of \`taut cost\`"
-    echo
-    echo "How errors, references and times are taken, and how to read the diagrams, says [cost.md](../cost.md)."
-    echo "Written by \`docs/accuracy/update.sh\` with $("$program" --version), commit" \
-         "$(git describe --always --dirty=' with changes' 2>/dev/null || echo unknown),"
-    echo "on $(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)."
-    echo "Error columns are in per cent, times in ms per simulated second."
-    echo
-} > "$scratch/README.md"
-study hanging examples/scenes/hanging.json cpu
-study strip_static examples/scenes/strip_static.json cpu
-study strip_static_vulkan examples/scenes/strip_static.json vulkan --substeps 5,20,50 --iterations 1,5
-mv "$scratch/README.md" "$folder/README.md"
+    study spring examples/accuracy/spring.json --methods all $common
+    study chain_1 examples/accuracy/chain_1.json --methods all $common
+    study chain_100 examples/accuracy/chain_100.json --methods all $common
+    study chain_10000 examples/accuracy/chain_10000.json --methods all $common
+    study elastica examples/accuracy/elastica.json --methods all $common
+    study precision examples/accuracy/chain_1.json --methods all --precision float,double \
+        --substeps 4,16,64,256,1000 --iterations 1 $common
+    study ratio_mass examples/accuracy/chain_1.json --methods all --ratio mass --substeps 64 $common
+    study ratio_stiffness examples/accuracy/chain_1.json --methods all --ratio stiffness --substeps 64 $common
+    study conserved examples/accuracy/spring.json --methods all --conserved --substeps 8 --device cpu:serial
+    study conserved_free examples/accuracy/free.json --methods all --conserved --substeps 8 --device cpu:serial
+}
+
+second()
+{
+    study net_17 examples/accuracy/net_17.json --methods all $common
+    study net_33 examples/accuracy/net_33.json --methods all $common
+    study cloth examples/accuracy/cloth.json --methods all $common
+    study slide examples/accuracy/slide.json --methods all $common
+}
+
+first & one=$!
+second & two=$!
+wait $one
+wait $two
+sh "$folder/write.sh" "$program" "$scratch"
+sh "$folder/check.sh"

@@ -18,6 +18,7 @@ void add_run(CLI::App& app, Command& chosen);
 void add_plan(CLI::App& app, Command& chosen);
 void add_cost(CLI::App& app, Command& chosen);
 void add_compare(CLI::App& app, Command& chosen);
+void add_tune(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_solve(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);

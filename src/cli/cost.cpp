@@ -1,4 +1,4 @@
-// taut cost: error against time over the settings of a method.
+// taut cost: error against time over the settings of one or several methods.
 
 #include "taut/report/cost.hpp"
 #include "taut/cli/command.hpp"
@@ -6,6 +6,9 @@
 #include "taut/cli/interrupt.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/progress.hpp"
+#include "taut/report/cost_energy.hpp"
+#include "taut/report/cost_ratio.hpp"
+#include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 
@@ -22,10 +25,13 @@ struct CostCommand
     std::string scene, device;
     fs::path folder;
     std::vector<std::uint32_t> substeps, iterations;
-    std::vector<std::string> precisions;
+    std::vector<std::string> precisions, methods;
+    std::string rank;
     std::optional<std::uint32_t> frames;
     std::optional<double> rest_seconds, timing_seconds, reference_steps;
-    bool at_rest = false, moving = false, json = false;
+    std::string ratio;
+    std::vector<double> ratios;
+    bool at_rest = false, moving = false, conserved = false, json = false;
 };
 
 CostOptions study_options(const CostCommand& command)
@@ -39,6 +45,16 @@ CostOptions study_options(const CostCommand& command)
         options.precisions.clear();
     for (const std::string& word : command.precisions)
         options.precisions.push_back(word == "float" ? Precision::float32 : Precision::float64);
+    if (!command.methods.empty())
+    {
+        options.methods = methods_listed(command.methods);
+        options.designed = command.substeps.empty() && command.iterations.empty();
+        if (command.precisions.empty())
+            options.precisions = {Precision::float32};
+    }
+    options.basis = command.rank == "cpu"    ? CostBasis::cpu
+                    : command.rank == "work" ? CostBasis::sweeps
+                                             : CostBasis::wall;
     options.frames = command.frames.value_or(0);
     options.rest_seconds = command.rest_seconds.value_or(options.rest_seconds);
     options.timing_seconds = command.timing_seconds.value_or(options.timing_seconds);
@@ -54,17 +70,27 @@ std::string percent(const std::optional<double>& error) { return error ? number(
 
 std::string remarks(const CostPoint& point)
 {
-    std::string text = point.pareto ? "front" : "";
+    std::string text = settings_details(point.settings);
+    const auto say = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
+    if (point.pareto)
+        say("front");
     if (point.at_floor)
-        text += std::string(text.empty() ? "" : ", ") + "at the reference's floor";
-    return point.reason.empty() ? text : point.reason;
+        say("at the reference's floor");
+    if (!point.refused.empty())
+        say("refused, " + point.refused);
+    if (!point.reason.empty())
+        say(point.reason);
+    return text;
 }
 
 std::string points_table(const CostStudy& study)
 {
+    const bool several = study.methods.size() > 1;
     std::vector<std::vector<std::string>> rows{{"precision", "iterations", "substeps", study.metric + " %",
                                                 "e_L %", "ms/s", "ms/s least", "CPU ms/s", "sweeps/s",
                                                 "remark"}};
+    if (several)
+        rows[0].insert(rows[0].begin(), "method");
     for (const CostPoint& point : study.points)
     {
         const auto timed = [&](double ms) { return point.error ? number(ms, 3) : std::string("-"); };
@@ -73,6 +99,8 @@ std::string points_table(const CostStudy& study)
                         timed(point.ms), timed(point.ms_least),
                         point.error && point.cpu_ms ? number(*point.cpu_ms, 3) : "-", number(point.sweeps, 6),
                         remarks(point)});
+        if (several)
+            rows.back().insert(rows.back().begin(), point.method);
     }
     return table(rows);
 }
@@ -85,9 +113,25 @@ std::string summary(const CostStudy& study)
     for (const std::string& passed : study.reference.passed)
         text += "           passed over: " + passed + "\n";
     text += points_table(study);
+    if (study.methods.size() > 1)
+        text += "cheapest by method (- not reached, R refused):\n" + table(cost_table(study));
     for (const std::string& sentence : cost_sentences(study))
         text += sentence + "\n";
     return text;
+}
+
+/// These studies compare methods at the same work, and at one precision unless the command says more.
+CostOptions fixed_work(const CostCommand& command, CostOptions options)
+{
+    options.designed = false;
+    if (command.substeps.empty())
+        options.substeps = {16};
+    if (command.iterations.empty())
+        options.iterations = {1};
+    if (command.precisions.empty())
+        options.precisions = {Precision::float32};
+    options.timing_seconds = command.timing_seconds.value_or(0);
+    return options;
 }
 
 void write_files(const CostStudy& study, const fs::path& folder)
@@ -96,18 +140,59 @@ void write_files(const CostStudy& study, const fs::path& folder)
     write_file(folder / "cost.csv", cost_csv(study));
     write_file(folder / "cost.svg", svg(cost_plot(study, CostAxis::time)));
     write_file(folder / "cost_work.svg", svg(cost_plot(study, CostAxis::sweeps)));
+    if (study.methods.size() > 1)
+    {
+        write_file(folder / "cost_substeps.svg", svg(convergence_plot(study, CostSplit::substeps)));
+        write_file(folder / "cost_iterations.svg", svg(convergence_plot(study, CostSplit::iterations)));
+    }
     write_file(folder / "cost.json", cost_json(study));
+}
+
+int ratios(const CostCommand& command, const Scene& scene, CostOptions options)
+{
+    const RatioKind kind = command.ratio == "mass" ? RatioKind::mass : RatioKind::stiffness;
+    const RatioStudy study = run_ratios(scene, open_device(command.device), fixed_work(command, options),
+                                        kind, command.ratios.empty() ? usual_ratios(kind) : command.ratios);
+    if (!command.folder.empty())
+    {
+        write_file(command.folder / ("ratio_" + command.ratio + ".csv"), ratio_csv(study));
+        write_file(command.folder / ("ratio_" + command.ratio + ".svg"), svg(ratio_plot(study)));
+    }
+    std::cout << "Error against the ratio of " << command.ratio << ": " << study.scene << "\n";
+    for (const std::string& sentence : ratio_sentences(study))
+        std::cout << sentence << "\n";
+    return kDone;
+}
+
+int conserved(const CostCommand& command, const Scene& scene, CostOptions options)
+{
+    const EnergyStudy study = run_energy(scene, open_device(command.device), fixed_work(command, options));
+    if (!command.folder.empty())
+    {
+        write_file(command.folder / "energy.csv", energy_csv(study));
+        write_file(command.folder / "energy.svg", svg(energy_plot(study, Conserved::energy)));
+        write_file(command.folder / "momentum.svg", svg(energy_plot(study, Conserved::momentum)));
+    }
+    std::cout << "Energy and momentum: " << study.scene << "\n";
+    for (const std::string& sentence : energy_sentences(study))
+        std::cout << sentence << "\n";
+    return kDone;
 }
 
 int cost(const CostCommand& command)
 {
     std::vector<SceneIssue> issues;
     const Scene scene = resolve(load_scene(command.scene), &issues);
-    const auto device = open_device(command.device);
     CostOptions options = study_options(command);
     if (!command.folder.empty())
         make_folder(command.folder); // before minutes of work
     const InterruptGuard guard;
+    options.progress = [&](std::size_t, std::size_t) { return !guard.interrupted(); };
+    if (!command.ratio.empty())
+        return ratios(command, scene, options);
+    if (command.conserved)
+        return conserved(command, scene, options);
+    const auto device = open_device(command.device);
     std::optional<Progress> bar;
     options.progress = [&](std::size_t done, std::size_t total) {
         if (!bar)
@@ -134,6 +219,12 @@ void add_cost(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<CostCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
+    command
+        ->add_option("--methods", options->methods,
+                     "To try, or \"all\" (default: xpbd); without lists each by its own design, in float")
+        ->delimiter(',');
+    command->add_option("--rank", options->rank, "What cheaper means (default: wall)")
+        ->check(CLI::IsMember({"wall", "cpu", "work"}));
     command->add_option("--substeps", options->substeps, "To try (default: 1,2,5,10,20,50)")->delimiter(',');
     command->add_option("--iterations", options->iterations, "To try (default: 1,2,5,10)")->delimiter(',');
     command->add_option("--precision", options->precisions, "To try (default: float,double)")
@@ -142,6 +233,15 @@ void add_cost(CLI::App& app, Command& chosen)
     auto* at_rest = command->add_flag("--static", options->at_rest, "Compare the state at rest");
     auto* moving = command->add_flag("--moving", options->moving, "Compare the trajectory");
     at_rest->excludes(moving);
+    auto* ratio = command->add_option("--ratio", options->ratio,
+                                      "Instead: error against a growing ratio of masses or stiffnesses");
+    ratio->check(CLI::IsMember({"mass", "stiffness"}));
+    command->add_option("--ratios", options->ratios, "To try (default: 1,10,... to 1e5 or 1e6)")
+        ->delimiter(',')
+        ->needs(ratio);
+    auto* kept = command->add_flag("--conserved", options->conserved,
+                                   "Instead: energy and momentum against time, of a scene that keeps them");
+    kept->excludes(ratio);
     command->add_option("--frames", options->frames,
                         "Moving: frames compared at most (default: the scene's)");
     command->add_option("--rest-seconds", options->rest_seconds,
@@ -150,8 +250,10 @@ void add_cost(CLI::App& app, Command& chosen)
                         "Wall seconds after which a setting is not repeated (default: 2)");
     command->add_option("--reference-steps", options->reference_steps,
                         "Moving: steps times elements that the reference R3 may take (default: 1.5e9)");
-    command->add_option("--out", options->folder,
-                        "Folder for cost.csv, cost.json, cost.svg and cost_work.svg");
+    command->add_option(
+        "--out", options->folder,
+        "Folder for cost.csv, cost.json, cost.svg and cost_work.svg; with several methods also "
+        "for cost_substeps.svg and cost_iterations.svg");
     command->add_flag("--json", options->json, "Print the study as one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return cost(*options); }; });
 }

@@ -4,7 +4,9 @@
 // Departures: none.
 #include "taut/report/cost.hpp"
 
+#include "taut/report/cost_design.hpp"
 #include "taut/report/cost_reference.hpp"
+#include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
@@ -26,6 +28,8 @@ void check_input(const Scene& scene, const CostOptions& options)
         throw Error(ErrorCode::bad_input, "substeps to try must be a list of numbers from 1 to 1000.");
     if (bad(options.iterations))
         throw Error(ErrorCode::bad_input, "iterations to try must be a list of numbers from 1 to 1000.");
+    if (options.methods.empty())
+        throw Error(ErrorCode::bad_input, "methods to try must name at least one.");
     if (options.precisions.empty())
         throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
     if (!(options.rest_seconds >= 1 && options.rest_seconds <= 1e6))
@@ -39,6 +43,51 @@ Scene resolved(const Scene& scene)
     const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.mesh.positions.empty(); });
     return done ? scene : resolve(scene);
+}
+
+/// Whether a program has the method at all.
+bool built(MethodKind kind)
+{
+    try
+    {
+        find_method(kind);
+        return true;
+    }
+    catch (const Error&)
+    {
+        return false;
+    }
+}
+
+std::vector<MethodSettings> settings_to_try(const Scene& scene, const CostOptions& options)
+{
+    std::vector<MethodSettings> out;
+    for (const MethodKind kind : options.methods)
+        for (const Precision precision : options.precisions)
+        {
+            std::vector<MethodSettings> more = options.designed
+                                                   ? method_design(kind, precision, scene.method)
+                                                   : method_product(kind, precision, options, scene.method);
+            if (!built(kind))
+                more.resize(1); // one gap says it
+            out.insert(out.end(), more.begin(), more.end());
+        }
+    return out;
+}
+
+/// A setting that a method or a device cannot do is a gap; a lost device is not.
+bool is_refusal(ErrorCode code)
+{
+    switch (code)
+    {
+    case ErrorCode::bad_input:
+    case ErrorCode::no_device:
+    case ErrorCode::device_lost:
+    case ErrorCode::out_of_memory:
+    case ErrorCode::io:
+    case ErrorCode::kernel_compilation: return false;
+    default: return true;
+    }
 }
 
 class Study
@@ -57,6 +106,7 @@ public:
         out_.vertices = model_.mass.size();
         out_.constraints = model_.springs.size() + model_.hinges.size();
         out_.timestep = scene_.timestep;
+        out_.basis = options.basis;
         if (!at_rest() && cost::wanted_frames(scene_, options) == 0)
             throw Error(
                 ErrorCode::bad_input,
@@ -70,18 +120,15 @@ public:
         if (!at_rest() && out_.reference.verified)
             out_.frames = out_.reference.frames.size() - 1;
         choose_metric();
-        const std::size_t total =
-            options_.precisions.size() * options_.iterations.size() * options_.substeps.size();
-        for (const Precision precision : options_.precisions)
-            for (const std::uint32_t iterations : options_.iterations)
-                for (const std::uint32_t substeps : options_.substeps)
-                {
-                    out_.interrupted = out_.interrupted ||
-                                       (options_.progress && !options_.progress(out_.points.size(), total));
-                    out_.points.push_back(point(substeps, iterations, precision));
-                }
+        const std::vector<MethodSettings> all = settings_to_try(scene_, options_);
+        for (const MethodSettings& settings : all)
+        {
+            out_.interrupted =
+                out_.interrupted || (options_.progress && !options_.progress(out_.points.size(), all.size()));
+            out_.points.push_back(point(settings));
+        }
         if (options_.progress)
-            options_.progress(total, total);
+            options_.progress(all.size(), all.size());
         rank(out_);
         return std::move(out_);
     }
@@ -100,13 +147,15 @@ private:
             out_.reference.error = out_.reference.error_l;
     }
 
-    CostPoint point(std::uint32_t substeps, std::uint32_t iterations, Precision precision)
+    CostPoint point(const MethodSettings& settings)
     {
         CostPoint out;
-        out.substeps = substeps;
-        out.iterations = iterations;
-        out.precision = precision;
-        out.sweeps = static_cast<double>(substeps) * iterations / scene_.timestep;
+        out.method = settings.type;
+        out.substeps = settings.substeps;
+        out.iterations = settings.iterations;
+        out.precision = settings.precision == "float" ? Precision::float32 : Precision::float64;
+        out.settings = settings;
+        out.sweeps = static_cast<double>(out.substeps) * out.iterations / scene_.timestep;
         if (out_.interrupted)
         {
             out.status = Status::interrupted;
@@ -114,7 +163,7 @@ private:
         }
         else if (!out_.reference.verified)
             out.reason = "no reference to measure the error against";
-        else if (precision == Precision::float64 && !device_->limits().float64)
+        else if (out.precision == Precision::float64 && !device_->limits().float64)
             out.reason = "the device has no double";
         else
             try_setting(out);
@@ -125,15 +174,17 @@ private:
     {
         try
         {
-            Trial trial(scene_, device_, {out.substeps, out.iterations, out.precision});
+            Trial trial(scene_, device_, out.settings);
             measure_error(trial, out);
+            out.sweeps = trial.sweeps();
             if (out.error)
                 measure_time(trial, out);
         }
-        catch (const Error& error) // a setting that the device cannot hold is a gap; a lost device is not
+        catch (const Error& error)
         {
-            if (error.code() != ErrorCode::limit && error.code() != ErrorCode::unsupported)
+            if (!is_refusal(error.code()))
                 throw;
+            out.refused = to_string(error.code());
             out.reason = error.what();
         }
     }

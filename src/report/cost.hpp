@@ -1,7 +1,8 @@
 #pragma once
-// What accuracy costs: one scene under many settings of a method, each with its error against a
-// reference, its time and its work (docs/cost.md).
+// What accuracy costs: one scene under many settings of one or several methods, each with its error against
+// a reference, its time and its work (docs/cost.md).
 
+#include "taut/plan/methods.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/svg_plot.hpp"
 
@@ -22,8 +23,20 @@ enum class CostKind
     moving,  ///< e_traj against a trajectory
 };
 
+/// What "cheaper" means.
+enum class CostBasis
+{
+    wall,  ///< median wall time
+    cpu,   ///< process time: steadier on a busy machine; wall time on devices that have none
+    sweeps ///< machine-independent work
+};
+
 struct CostOptions
 {
+    std::vector<MethodKind> methods{MethodKind::xpbd};
+    /// Each method's own design (cost_design.hpp) instead of substeps x iterations.
+    bool designed = false;
+    CostBasis basis = CostBasis::wall;
     std::vector<std::uint32_t> substeps{1, 2, 5, 10, 20, 50}; ///< 1..1000 each
     std::vector<std::uint32_t> iterations{1, 2, 5, 10};       ///< 1..1000 each
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
@@ -40,7 +53,8 @@ struct CostOptions
 /// What errors are measured against.
 struct CostReference
 {
-    std::string name = "none";       ///< "R2", "R3", "R4 (self-convergence, same method)", "none"
+    /// "R2", "R3", "R4 (self-convergence, same method)", "R4 (self-convergence of vbd)", "none"
+    std::string name = "none";
     std::string text;                ///< one sentence: what it is and how far to trust it
     std::vector<std::string> passed; ///< why stronger classes were not taken
     bool verified = false;
@@ -55,6 +69,10 @@ struct CostPoint
     std::string method = "xpbd";
     std::uint32_t substeps = 1, iterations = 1;
     Precision precision = Precision::float32;
+    MethodSettings settings; ///< all of them
+    /// The word of the Error by which the method refused: "unsupported", "unstable_timestep", ...; else
+    /// empty.
+    std::string refused;
     Status status = Status::completed;
     std::string reason;
     std::optional<double> error;          ///< in the metric of the study
@@ -75,6 +93,14 @@ struct CostTarget
     std::optional<std::size_t> cheapest; ///< index of the point; empty when not reached
 };
 
+/// How one method fares.
+struct CostMethod
+{
+    std::string name;
+    std::vector<CostTarget> targets;
+    std::string refused; ///< why, when it refused every setting; else empty
+};
+
 struct CostStudy
 {
     std::string scene;
@@ -85,8 +111,10 @@ struct CostStudy
     double timestep = 0;
     std::size_t frames = 0; ///< moving: compared
     CostReference reference;
-    std::vector<CostPoint> points; ///< precision, then iterations, then substeps
+    CostBasis basis = CostBasis::wall;
+    std::vector<CostPoint> points; ///< method, then precision; with lists then iterations, then substeps
     std::vector<CostTarget> targets;
+    std::vector<CostMethod> methods; ///< in the order of points
     bool interrupted = false;
 
     /// At least one point has an error.
@@ -99,23 +127,48 @@ CostKind cost_kind(const Scene& scene);
 /// Throws Error{bad_input} for empty or impossible lists, and what World throws for every setting alike.
 CostStudy run_cost(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options = {});
 
-/// Sets pareto and at_floor of every point, and the targets. Errors within the reference's floor count as
-/// equal, so that only the cheapest of them is on the front.
+/// What a point costs on that basis.
+double price(const CostPoint& point, CostBasis basis);
+
+/// Sets pareto and at_floor of every point, and the targets, of all methods and of each. Errors within the
+/// reference's floor count as equal, so that only the cheapest of them is on the front.
 void rank(CostStudy& study);
 
-/// Three sentences: the cheapest setting for 10 %, 1 % and 0.1 %.
+/// Three sentences: the cheapest setting for 10 %, 1 % and 0.1 %. With several methods they name the method.
 std::vector<std::string> cost_sentences(const CostStudy& study);
 /// "20 substeps x 1 iteration in float"
 std::string setting_text(const CostPoint& point);
+/// Method by tolerance: what the cheapest setting costs and how many sweeps it makes, "-" where no setting
+/// reaches it, "R" where the method refused all. Rows of cells, the first is the head.
+std::vector<std::vector<std::string>> cost_table(const CostStudy& study);
 
 std::string cost_json(const CostStudy& study); ///< one object, indented
 std::string cost_csv(const CostStudy& study);  ///< a head and one row a point; gaps have empty fields
 enum class CostAxis
 {
-    time,
+    time, ///< on the study's basis, if that is a time
     sweeps
 };
-/// Work-precision diagram.
+/// Work-precision diagram. With several methods each has one line, through its own front.
 Plot cost_plot(const CostStudy& study, CostAxis axis);
+
+enum class CostSplit
+{
+    substeps,  ///< varied, at fixed iterations
+    iterations ///< varied, at fixed substeps
+};
+/// The errors of one method and its own choices along one axis.
+struct CostOrder
+{
+    std::string name;              ///< "mass_spring, integrator verlet"
+    std::uint32_t fixed = 1;       ///< the other count: the one with the most points
+    std::vector<PlotPoint> points; ///< x = count, y = error, ascending in x; gaps are left out
+    std::optional<double> order;   ///< observed: mean of the last two slopes between errors below 50 %
+                                   ///< and above the reference's floor
+};
+/// Families with at least two errors.
+std::vector<CostOrder> convergence(const CostStudy& study, CostSplit split);
+/// The same as a diagram, orders in the caption.
+Plot convergence_plot(const CostStudy& study, CostSplit split);
 
 } // namespace taut

@@ -1,14 +1,12 @@
 // A study as JSON, CSV and a diagram.
 #include "taut/report/cost.hpp"
 
+#include "taut/report/method_settings.hpp"
 #include "taut/version.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <limits>
 
 namespace taut {
 namespace {
@@ -30,12 +28,18 @@ const char* kind_word(const CostStudy& study)
     return study.kind == CostKind::at_rest ? "static" : "moving";
 }
 
+const char* basis_word(const CostStudy& study)
+{
+    return study.basis == CostBasis::wall ? "wall" : study.basis == CostBasis::cpu ? "cpu" : "sweeps";
+}
+
 Json setting_json(const CostPoint& point)
 {
     return {{"method", point.method},
             {"substeps", point.substeps},
             {"iterations", point.iterations},
-            {"precision", to_string(point.precision)}};
+            {"precision", to_string(point.precision)},
+            {"settings", Json::parse(settings_block(point.settings))}};
 }
 
 Json point_json(const CostStudy& study, const CostPoint& point)
@@ -56,14 +60,15 @@ Json point_json(const CostStudy& study, const CostPoint& point)
     json["simulated_seconds"] = point.simulated_seconds;
     json["pareto"] = point.pareto;
     json["status"] = to_string(point.status);
+    json["refused"] = point.refused.empty() ? Json(nullptr) : Json(point.refused);
     json["reason"] = point.reason;
     return json;
 }
 
-Json cheapest_json(const CostStudy& study)
+Json cheapest_json(const CostStudy& study, const std::vector<CostTarget>& targets)
 {
     Json json = Json::object();
-    for (const CostTarget& target : study.targets)
+    for (const CostTarget& target : targets)
     {
         Json& entry = json[number(target.tolerance)];
         if (!target.cheapest)
@@ -73,6 +78,17 @@ Json cheapest_json(const CostStudy& study)
         entry["error"] = *point.error;
         entry["ms_per_simulated_second"] = point.ms;
         entry["sweeps"] = point.sweeps;
+    }
+    return json;
+}
+
+Json methods_json(const CostStudy& study)
+{
+    Json json = Json::object();
+    for (const CostMethod& method : study.methods)
+    {
+        json[method.name] = {{"cheapest", cheapest_json(study, method.targets)}};
+        json[method.name]["refused"] = method.refused.empty() ? Json(nullptr) : Json(method.refused);
     }
     return json;
 }
@@ -121,63 +137,13 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
                                  point.pareto ? "1" : "0",
                                  point.at_floor ? "1" : "0",
                                  std::string(to_string(point.status)),
-                                 field(point.reason)};
+                                 field(point.reason),
+                                 field(settings_details(point.settings)),
+                                 point.refused};
     std::string row;
     for (const std::string& cell : cells)
         row += (row.empty() ? "" : ",") + cell;
     return row + "\n";
-}
-
-std::string metric_label(const CostStudy& study)
-{
-    if (study.metric == "e_L")
-        return "error e_L, largest distance over the diagonal";
-    return study.metric == "e_disp" ? "error e_disp, relative to the displacement at rest"
-                                    : "error e_traj, relative to the motion";
-}
-
-std::string series_name(const CostPoint& point)
-{
-    return std::string(to_string(point.precision)) + ", " + std::to_string(point.iterations) +
-           (point.iterations == 1 ? " iteration" : " iterations");
-}
-
-PlotPoint plot_point(const CostPoint& point, CostAxis axis, double floor)
-{
-    const double nothing = std::numeric_limits<double>::quiet_NaN();
-    PlotPoint out;
-    out.x = out.y = nothing;
-    out.label = std::to_string(point.substeps) + " x " + std::to_string(point.iterations);
-    out.floor = floor;
-    if (!point.error)
-    {
-        out.label += " (" + point.reason + ")";
-        return out;
-    }
-    out.x = axis == CostAxis::time ? point.ms : point.sweeps;
-    out.y = *point.error;
-    return out;
-}
-
-std::vector<std::string> captions(const CostStudy& study, CostAxis axis)
-{
-    std::vector<std::string> out{"Reference class " + study.reference.name + ". " + study.reference.text};
-    for (const std::string& passed : study.reference.passed)
-        out.push_back("Passed over: " + passed + ".");
-    const bool at_floor = std::any_of(study.points.begin(), study.points.end(),
-                                      [](const CostPoint& point) { return point.at_floor; });
-    if (at_floor)
-        out.push_back("Errors below " + number(10 * *study.reference.error, 2) +
-                      ", ten times the reference's own, are not told apart.");
-    const std::string span =
-        study.kind == CostKind::at_rest ? "at rest" : "over " + std::to_string(study.frames) + " frames";
-    out.push_back("Errors " + span + "; " + std::to_string(study.vertices) + " vertices, " +
-                  std::to_string(study.constraints) + " constraints; " + study.device.name + " (" +
-                  study.device.executor +
-                  "). Lines join settings of more and more substeps; labels are substeps x iterations.");
-    if (axis == CostAxis::time)
-        out.push_back("Wall time of step and wait, median of repetitions after warm-up.");
-    return out;
 }
 
 } // namespace
@@ -196,39 +162,25 @@ std::string cost_json(const CostStudy& study)
     json["constraints"] = study.constraints;
     json["status"] = to_string(study.interrupted ? Status::interrupted : Status::completed);
     json["reference"] = reference_json(study.reference);
+    json["basis"] = basis_word(study);
     json["points"] = Json::array();
     for (const CostPoint& point : study.points)
         json["points"].push_back(point_json(study, point));
-    json["cheapest"] = cheapest_json(study);
+    json["cheapest"] = cheapest_json(study, study.targets);
+    json["methods"] = methods_json(study);
     json["sentences"] = cost_sentences(study);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string cost_csv(const CostStudy& study)
 {
-    std::string out = "scene,executor,method,substeps,iterations,precision,error,error_metric,reference,"
-                      "reference_error,error_l,error_smoothed,ms_per_simulated_second,ms_least,"
-                      "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason\n";
+    std::string out =
+        "scene,executor,method,substeps,iterations,precision,error,error_metric,reference,"
+        "reference_error,error_l,error_smoothed,ms_per_simulated_second,ms_least,"
+        "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason,details,refused\n";
     for (const CostPoint& point : study.points)
         out += csv_row(study, point);
     return out;
-}
-
-Plot cost_plot(const CostStudy& study, CostAxis axis)
-{
-    Plot plot;
-    plot.title = "What accuracy costs: " + study.scene + ", xpbd";
-    plot.x_label = axis == CostAxis::time ? "wall time, ms per simulated second"
-                                          : "work, sweeps over all constraints per simulated second";
-    plot.y_label = metric_label(study);
-    for (const CostPoint& point : study.points)
-    {
-        if (plot.series.empty() || plot.series.back().name != series_name(point))
-            plot.series.push_back({series_name(point), {}});
-        plot.series.back().points.push_back(plot_point(point, axis, 10 * study.reference.error.value_or(0)));
-    }
-    plot.caption = captions(study, axis);
-    return plot;
 }
 
 } // namespace taut

@@ -1,6 +1,8 @@
 // Which settings are worth their price, and the answer in words.
 #include "taut/report/cost.hpp"
 
+#include "taut/report/method_settings.hpp"
+
 #include <algorithm>
 #include <charconv>
 
@@ -18,10 +20,50 @@ std::string number(double value)
 /// What counts for ranking: nothing is told apart below ten times the reference's own error.
 double ranked_error(const CostPoint& point, double floor) { return std::max(*point.error, floor); }
 
-bool beats(const CostPoint& a, const CostPoint& b, double floor)
+bool beats(const CostPoint& a, const CostPoint& b, double floor, CostBasis basis)
 {
     const double ea = ranked_error(a, floor), eb = ranked_error(b, floor);
-    return ea <= eb && a.ms <= b.ms && (ea < eb || a.ms < b.ms);
+    const double pa = price(a, basis), pb = price(b, basis);
+    return ea <= eb && pa <= pb && (ea < eb || pa < pb);
+}
+
+/// The cheapest points for 10 %, 1 % and 0.1 %, of one method or (empty) of all.
+std::vector<CostTarget> targets_of(const CostStudy& study, const std::string& method, double own)
+{
+    std::vector<CostTarget> out;
+    for (const double tolerance : {0.1, 0.01, 0.001})
+    {
+        CostTarget target{tolerance, std::nullopt};
+        double least = 0;
+        for (std::size_t i = 0; i < study.points.size(); ++i)
+        {
+            const CostPoint& point = study.points[i];
+            const bool counts = method.empty() || point.method == method;
+            const bool reached = counts && point.error && *point.error + own <= tolerance;
+            if (!reached || (target.cheapest && price(point, study.basis) >= least))
+                continue;
+            target.cheapest = i;
+            least = price(point, study.basis);
+        }
+        out.push_back(target);
+    }
+    return out;
+}
+
+/// Why a method refused all of its settings; empty when it did not.
+std::string refusal(const CostStudy& study, const std::string& method)
+{
+    std::string first;
+    for (const CostPoint& point : study.points)
+    {
+        if (point.method != method)
+            continue;
+        if (point.refused.empty())
+            return {};
+        if (first.empty())
+            first = point.refused + ": " + point.reason;
+    }
+    return first;
 }
 
 const CostPoint* most_accurate(const CostStudy& study)
@@ -33,38 +75,42 @@ const CostPoint* most_accurate(const CostStudy& study)
     return best;
 }
 
-std::string result_text(const CostPoint& point, const std::string& metric)
+std::string result_text(const CostStudy& study, const CostPoint& point)
 {
-    return setting_text(point) + ", " + number(point.ms) + " ms per simulated second (" + metric + " " +
-           number(100 * *point.error) + " %)";
+    const std::string details = settings_details(point.settings);
+    const std::string unit = study.basis == CostBasis::wall  ? " ms per simulated second"
+                             : study.basis == CostBasis::cpu ? " ms of CPU time per simulated second"
+                                                             : " sweeps per simulated second";
+    return (study.methods.size() > 1 ? point.method + ", " : "") + setting_text(point) +
+           (details.empty() ? "" : ", " + details) + ", " + number(price(point, study.basis)) + unit + " (" +
+           study.metric + " " + number(100 * *point.error) + " %)";
 }
 
 } // namespace
 
+double price(const CostPoint& point, CostBasis basis)
+{
+    if (basis == CostBasis::sweeps)
+        return point.sweeps;
+    return basis == CostBasis::cpu ? point.cpu_ms.value_or(point.ms) : point.ms;
+}
+
 void rank(CostStudy& study)
 {
     const double own = study.reference.error.value_or(0), floor = 10 * own;
+    study.methods.clear();
     for (CostPoint& point : study.points)
     {
         point.at_floor = point.error && *point.error < floor;
         point.pareto = point.error &&
                        std::none_of(study.points.begin(), study.points.end(), [&](const CostPoint& other) {
-                           return other.error && beats(other, point, floor);
+                           return other.error && beats(other, point, floor, study.basis);
                        });
+        if (study.methods.empty() || study.methods.back().name != point.method)
+            study.methods.push_back(
+                {point.method, targets_of(study, point.method, own), refusal(study, point.method)});
     }
-    study.targets.clear();
-    for (const double tolerance : {0.1, 0.01, 0.001})
-    {
-        CostTarget target{tolerance, std::nullopt};
-        for (std::size_t i = 0; i < study.points.size(); ++i)
-        {
-            const CostPoint& point = study.points[i];
-            const bool reached = point.error && *point.error + own <= tolerance;
-            if (reached && (!target.cheapest || point.ms < study.points[*target.cheapest].ms))
-                target.cheapest = i;
-        }
-        study.targets.push_back(target);
-    }
+    study.targets = targets_of(study, {}, own);
 }
 
 std::string setting_text(const CostPoint& point)
@@ -72,7 +118,9 @@ std::string setting_text(const CostPoint& point)
     const auto count = [](std::uint32_t n, const char* what) {
         return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
     };
-    return count(point.substeps, "substep") + " x " + count(point.iterations, "iteration") + " in " +
+    const std::string substeps = count(point.substeps, "substep");
+    const bool iterates = reads_iterations(method_named(point.method));
+    return substeps + (iterates ? " x " + count(point.iterations, "iteration") : "") + " in " +
            std::string(to_string(point.precision));
 }
 
@@ -84,13 +132,40 @@ std::vector<std::string> cost_sentences(const CostStudy& study)
     {
         const std::string percent = number(100 * target.tolerance) + " %";
         if (target.cheapest)
-            out.push_back(percent + ": " + result_text(study.points[*target.cheapest], study.metric) + ".");
+            out.push_back(percent + ": " + result_text(study, study.points[*target.cheapest]) + ".");
         else if (best)
-            out.push_back(percent + " is not reached; the best is " + result_text(*best, study.metric) + ".");
+            out.push_back(percent + " is not reached; the best is " + result_text(study, *best) + ".");
         else
             out.push_back(percent + " is not reached; no setting has an error.");
     }
     return out;
+}
+
+std::vector<std::vector<std::string>> cost_table(const CostStudy& study)
+{
+    std::vector<std::vector<std::string>> rows{{"method"}};
+    const bool counted = study.basis == CostBasis::sweeps;
+    for (const CostTarget& target : study.targets)
+        for (const char* what : {counted ? "sweeps/s" : "ms/s", counted ? "ms/s" : "sweeps/s", "setting"})
+            rows[0].push_back(number(100 * target.tolerance) + " %: " + what);
+    for (const CostMethod& method : study.methods)
+    {
+        rows.push_back({method.name});
+        for (const CostTarget& target : method.targets)
+        {
+            std::vector<std::string> cells(3, method.refused.empty() ? "-" : "R");
+            if (target.cheapest)
+            {
+                const CostPoint& point = study.points[*target.cheapest];
+                const std::string details = settings_details(point.settings);
+                cells = {number(price(point, study.basis)), number(counted ? point.ms : point.sweeps),
+                         std::to_string(point.substeps) + " x " + std::to_string(point.iterations) +
+                             (details.empty() ? "" : ", " + details)};
+            }
+            rows.back().insert(rows.back().end(), cells.begin(), cells.end());
+        }
+    }
+    return rows;
 }
 
 } // namespace taut

@@ -11,12 +11,10 @@
 namespace taut::cost {
 namespace {
 
-Scene with_setting(const Scene& resolved, const Setting& setting)
+Scene with_settings(const Scene& resolved, const MethodSettings& settings)
 {
     Scene scene = resolved;
-    scene.method.substeps = setting.substeps;
-    scene.method.iterations = setting.iterations;
-    scene.method.precision = std::string(to_string(setting.precision));
+    scene.method = settings;
     return scene;
 }
 
@@ -51,11 +49,21 @@ double median(std::vector<double> values)
 
 } // namespace
 
-Trial::Trial(const Scene& resolved, std::shared_ptr<Device> device, const Setting& setting)
-    : world_(with_setting(resolved, setting), std::move(device)),
+Trial::Trial(const Scene& resolved, std::shared_ptr<Device> device, const MethodSettings& settings)
+    : world_(with_settings(resolved, settings), std::move(device)),
       start_(world_.state()),
       x_(world_.positions())
 {}
+
+double Trial::sweeps() const
+{
+    const Plan& plan = world_.plan();
+    const SolverReport solved = world_.solver_report();
+    const double seconds = static_cast<double>(world_.steps()) * plan.timestep;
+    if (solved.solves > 0 && seconds > 0) // a product with the matrix visits every constraint, and forming it
+        return static_cast<double>(solved.iterations + solved.solves) / seconds;
+    return static_cast<double>(plan.substeps) * plan.iterations / plan.timestep;
+}
 
 bool Trial::advance(Motion& motion)
 {

@@ -6,12 +6,6 @@
 
 namespace taut::cost {
 
-struct Setting
-{
-    std::uint32_t substeps = 1, iterations = 1;
-    Precision precision = Precision::float32;
-};
-
 struct Motion
 {
     Frames frames; ///< the start and every sound frame; after settle(): the start and the last
@@ -40,7 +34,12 @@ struct RestRule
 class Trial
 {
 public:
-    Trial(const Scene& resolved, std::shared_ptr<Device> device, const Setting& setting);
+    /// The scene with these settings as its method. Throws what World throws.
+    Trial(const Scene& resolved, std::shared_ptr<Device> device, const MethodSettings& settings);
+
+    /// Per simulated second so far: visits of every constraint. Of methods that solve linear systems:
+    /// iterations and solves, counted by the device; call it before time().
+    double sweeps() const;
 
     Motion trajectory(std::size_t frames);
     /// Goes on from where the motion of this trial stands until it has that many frames after the start.

@@ -100,8 +100,39 @@ std::string polyline(const std::string& points, const std::string& style)
     return "<polyline points=\"" + points + "\" fill=\"none\" " + style + "/>\n";
 }
 
+std::string pixels(const PlotPoint& p, const Axis& x, const Axis& y)
+{
+    return fixed(x.at(p.x)) + "," + fixed(y.at(p.y));
+}
+
+/// All points small, those of its own front large and joined.
+std::string draw_own_front(const PlotSeries& series, std::size_t index, const Axis& x, const Axis& y)
+{
+    const std::string colour = kColours[index % kColours.size()];
+    std::vector<bool> front(series.points.size(), false);
+    std::string points, markers;
+    for (const FrontPoint& at : pareto_front({series}))
+    {
+        front[at.point] = true;
+        points += (points.empty() ? "" : " ") + pixels(series.points[at.point], x, y);
+    }
+    for (std::size_t i = 0; i < series.points.size(); ++i)
+    {
+        const PlotPoint& p = series.points[i];
+        if (!drawable(p))
+            continue;
+        const std::string name = series.name + (p.label.empty() ? "" : ", " + p.label);
+        const char* opacity = front[i] ? "1" : "0.45";
+        markers += "<g fill-opacity=\"" + std::string(opacity) + "\"><title>" + escaped(name) + "</title>" +
+                   marker(x.at(p.x), y.at(p.y), index, colour, front[i] ? 9 : 5) + "</g>\n";
+    }
+    return polyline(points, "stroke=\"" + colour + "\" stroke-width=\"2.60\"") + markers;
+}
+
 std::string draw_series(const PlotSeries& series, std::size_t index, const Axis& x, const Axis& y)
 {
+    if (series.own_front)
+        return draw_own_front(series, index, x, y);
     const std::string colour = kColours[index % kColours.size()];
     const std::string style = "stroke=\"" + colour + "\" stroke-width=\"1.20\" stroke-opacity=\"0.60\"";
     std::string lines, markers, points;
@@ -113,7 +144,7 @@ std::string draw_series(const PlotSeries& series, std::size_t index, const Axis&
             points.clear();
             continue;
         }
-        points += (points.empty() ? "" : " ") + fixed(x.at(p.x)) + "," + fixed(y.at(p.y));
+        points += (points.empty() ? "" : " ") + pixels(p, x, y);
         const std::string name = series.name + (p.label.empty() ? "" : ", " + p.label);
         markers += "<g><title>" + escaped(name) + "</title>" +
                    marker(x.at(p.x), y.at(p.y), index, colour, 8) + "</g>\n";

@@ -20,6 +20,7 @@ struct PlotSeries
     std::string name;              ///< in the legend
     std::vector<PlotPoint> points; ///< joined in this order; one that is not finite and positive breaks the
                                    ///< line and joins the gaps
+    bool own_front = false; ///< only those that no other of the series beats are joined, by a bold line
 };
 
 struct Plot

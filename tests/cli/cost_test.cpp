@@ -61,3 +61,47 @@ TEST_CASE("cost ends with 1 when nothing is sound and with 2 when the input is w
     CHECK(folder.taut({"cost", cloth, "--precision", "half"}).status == 2);
     CHECK(folder.taut({"cost", folder.file("empty.json", R"({"taut": 1})"), "--device", "cpu"}).status == 2);
 }
+
+TEST_CASE("cost compares methods by one table, and what a method refuses stands as R")
+{
+    const Folder folder;
+    const Result result = folder.taut(cost(folder.file("cloth.json", scenes::cloth()),
+                                           {"--methods", "pbd,xpbd", "--rank", "work", "--out", "study"}));
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    CHECK(result.out.find("cheapest by method") != std::string::npos);
+    CHECK(folder.list("study") == std::vector<std::string>{"cost.csv", "cost.json", "cost.svg",
+                                                           "cost_iterations.svg", "cost_substeps.svg",
+                                                           "cost_work.svg"});
+    const auto study = program::parse(program::read(folder / "study/cost.json"));
+    REQUIRE(study["points"].size() == 4);
+    CHECK(study["methods"].contains("pbd"));
+    CHECK(study["basis"] == "sweeps");
+    CHECK(folder.taut(cost(folder / "cloth.json", {"--methods", "xpdb"})).status == 2);
+}
+
+TEST_CASE("tune prints a method block that a scene takes, or says that nothing keeps the bound")
+{
+    const Folder folder;
+    const std::string cloth = folder.file("cloth.json", scenes::cloth());
+    const std::vector<std::string> common{"tune",     cloth, "--device", "cpu:serial",   "--methods", "xpbd",
+                                          "--frames", "4",   "--json",   "--prior-only", "--error"};
+    const auto with_bound = [&](const char* bound) {
+        std::vector<std::string> all = common;
+        all.push_back(bound);
+        return folder.taut(all);
+    };
+    const Result found = with_bound("0.3");
+    INFO(found.err);
+    REQUIRE(found.status == 0);
+    const auto result = program::parse(found.out);
+    for (const char* key :
+         {"method", "predicted_error", "confirmed_error", "ms_per_simulated_second", "rejected"})
+        CHECK(result.contains(key));
+    CHECK(result["method"]["type"] == "xpbd");
+    CHECK(result["confirmed_error"].get<double>() <= 0.3);
+    const Result none = with_bound("1e-12");
+    CHECK(none.status == 1);
+    CHECK(program::parse(none.out)["method"].is_null());
+    CHECK(with_bound("2").status == 2);
+}

@@ -1,0 +1,159 @@
+# Tables and sentences of README.md, from the CSV files beside it: awk -f facts.awk *_cost.csv precision.csv ...
+# A point counts as reaching a tolerance when its error plus the reference's own is within it, as in `taut cost`.
+
+function cells(line, out,    n, i, c, text, quoted) {
+    n = 1; text = ""; quoted = 0
+    for (i = 1; i <= length(line); ++i) {
+        c = substr(line, i, 1)
+        if (c == "\"") quoted = !quoted
+        else if (c == "," && !quoted) { out[n++] = text; text = "" }
+        else text = text c
+    }
+    out[n] = text
+    return n
+}
+function short(value) { return sprintf("%.3g", value) + 0 }
+function setting(at) {
+    return substeps[at] (substeps[at] == 1 ? " substep" : " substeps") \
+           (method[at] == "mass_spring" ? "" : " x " iterations[at]) (details[at] == "" ? "" : ", " details[at])
+}
+# The cheapest point of a problem (and method, unless empty) for a tolerance; 0 = none.
+function cheapest(problem, name, tolerance,    p, best) {
+    best = 0
+    for (p = first[problem]; p <= last[problem]; ++p)
+        if ((name == "" || method[p] == name) && error[p] != "" && error[p] + own[p] <= tolerance)
+            if (!best || cost[p] < cost[best]) best = p
+    return best
+}
+function refused_all(problem, name,    p, any) {
+    any = 0
+    for (p = first[problem]; p <= last[problem]; ++p)
+        if (method[p] == name) { if (refused[p] == "") return 0; any = 1 }
+    return any
+}
+function row(problem, name, tolerance,    p) {
+    p = cheapest(problem, name, tolerance)
+    if (p) return short(cost[p]) " (" short(sweeps[p]) ")"
+    return refused_all(problem, name) ? "R" : "-"
+}
+FNR == 1 {
+    split("", column)
+    n = cells($0, head)
+    for (i = 1; i <= n; ++i) column[head[i]] = i
+    problem = FILENAME
+    sub(/.*\//, "", problem); sub(/(_cost)?\.csv$/, "", problem)
+    problems[++problem_count] = problem
+    first[problem] = points + 1
+    next
+}
+{
+    cells($0, cell)
+    ++points
+    last[problem] = points
+    method[points] = cell[column["method"]]
+    substeps[points] = cell[column["substeps"]]; iterations[points] = cell[column["iterations"]]
+    precision[points] = cell[column["precision"]]
+    error[points] = cell[column["error"]]; metric[problem] = cell[column["error_metric"]]
+    class[problem] = cell[column["reference"]]
+    own[points] = cell[column["reference_error"]] + 0
+    cost[points] = cell[column["cpu_ms_per_simulated_second"]] + 0
+    sweeps[points] = cell[column["sweeps"]]
+    reason[points] = cell[column["reason"]]
+    details[points] = cell[column["details"]]; refused[points] = cell[column["refused"]]
+    if (column["ratio"]) ratio[points] = cell[column["ratio"]]
+    if (!(method[points] in known)) { known[method[points]] = 1; methods[++method_count] = method[points] }
+}
+function table(tolerance,    i, m, line) {
+    printf "\nWithin %g %%: CPU ms per simulated second (sweeps per simulated second).\n\n", 100 * tolerance
+    line = "| method |"
+    for (i = 1; i <= problem_count; ++i) if (is_problem(problems[i])) line = line " " problems[i] " |"
+    print line
+    gsub(/[^|]+/, "---", line); print line
+    for (m = 1; m <= method_count; ++m) {
+        line = "| " methods[m] " |"
+        for (i = 1; i <= problem_count; ++i)
+            if (is_problem(problems[i])) line = line " " row(problems[i], methods[m], tolerance) " |"
+        print line
+    }
+}
+function is_problem(name) { return name !~ /^(precision|ratio_mass|ratio_stiffness)$/ }
+function say_cheapest(problem, tolerance,    p) {
+    p = cheapest(problem, "", tolerance)
+    return p ? method[p] " (" setting(p) ", " short(cost[p]) " ms)" : "none"
+}
+# Where the explicit limit lies, and what it is worth to be below it.
+function say_explicit(problem,    p, least, most, one, other, m, q, why) {
+    least = 0; most = 0; why = ""
+    for (p = first[problem]; p <= last[problem]; ++p) {
+        if (method[p] != "mass_spring" || details[p] != "") continue
+        if (error[p] != "" && (!least || substeps[p] + 0 < least)) least = substeps[p] + 0
+        if (refused[p] == "unstable_timestep" && substeps[p] + 0 > most) most = substeps[p] + 0
+        if (refused[p] != "" && why == "") why = refused[p]
+    }
+    if (!least) return "mass_spring has no point" (why == "" ? "" : " (" why ")")
+    one = cheapest(problem, "mass_spring", 0.01); other = 0
+    for (m = 1; m <= method_count; ++m) {
+        if (methods[m] == "mass_spring") continue
+        q = cheapest(problem, methods[m], 0.01)
+        if (q && (!other || cost[q] < cost[other])) other = q
+    }
+    p = "the limit is met from " least " substep" (least == 1 ? "" : "s") " on" (most ? " (" most " are refused)" : "")
+    if (one && other) return p "; for 1 % mass_spring costs " short(cost[one]) " ms, the best other method, " \
+        method[other] ", " short(cost[other]) " ms: " short(cost[other] / cost[one]) " times as much"
+    if (one) return p "; for 1 % mass_spring costs " short(cost[one]) " ms, no other method gets there"
+    return p "; within 1 % it is not"
+}
+# What the modes of precision differ by, for each method at its most substeps.
+function say_precision(name,    p, q, best) {
+    best = 0
+    for (p = first["precision"]; p <= last["precision"]; ++p)
+        for (q = first["precision"]; q <= last["precision"]; ++q)
+            if (method[p] == name && method[q] == name && precision[p] == "float" && precision[q] == "double" &&
+                substeps[p] == substeps[q] && error[p] != "" && error[q] != "" &&
+                (!best || substeps[p] + 0 > substeps[best] + 0)) { best = p; twin = q }
+    if (!best) return "no setting that both have"
+    return "at " substeps[best] " substeps " short(100 * error[best]) " % in float, " short(100 * error[twin]) \
+           " % in double, which costs " short(cost[twin] / cost[best]) " times as much"
+}
+# Up to which ratio a method's error stays within 10 %.
+function say_ratio(problem, name,    p, held, next_one, text) {
+    held = ""; next_one = 0
+    for (p = first[problem]; p <= last[problem]; ++p) {
+        if (method[p] != name || details[p] != "") continue
+        if (!next_one && error[p] != "" && error[p] + 0 <= 0.1) held = ratio[p]
+        else if (!next_one) next_one = p
+    }
+    if (held == "" && !next_one) return "no setting"
+    text = held == "" ? "not within 10 % at all" : "within 10 % up to " held
+    if (next_one) {
+        if (error[next_one] != "") text = text "; at " ratio[next_one] " " short(100 * error[next_one]) " %"
+        else if (refused[next_one] != "") text = text "; at " ratio[next_one] " refused (" refused[next_one] ")"
+        else text = text "; at " ratio[next_one] " without a result: " reason[next_one]
+    }
+    return text
+}
+END {
+    print "### Which method is cheapest\n"
+    print "| problem | metric, reference | 10 % | 1 % | 0.1 % |\n|---|---|---|---|---|"
+    for (i = 1; i <= problem_count; ++i) {
+        p = problems[i]
+        if (is_problem(p))
+            print "| " p " | " metric[p] ", " class[p] " | " say_cheapest(p, 0.1) " | " say_cheapest(p, 0.01) \
+                  " | " say_cheapest(p, 0.001) " |"
+    }
+    table(0.1); table(0.01); table(0.001)
+    print "\n### Where the explicit limit is met\n"
+    for (i = 1; i <= problem_count; ++i)
+        if (is_problem(problems[i])) print "- " problems[i] ": " say_explicit(problems[i]) "."
+    if ("precision" in first) {
+        print "\n### What each precision buys\n"
+        for (m = 1; m <= method_count; ++m) print "- " methods[m] ": " say_precision(methods[m]) "."
+    }
+    split("ratio_mass ratio_stiffness", sweeps_of, " ")
+    for (i = 1; i <= 2; ++i) {
+        p = sweeps_of[i]
+        if (!(p in first)) continue
+        print "\n### Which method fails which ratio of " substr(p, 7) "\n"
+        for (m = 1; m <= method_count; ++m) print "- " methods[m] ": " say_ratio(p, methods[m]) "."
+    }
+}

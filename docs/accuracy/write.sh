@@ -1,0 +1,100 @@
+#!/bin/sh
+# Puts the studies of update.sh into this folder and writes README.md: write.sh PROGRAM SCRATCH
+set -eu
+program=$1 scratch=$2
+folder=docs/accuracy
+problems="spring chain_1 chain_100 chain_10000 net_17 net_33 cloth elastica slide"
+rm -f "$folder"/*.csv "$folder"/*.svg
+for name in $problems; do
+    cp "$scratch/$name/cost.csv" "$folder/${name}_cost.csv"
+    for file in cost cost_work cost_substeps cost_iterations; do
+        cp "$scratch/$name/$file.svg" "$folder/${name}_$file.svg"
+    done
+done
+cp "$scratch/precision/cost.csv" "$folder/precision.csv"
+cp "$scratch/precision/cost_substeps.svg" "$folder/precision.svg"
+for what in mass stiffness; do
+    cp "$scratch/ratio_$what/ratio_$what.csv" "$scratch/ratio_$what/ratio_$what.svg" "$folder"
+done
+for name in conserved conserved_free; do
+    cp "$scratch/$name/energy.svg" "$folder/${name}_energy.svg"
+done
+cp "$scratch/conserved_free/momentum.svg" "$folder/conserved_free_momentum.svg"
+
+quoted() { sed 's/^/    /' "$1"; }
+problem() # NAME TEXT
+{
+    echo
+    echo "### $1"
+    echo
+    echo "$2"
+    echo
+    quoted "$scratch/$1/command"
+    echo
+    grep '^reference\|^ *passed over' "$scratch/$1/text" | sed 's/^reference */Reference /; s/^ *passed/Passed/'
+    echo
+    echo "![error against CPU time, $1]($1_cost.svg)"
+    echo "![error against sweeps, $1]($1_cost_work.svg)"
+    echo "![error against substeps, $1]($1_cost_substeps.svg)"
+    echo "![error against iterations, $1]($1_cost_iterations.svg)"
+    echo
+    echo "All settings, refused ones with their reason: [CSV]($1_cost.csv)."
+}
+
+{
+    cat "$folder/head.md"
+    echo "Written by \`docs/accuracy/update.sh\` with $("$program" --version), commit" \
+         "$(git describe --always --dirty=' with changes' 2>/dev/null || echo unknown)," \
+         "on one core each of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)."
+    echo
+    echo "## In plain words"
+    echo
+    echo "<!-- from the tables; check.sh compares -->"
+    sh "$folder/facts.sh"
+    echo "<!-- end -->"
+    echo
+    echo "## Work-precision and convergence, problem by problem"
+    problem spring "One kilogram on a spring of 100 N/m: 38 frames a period."
+    problem chain_1 "Twenty links of 100000 N/m and 10 g each, at rest."
+    problem chain_100 "The same with a bob of 100 links."
+    problem chain_10000 "The same with a bob of 10000 links."
+    problem net_17 "A clamped net of 17 x 17 vertices, stretched by 5 %, let go under gravity, undamped."
+    problem net_33 "The same of 33 x 33 vertices, damped."
+    problem cloth "Cloth of 33 x 33 vertices, hung by two corners from level."
+    problem elastica "A heavy strip clamped level; density x gravity x length^3 / rigidity = 10."
+    problem slide "Cloth that falls freely, lands on a slope with friction and slides."
+    echo
+    echo "## Precision floor"
+    echo
+    quoted "$scratch/precision/command"
+    echo
+    echo "Modes: \`float\` (with positions in two floats) and \`double\`. Plain float positions, and float kernels with"
+    echo "a double residual, do not exist in the program; their floor cannot be shown."
+    echo
+    echo "![error against substeps in both precisions](precision.svg)"
+    for what in mass stiffness; do
+        echo
+        echo "## Ratio of $what"
+        echo
+        quoted "$scratch/ratio_$what/command"
+        echo
+        echo "![error against the ratio of $what](ratio_$what.svg)"
+    done
+    echo
+    echo "## Energy and momentum"
+    echo
+    for name in conserved conserved_free; do
+        quoted "$scratch/$name/command"
+        echo
+        sed '1d; s/^/- /' "$scratch/$name/text"
+        echo
+        echo "![energy against time](${name}_energy.svg)"
+        echo
+    done
+    echo "![momentum against time](conserved_free_momentum.svg)"
+    echo
+    echo "## Linear systems"
+    echo
+    echo "Errors and residuals of conjugate gradients, and times by format: [docs/linear.md](../linear.md)."
+} > "$scratch/README.md"
+mv "$scratch/README.md" "$folder/README.md"

@@ -1,0 +1,165 @@
+// taut tune: the cheapest method and setting that keeps an error.
+
+#include "taut/report/tune.hpp"
+#include "taut/cli/command.hpp"
+#include "taut/cli/device_option.hpp"
+#include "taut/cli/interrupt.hpp"
+#include "taut/cli/output.hpp"
+#include "taut/cli/progress.hpp"
+#include "taut/report/method_settings.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+
+namespace taut::cli {
+namespace {
+
+struct TuneCommand
+{
+    std::string scene, device;
+    std::vector<std::string> methods, precisions;
+    double error = 0.01;
+    std::optional<std::uint32_t> frames;
+    std::optional<double> rest_seconds, timing_seconds, reference_steps;
+    bool at_rest = false, moving = false, prior_only = false, json = false;
+};
+
+TuneOptions tune_options(const TuneCommand& command)
+{
+    TuneOptions options;
+    options.error = command.error;
+    if (!command.methods.empty())
+        options.methods = methods_listed(command.methods);
+    if (!command.precisions.empty())
+        options.precisions.clear();
+    for (const std::string& word : command.precisions)
+        options.precisions.push_back(word == "float" ? Precision::float32 : Precision::float64);
+    options.kind = command.at_rest  ? CostKind::at_rest
+                   : command.moving ? CostKind::moving
+                                    : CostKind::automatic;
+    options.frames = command.frames.value_or(static_cast<std::uint32_t>(options.frames));
+    options.rest_seconds = command.rest_seconds.value_or(options.rest_seconds);
+    options.timing_seconds = command.timing_seconds.value_or(options.timing_seconds);
+    options.reference_steps = command.reference_steps.value_or(options.reference_steps);
+    options.prior_only = command.prior_only;
+    return options;
+}
+
+std::string percent(double error) { return number(100 * error, 3) + " %"; }
+
+/// One row for each method and stage: how many fell there, and the first one's reason.
+std::string rejected_table(const TuneResult& result)
+{
+    struct Group
+    {
+        std::string method, stage, text;
+        std::size_t count;
+    };
+    std::vector<Group> groups;
+    for (const TuneRejection& rejection : result.rejected)
+    {
+        const auto same = [&](const Group& g) {
+            return g.method == rejection.settings.type && g.stage == rejection.stage;
+        };
+        const auto found = std::find_if(groups.begin(), groups.end(), same);
+        if (found != groups.end())
+            ++found->count;
+        else
+            groups.push_back({rejection.settings.type, rejection.stage,
+                              settings_text(rejection.settings) + ": " + rejection.reason, 1});
+    }
+    std::string text;
+    for (const Group& group : groups)
+        text += "  " + group.method + ", " + std::to_string(group.count) + " by " + group.stage +
+                (group.count > 1 ? "; the first: " : ": ") + group.text + "\n";
+    return text;
+}
+
+std::string found_text(const TuneResult& result)
+{
+    std::string text = "\"method\": " + settings_block(result.settings) + "\n";
+    text += "error      " + percent(result.confirmed_error) + " confirmed on " +
+            std::to_string(result.starts) + " starts, " + percent(result.predicted_error) + " predicted\n";
+    text += "time       ";
+    if (result.ms)
+        text += number(*result.ms, 3) + " ms per simulated second";
+    if (result.cpu_ms)
+        text += " (" + number(*result.cpu_ms, 3) + " ms of CPU time)";
+    text += (result.ms ? ", " : "") + number(result.predicted_ms, 3) + " ms predicted\n";
+    if (result.kept)
+        text += "This is the scene's own setting: nothing else is 10 % cheaper.\n";
+    return text;
+}
+
+std::string summary(const TuneResult& result)
+{
+    const std::string span =
+        result.kind == CostKind::at_rest ? "at rest" : "over " + std::to_string(result.frames) + " frames";
+    std::string text = "Cheapest setting of " + result.scene + " on " + result.device.name + " (" +
+                       result.device.executor + ") with " + result.metric + " of at most " +
+                       percent(result.bound) + " " + span + "\n";
+    text += "reference  " + result.reference.name + ": " + result.reference.text + "\n";
+    for (const std::string& passed : result.reference.passed)
+        text += "           passed over: " + passed + "\n";
+    text += result.found ? found_text(result) : "No setting keeps that error.\n";
+    for (const std::string& note : result.notes)
+        text += "note       " + note + "\n";
+    text += "rejected   " + std::to_string(result.rejected.size()) + " settings; " +
+            std::to_string(result.not_tried) + " dearer ones were not tried\n";
+    return text + rejected_table(result);
+}
+
+int tune_scene(const TuneCommand& command)
+{
+    std::vector<SceneIssue> issues;
+    const Scene scene = resolve(load_scene(command.scene), &issues);
+    const auto device = open_device(command.device);
+    TuneOptions options = tune_options(command);
+    const InterruptGuard guard;
+    std::optional<Progress> bar;
+    options.progress = [&](std::size_t done, std::size_t total) {
+        if (!bar)
+            bar.emplace(total);
+        bar->update(done);
+        return !guard.interrupted();
+    };
+    const TuneResult result = tune(scene, device, options);
+    bar.reset();
+    for (const SceneIssue& issue : issues)
+        warn((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
+    std::cout << (command.json ? tune_json(result) : summary(result));
+    return result.found ? kDone : kNotSound;
+}
+
+} // namespace
+
+void add_tune(CLI::App& app, Command& chosen)
+{
+    CLI::App* command =
+        app.add_subcommand("tune", "Find the cheapest method and setting that keeps an error");
+    const auto options = std::make_shared<TuneCommand>();
+    command->add_option("scene", options->scene, "Scene file (JSON)")->required();
+    add_device_option(*command, options->device);
+    command->add_option("--error", options->error, "Bound on the error, 0.01 is 1 % (default: 0.01)");
+    command->add_option("--methods", options->methods, "To try, or \"all\" (default: all)")->delimiter(',');
+    command->add_option("--precision", options->precisions, "To try (default: float,double)")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"float", "double"}));
+    auto* at_rest = command->add_flag("--static", options->at_rest, "Bound the error of the state at rest");
+    auto* moving = command->add_flag("--moving", options->moving, "Bound the error of the trajectory");
+    at_rest->excludes(moving);
+    command->add_option("--frames", options->frames, "Moving: frames compared at most (default: 120)");
+    command->add_option("--rest-seconds", options->rest_seconds,
+                        "Static: simulated seconds at most until rest (default: 30)");
+    command->add_option("--timing-seconds", options->timing_seconds,
+                        "Wall seconds after which a setting is not repeated (default: 2)");
+    command->add_option("--reference-steps", options->reference_steps,
+                        "Moving: steps times elements that a reference R3 may take (default: 1.5e9)");
+    command->add_flag("--prior-only", options->prior_only,
+                      "Go by predicted cost alone and time nothing: the same answer on every machine");
+    command->add_flag("--json", options->json, "Print the result as one JSON object");
+    command->callback([&chosen, options] { chosen = [options] { return tune_scene(*options); }; });
+}
+
+} // namespace taut::cli

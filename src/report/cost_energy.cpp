@@ -1,0 +1,170 @@
+#include "taut/report/cost_energy.hpp"
+
+#include "taut/report/cost_design.hpp"
+#include "taut/report/cost_reference.hpp"
+#include "taut/report/method_settings.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+std::string number(double value, int digits = 4)
+{
+    char text[40];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+    return std::string(text, end);
+}
+
+void check_conservative(const Scene& scene)
+{
+    const auto refuse = [](const char* what) {
+        throw Error(ErrorCode::bad_input,
+                    std::string(what) + ": energy is not kept; take it out of the scene.");
+    };
+    if (scene.bodies.empty())
+        refuse("bodies is empty");
+    if (scene.damping > 0)
+        refuse("damping is above 0");
+    if (!scene.colliders.empty())
+        refuse("there are colliders");
+    for (const Body& body : scene.bodies)
+    {
+        if (body.material.stretch_damping > 0)
+            refuse("stretch_damping is above 0");
+        for (const Pin& pin : body.pins)
+            if (!pin.motion.empty())
+                refuse("a pin moves");
+    }
+}
+
+/// Energies in J; `reference` grows to the largest kinetic energy.
+EnergyRun run_one(const Scene& scene, const std::shared_ptr<Device>& device, const MethodSettings& settings,
+                  std::size_t frames, double& reference)
+{
+    EnergyRun out{settings, {}, {}, ""};
+    try
+    {
+        Scene mine = scene;
+        mine.method = settings;
+        World world(mine, device);
+        for (std::size_t f = 0; f <= frames && out.reason.empty(); ++f)
+        {
+            if (f > 0)
+                world.step();
+            const StepReport report = measure(world);
+            const double energy = report.kinetic_energy + report.potential_energy;
+            if (report.status != Status::completed || !std::isfinite(energy))
+            {
+                out.reason = std::string(to_string(report.status)) + " in frame " + std::to_string(f);
+                break;
+            }
+            reference = std::max(reference, report.kinetic_energy);
+            out.energy.push_back(energy);
+            if (report.momentum_error >= 0)
+                out.momentum.push_back(report.momentum_error);
+        }
+    }
+    catch (const Error& error)
+    {
+        if (error.code() == ErrorCode::bad_input || error.code() == ErrorCode::device_lost)
+            throw;
+        out.reason = std::string(to_string(error.code())) + ": " + error.what();
+    }
+    if (out.momentum.size() < out.energy.size())
+        out.momentum.clear();
+    return out;
+}
+
+} // namespace
+
+EnergyStudy run_energy(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options)
+{
+    const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                                   [](const Body& body) { return body.mesh.positions.empty(); });
+    const Scene resolved = done ? scene : resolve(scene);
+    check_conservative(resolved);
+    EnergyStudy out{resolved.name, resolved.timestep, 0, {}};
+    const std::size_t frames = cost::wanted_frames(resolved, options);
+    for (const MethodKind kind : options.methods)
+        for (const Precision precision : options.precisions)
+            for (const MethodSettings& settings :
+                 options.designed ? method_design(kind, precision, resolved.method)
+                                  : method_product(kind, precision, options, resolved.method))
+                if (!(options.progress && !options.progress(out.runs.size(), 0)))
+                    out.runs.push_back(run_one(resolved, device, settings, frames, out.reference_energy));
+    for (EnergyRun& run : out.runs)
+    {
+        const double first = run.energy.empty() ? 0 : run.energy[0];
+        for (double& energy : run.energy)
+            energy = out.reference_energy > 0 ? (energy - first) / out.reference_energy : 0;
+    }
+    return out;
+}
+
+std::string energy_csv(const EnergyStudy& study)
+{
+    std::string out = "setting,time,energy,momentum\n";
+    for (const EnergyRun& run : study.runs)
+        for (std::size_t f = 0; f < run.energy.size(); ++f)
+            out += "\"" + settings_text(run.settings) + "\"," +
+                   number(static_cast<double>(f) * study.timestep, 6) + "," + number(run.energy[f]) + "," +
+                   (run.momentum.empty() ? "" : number(run.momentum[f])) + "\n";
+    return out;
+}
+
+Plot energy_plot(const EnergyStudy& study, Conserved what)
+{
+    Plot plot;
+    const bool energy = what == Conserved::energy;
+    plot.title = std::string(energy ? "Energy" : "Momentum") + " against time: " + study.scene;
+    plot.x_label = "time, s";
+    plot.y_label = energy ? "|E - E(0)| / E_ref" : "|P - P(0) - impulse| / (M v_ref)";
+    plot.front = false;
+    for (const EnergyRun& run : study.runs)
+    {
+        const std::vector<double>& values = energy ? run.energy : run.momentum;
+        PlotSeries series{settings_text(run.settings), {}};
+        for (std::size_t f = 1; f < values.size(); ++f)
+            if (values[f] != 0)
+                series.points.push_back(
+                    {static_cast<double>(f) * study.timestep, std::abs(values[f]), "", 0});
+        if (!series.points.empty())
+            plot.series.push_back(std::move(series));
+        if (!run.reason.empty())
+            plot.gaps.push_back(settings_text(run.settings) + ": " + run.reason);
+    }
+    if (energy)
+        plot.caption.push_back("E_ref = " + number(study.reference_energy) +
+                               " J, the largest kinetic energy of all runs.");
+    plot.caption.push_back(
+        "No reference: both are kept by the model itself (class R1). Zeros are not drawn.");
+    return plot;
+}
+
+std::vector<std::string> energy_sentences(const EnergyStudy& study)
+{
+    std::vector<std::string> out;
+    for (const EnergyRun& run : study.runs)
+    {
+        std::string text = settings_text(run.settings) + ": ";
+        if (!run.reason.empty())
+            text += run.reason;
+        else if (!run.energy.empty())
+        {
+            const double last = run.energy.back();
+            text +=
+                std::string(last < 0 ? "loses " : "gains ") + number(100 * std::abs(last), 3) + " % of E_ref";
+            if (!run.momentum.empty())
+                text += ", momentum off by at most " +
+                        number(*std::max_element(run.momentum.begin(), run.momentum.end()), 2);
+        }
+        out.push_back(text + ".");
+    }
+    return out;
+}
+
+} // namespace taut

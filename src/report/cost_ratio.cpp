@@ -1,0 +1,180 @@
+// Based on: the sweeps over mass and stiffness ratios of Macklin et al., Primal/Dual Descent Methods for
+//   Dynamics, 2020: stiffness ratios hurt methods on positions, mass ratios those on multipliers.
+// Departures: none.
+#include "taut/report/cost_ratio.hpp"
+
+#include "taut/plan/material.hpp"
+#include "taut/report/method_settings.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+namespace taut {
+namespace {
+
+constexpr double kGood = 0.1; ///< the error that a sentence calls held
+
+std::string number(double value)
+{
+    char text[40];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
+    return std::string(text, end);
+}
+
+const char* ratio_word(RatioKind kind) { return kind == RatioKind::mass ? "mass" : "stiffness"; }
+
+void make_heavier(Body& body, double ratio)
+{
+    std::vector<double> masses = vertex_masses(body);
+    if (!masses.empty())
+        masses.back() *= ratio;
+    body.vertex_masses = std::move(masses);
+}
+
+void make_stiffer(Body& body, double ratio)
+{
+    const auto half = static_cast<std::uint32_t>(body.mesh.positions.size() / 2);
+    std::vector<Body::Spring> springs;
+    for (const StretchElement& element : stretch_elements(body))
+    {
+        const bool stiff = element.a >= half && element.b >= half;
+        springs.push_back({element.a, element.b, element.rest_length,
+                           element.compliance / (stiff ? ratio : 1), element.kind});
+    }
+    body.springs = std::move(springs);
+    body.material.stretch_stiffness = 0;
+}
+
+/// What a point of one study has in common with points of the others.
+std::string key(const CostPoint& point) { return settings_text(point.settings); }
+
+/// Of one setting: its points, in the order of the ratios.
+struct Row
+{
+    std::string name, method;
+    std::vector<const CostPoint*> points;
+    std::vector<double> ratios;
+};
+
+std::vector<Row> rows_of(const RatioStudy& study)
+{
+    std::vector<Row> out;
+    for (std::size_t r = 0; r < study.studies.size(); ++r)
+        for (const CostPoint& point : study.studies[r].points)
+        {
+            auto found =
+                std::find_if(out.begin(), out.end(), [&](const Row& row) { return row.name == key(point); });
+            if (found == out.end())
+                found = out.insert(found, {key(point), point.method, {}, {}});
+            found->points.push_back(&point);
+            found->ratios.push_back(study.ratios[r]);
+        }
+    return out;
+}
+
+} // namespace
+
+Scene ratio_scene(const Scene& resolved, RatioKind kind, double ratio)
+{
+    Scene out = resolved;
+    for (Body& body : out.bodies)
+        kind == RatioKind::mass ? make_heavier(body, ratio) : make_stiffer(body, ratio);
+    return out;
+}
+
+std::vector<double> usual_ratios(RatioKind kind)
+{
+    std::vector<double> out{1, 10, 100, 1e3, 1e4, 1e5};
+    if (kind == RatioKind::stiffness)
+        out.push_back(1e6);
+    return out;
+}
+
+RatioStudy run_ratios(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options,
+                      RatioKind kind, const std::vector<double>& ratios)
+{
+    if (ratios.empty() || std::any_of(ratios.begin(), ratios.end(), [](double r) { return !(r > 0); }))
+        throw Error(ErrorCode::bad_input, "ratios to try must be a list of numbers above 0.");
+    RatioStudy out{scene.name, kind, ratios, {}};
+    for (const double ratio : ratios)
+    {
+        out.studies.push_back(run_cost(ratio_scene(scene, kind, ratio), device, options));
+        if (out.studies.back().interrupted)
+        {
+            out.ratios.resize(out.studies.size());
+            break;
+        }
+    }
+    return out;
+}
+
+std::vector<std::string> ratio_sentences(const RatioStudy& study)
+{
+    std::vector<std::string> out;
+    const std::string what = std::string(ratio_word(study.kind)) + " ratio of ";
+    for (const Row& row : rows_of(study))
+    {
+        std::size_t held = 0; // the unbroken beginning that is good
+        while (held < row.points.size() && row.points[held]->error && *row.points[held]->error <= kGood)
+            ++held;
+        std::string text = row.name + ": ";
+        text += held == 0 ? "above 10 % from the start"
+                          : "within 10 % up to a " + what + number(row.ratios[held - 1]);
+        if (held < row.points.size())
+        {
+            const CostPoint& next = *row.points[held];
+            text += "; at " + number(row.ratios[held]) + " ";
+            text += next.error             ? "the error is " + number(100 * *next.error) + " %"
+                    : next.refused.empty() ? "there is none: " + next.reason
+                                           : "it refuses (" + next.refused + ")";
+        }
+        out.push_back(text + ".");
+    }
+    return out;
+}
+
+std::string ratio_csv(const RatioStudy& study)
+{
+    std::string out;
+    for (std::size_t r = 0; r < study.studies.size(); ++r)
+    {
+        std::istringstream rows(cost_csv(study.studies[r]));
+        std::string row;
+        for (bool head = true; std::getline(rows, row); head = false)
+            if (!head || r == 0)
+                out += (head ? std::string("ratio") : number(study.ratios[r])) + "," + row + "\n";
+    }
+    return out;
+}
+
+Plot ratio_plot(const RatioStudy& study)
+{
+    Plot plot;
+    plot.title = "Error against the ratio of " + std::string(ratio_word(study.kind)) + ": " + study.scene;
+    plot.x_label = std::string(ratio_word(study.kind)) + " ratio";
+    plot.y_label = "error " + (study.studies.empty() ? "" : study.studies[0].metric);
+    plot.front = false;
+    for (const Row& row : rows_of(study))
+    {
+        PlotSeries series{row.name, {}};
+        std::string gaps;
+        for (std::size_t i = 0; i < row.points.size(); ++i)
+            if (row.points[i]->error)
+                series.points.push_back({row.ratios[i], *row.points[i]->error, "", 0});
+            else
+                gaps += (gaps.empty() ? " at " : ", ") + number(row.ratios[i]);
+        const auto gap = std::find_if(row.points.begin(), row.points.end(),
+                                      [](const CostPoint* point) { return !point->error; });
+        if (!gaps.empty())
+            plot.gaps.push_back(row.name + gaps + ": " + (*gap)->reason);
+        if (!series.points.empty())
+            plot.series.push_back(std::move(series));
+    }
+    for (std::size_t r = 0; r < study.studies.size(); ++r)
+        plot.caption.push_back("Ratio " + number(study.ratios[r]) + ": reference class " +
+                               study.studies[r].reference.name + ".");
+    return plot;
+}
+
+} // namespace taut

@@ -1,0 +1,33 @@
+#pragma once
+// A method's settings in words and as a block of a scene file.
+
+#include "taut/plan/methods.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace taut {
+
+/// A name of kMethodNames. Throws Error{bad_input} that lists them.
+MethodKind method_named(std::string_view name);
+std::string_view method_name(MethodKind kind);
+
+/// "xpbd,vbd" or "all", in the order of kMethodNames and each once. Throws Error{bad_input}.
+std::vector<MethodKind> methods_listed(const std::vector<std::string>& names);
+
+/// Whether the method repeats its substeps' solve (docs/scene.md, `iterations`).
+bool reads_iterations(MethodKind kind);
+
+/// What the method reads and is not as by default, beside substeps, iterations and precision:
+/// "integrator verlet, scheme spring_centric"; empty when all of it is.
+std::string settings_details(const MethodSettings& settings);
+
+/// One JSON object, on one line, that a scene takes as its `method`: type, substeps, iterations, precision
+/// and the details.
+std::string settings_block(const MethodSettings& settings);
+
+/// "vbd, 20 substeps x 2 iterations in float, start inertial"
+std::string settings_text(const MethodSettings& settings);
+
+} // namespace taut

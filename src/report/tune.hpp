@@ -1,0 +1,69 @@
+#pragma once
+// The cheapest method and setting for a scene, a device and a bound on the error (docs/tune.md).
+
+#include "taut/report/cost.hpp"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace taut {
+
+struct TuneOptions
+{
+    double error = 0.01;             ///< bound on e_traj or e_disp, (0, 1)
+    std::vector<MethodKind> methods; ///< empty: all
+    std::vector<Precision> precisions{Precision::float32, Precision::float64};
+    CostKind kind = CostKind::automatic;
+    std::size_t frames = 120;       ///< moving: of the last rung, at most; a reference may verify fewer
+    double rest_seconds = 30;       ///< at rest: simulated s at most until a setting must rest
+    double timing_seconds = 2;      ///< wall s after which no further repetition starts
+    double reference_steps = 1.5e9; ///< element steps of R3 at most, for each of three references
+    /// Price is the prior alone, with the default costs of a device: nothing is timed, the same on every
+    /// machine.
+    bool prior_only = false;
+    /// Called before each candidate; false stops, and what is left is not tried.
+    std::function<bool(std::size_t done, std::size_t total)> progress;
+};
+
+/// Where a candidate fell.
+struct TuneRejection
+{
+    MethodSettings settings;
+    std::string stage; ///< "filter", "race", "guard", "perturbed", "price"
+    std::string reason;
+    std::optional<double> error; ///< at the rung where it fell
+};
+
+struct TuneResult
+{
+    std::string scene;
+    DeviceInfo device;
+    CostKind kind = CostKind::moving;
+    std::string metric;
+    std::size_t frames = 0; ///< moving: of the last rung
+    double bound = 0;
+    CostReference reference;
+    bool found = false, interrupted = false;
+    bool kept = false; ///< the scene's own setting holds the bound and nothing is 10 % cheaper
+    MethodSettings settings;
+    double predicted_error = 0;       ///< on the scene's own start: what the race went by
+    double confirmed_error = 0;       ///< the worst of that and of the perturbed starts
+    std::size_t starts = 0;           ///< that it was confirmed on
+    double predicted_ms = 0;          ///< per simulated second, by the prior
+    std::optional<double> ms, cpu_ms; ///< timed, wall and process; empty with prior_only
+    std::vector<TuneRejection> rejected;
+    std::size_t not_tried = 0; ///< dearer ones
+    std::vector<std::string> notes;
+};
+
+/// Static filter, prices, race over rungs of 18, 48 and 120 frames with slack 3, 2, 1, guards, two perturbed
+/// starts, a margin of 0.8 and hysteresis of 10 %. Throws Error{bad_input} for impossible options.
+TuneResult tune(const Scene& scene, std::shared_ptr<Device> device, const TuneOptions& options = {});
+
+std::string tune_json(const TuneResult& result); ///< one object, indented
+
+} // namespace taut

@@ -1,0 +1,145 @@
+// Laws that every setting must keep, whatever its error on the scene.
+#include "taut/report/tune_parts.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace taut::tuning {
+namespace {
+
+constexpr int kFrames = 18;
+constexpr double kMomentum = 1e-3; ///< of M sqrt(g D)
+constexpr double kRest = 1e-5;     ///< of the diagonal
+
+std::string number(double value)
+{
+    char text[40];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 2).ptr;
+    return std::string(text, end);
+}
+
+/// Nothing but the bodies' own forces.
+Scene alone(const Scene& resolved, const MethodSettings& settings)
+{
+    Scene out = with_method(resolved, settings);
+    out.colliders.clear();
+    out.wind = Wind{};
+    out.damping = 0;
+    out.max_speed = 0;
+    for (Body& body : out.bodies)
+        body.velocity = {0, 0, 0};
+    return out;
+}
+
+bool finite(const std::vector<glm::dvec3>& values)
+{
+    return std::all_of(values.begin(), values.end(), [](const glm::dvec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    });
+}
+
+/// A number in [0, 1) from two small ones; the same on every machine.
+double chance(std::uint32_t number, std::uint32_t which)
+{
+    std::uint64_t x = 0x9e3779b97f4a7c15ull * (1000003ull * number + which + 1);
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+    return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
+}
+
+glm::dvec3 direction(std::uint32_t number, std::uint32_t which)
+{
+    const double z = 2 * chance(number, which) - 1;
+    const double turn = 2 * std::numbers::pi * chance(number, which + 1), r = std::sqrt(1 - z * z);
+    return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+} // namespace
+
+std::string momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
+                           const MethodSettings& settings)
+{
+    Scene scene = alone(resolved, settings);
+    if (glm::length(scene.gravity) == 0)
+        scene.gravity = {0, -9.81, 0};
+    for (Body& body : scene.bodies)
+        body.pins.clear();
+    const PhysicalModel model = make_model(scene);
+    const ErrorWeights weights = error_weights(model);
+    World world(scene, device);
+    for (int f = 0; f < kFrames; ++f)
+        world.step();
+    const std::vector<glm::dvec3> v = world.velocities();
+    if (!finite(v))
+        return "free fall: a velocity is not finite";
+    const double mass = std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
+    const double off = momentum_error(weights, v, model.velocity, mass * world.gravity_impulse(),
+                                      glm::length(scene.gravity));
+    return off <= kMomentum ? "" : "free fall: momentum is off by " + number(off) + " of M sqrt(g D)";
+}
+
+std::string rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
+                       const MethodSettings& settings)
+{
+    Scene scene = alone(resolved, settings);
+    const double weight = std::max(1.0, glm::length(scene.gravity)); // what forces are compared with
+    scene.gravity = {0, 0, 0};
+    for (Body& body : scene.bodies)
+    {
+        body.start_positions.clear();
+        for (Pin& pin : body.pins)
+            pin.motion.clear();
+    }
+    const PhysicalModel model = make_model(scene);
+    std::vector<glm::dvec3> force(model.mass.size(), glm::dvec3(0));
+    add_forces(model, model.start, force);
+    for (std::size_t i = 0; i < force.size(); ++i)
+        if (!model.pinned[i] && glm::length(force[i]) > 1e-6 * weight * model.mass[i])
+            return {};
+    World world(scene, device);
+    for (int f = 0; f < kFrames; ++f)
+        world.step();
+    const std::vector<glm::dvec3> x = world.positions();
+    if (!finite(x))
+        return "rest: a position is not finite";
+    const ErrorWeights weights = error_weights(model);
+    const double moved = weights.diameter > 0 ? largest_error(weights, x, model.start) : 0;
+    return moved <= kRest ? "" : "rest: a vertex wandered " + number(moved) + " of the diagonal";
+}
+
+Scene perturbed(const Scene& resolved, std::uint32_t number)
+{
+    Scene out = resolved;
+    const PhysicalModel model = make_model(resolved);
+    std::vector<glm::dvec3> held;
+    for (const ModelPin& pin : model.pins)
+        held.push_back(model.start[pin.vertex]);
+    const double size = model.diameter;
+    const glm::dvec3 along = direction(number, 0), push = direction(number, 2);
+    const double phase = 2 * std::numbers::pi * chance(number, 4);
+    std::size_t vertex = 0;
+    for (Body& body : out.bodies)
+    {
+        const std::size_t count = body.mesh.positions.size();
+        body.start_positions.assign(model.start.begin() + static_cast<std::ptrdiff_t>(vertex),
+                                    model.start.begin() + static_cast<std::ptrdiff_t>(vertex + count));
+        for (glm::dvec3& x : body.start_positions)
+        {
+            double share = 1; // 0 at pins, 1 from a quarter of the size on
+            for (const glm::dvec3& pin : held)
+                share = std::min(share, 4 * glm::distance(x, pin) / size);
+            if (size > 0)
+                x += 1e-3 * size * share * std::sin(std::numbers::pi * glm::dot(along, x) / size + phase) *
+                     push;
+        }
+        vertex += count;
+    }
+    return out;
+}
+
+} // namespace taut::tuning

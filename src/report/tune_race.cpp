@@ -1,0 +1,108 @@
+// One candidate against one reference, with a harder bound on every longer rung.
+// Based on: Jamieson, Talwalkar, Non-stochastic Best Arm Identification and Hyperparameter Optimization,
+//   2016 (successive halving: short runs sort out most).
+// Departures: candidates come in the order of their price, and the first that passes ends the race.
+#include "taut/report/tune_parts.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace taut::tuning {
+
+using cost::Motion;
+
+namespace {
+
+constexpr std::size_t kRungs[] = {18, 48};
+constexpr double kSlack[] = {1, 2, 3}; ///< counted from the last rung
+
+std::string percent(double value)
+{
+    char text[40];
+    const auto end = std::to_chars(text, text + sizeof text, 100 * value, std::chars_format::general, 3).ptr;
+    return std::string(text, end) + " %";
+}
+
+double error_of(const Start& start, const Frames& frames)
+{
+    const Frames& all = start.reference.frames;
+    const bool at_rest = start.metric == "e_disp";
+    if (start.metric == "e_L")
+        return start.weights.diameter > 0
+                   ? largest_error(start.weights, frames.back(), all[std::min(frames.size(), all.size()) - 1])
+                   : 0;
+    if (at_rest)
+        return *displacement_error(start.weights, frames.back(), all.back(), all.front());
+    const Frames reference(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(frames.size()));
+    return trajectory_error(start.weights, frames, reference).value_or(0);
+}
+
+std::vector<std::size_t> rungs(std::size_t last)
+{
+    std::vector<std::size_t> out;
+    for (const std::size_t rung : kRungs)
+        if (rung < last)
+            out.push_back(rung);
+    out.push_back(last);
+    return out;
+}
+
+/// Fills `lap` and says whether the rung is passed.
+bool passes(const Start& start, const Motion& motion, double bound, Lap& lap)
+{
+    if (!motion.reason.empty())
+    {
+        lap.reason = motion.reason;
+        return false;
+    }
+    lap.error = error_of(start, motion.frames);
+    if (*lap.error <= bound)
+        return true;
+    lap.reason = "error " + percent(*lap.error) + " is above " + percent(bound);
+    if (lap.frames > 0)
+        lap.reason += " after " + std::to_string(lap.frames) + " frames";
+    return false;
+}
+
+} // namespace
+
+Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, CostKind kind,
+                 const CostOptions& options)
+{
+    Start out{resolved, make_model(resolved), {}, {}, {}};
+    out.weights = error_weights(out.model);
+    const cost::Question question{out.scene, out.model, out.weights, options, device};
+    const bool at_rest = kind == CostKind::at_rest;
+    out.reference = at_rest ? cost::reference_at_rest(question) : cost::reference_of_motion(question);
+    const auto& frames = out.reference.frames;
+    const bool moves = std::any_of(frames.begin(), frames.end(), [&](const auto& x) {
+        return distance_by_mass(out.weights, x, frames[0]) > 0;
+    });
+    out.metric = !moves ? "e_L" : at_rest ? "e_disp" : "e_traj";
+    return out;
+}
+
+Lap run_lap(const Start& start, const std::shared_ptr<Device>& device, const MethodSettings& settings,
+            CostKind kind, double bound, double rest_seconds)
+{
+    Lap out;
+    cost::Trial trial(start.scene, device, settings);
+    if (kind == CostKind::at_rest)
+    {
+        const Motion motion = trial.settle({start.weights, &start.reference.frames.back(), rest_seconds});
+        passes(start, motion, bound, out);
+        return out;
+    }
+    Motion motion;
+    const std::vector<std::size_t> all = rungs(start.reference.frames.size() - 1);
+    for (std::size_t r = 0; r < all.size(); ++r)
+    {
+        out.frames = all[r];
+        trial.extend(motion, all[r]);
+        if (!passes(start, motion, kSlack[all.size() - 1 - r] * bound, out))
+            break;
+    }
+    return out;
+}
+
+} // namespace taut::tuning
