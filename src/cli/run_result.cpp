@@ -85,6 +85,7 @@ Json to_json(const RunResult& result)
     json["primal_residual"] = report.primal_residual;
     json["dual_residual"] = report.dual_residual;
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
+    json["active_share"] = report.active_share >= 0 ? Json(report.active_share) : Json(nullptr);
     json["torn"] = report.torn;
     json["position_hash"] = hex(report.position_hash);
     json["folder"] = result.folder;

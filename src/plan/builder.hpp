@@ -60,6 +60,7 @@ struct PbdBuffers
 struct ForceBuffers;
 struct BlockBuffers;
 
+struct Acad;
 struct ImplicitConstraints;
 struct ImplicitEuler; // implicit_euler.cpp
 
@@ -130,6 +131,7 @@ public:
     std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
     std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< null: nothing is constrained
     std::shared_ptr<ImplicitEuler> implicit_euler; ///< under that method
+    std::shared_ptr<Acad> acad;                                ///< likewise
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp

@@ -1,5 +1,6 @@
 // The table of effects: what a step can contain, when a scene calls for it, what it adds.
 
+#include "taut/plan/acad.hpp"
 #include "taut/plan/builder.hpp"
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/implicit_constraints.hpp"
@@ -304,6 +305,8 @@ bool any_elements(const Scene& scene) { return any_stretch(scene) || any_bending
 
 constexpr MethodSet kVbd = only(MethodKind::vbd);
 constexpr MethodSet kMassSpring = only(MethodKind::mass_spring);
+constexpr MethodSet kConstraints = only(MethodKind::implicit_constraints);
+constexpr MethodSet kAcad = only(MethodKind::acad);
 
 constexpr Effect kEffects[] = {
     {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr,
@@ -311,10 +314,13 @@ constexpr Effect kEffects[] = {
     {"external_force", Stage::force, [](const Scene& s) { return has_bodies(s) && s.external_forces; },
      prepare_external_force, record_external_force},
     {"wind", Stage::force, wants_wind, prepare_wind, record_wind},
-    {"spring_force", Stage::force, any_stretch, prepare_spring_force, record_spring_force, kMassSpring},
-    {"hinge_force", Stage::force, any_bending, prepare_hinge_force, record_hinge_force, kMassSpring},
+    {"acad", Stage::force, any_stretch, prepare_acad, record_acad_forces, kAcad},
+    {"spring_force", Stage::force, any_stretch, prepare_spring_force, record_spring_force,
+     kMassSpring | kConstraints},
+    {"hinge_force", Stage::force, any_bending, prepare_hinge_force, record_hinge_force,
+     kMassSpring | kConstraints | kAcad},
     {"force_kick", Stage::force, [](const Scene& s) { return has_bodies(s) && wants_kick(s); },
-     prepare_force_kick, record_force_kick, kMassSpring},
+     prepare_force_kick, record_force_kick, kMassSpring | kConstraints | kAcad},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
     {"vbd_start", Stage::start, any_elements, prepare_vbd, record_vbd_start, kVbd},
@@ -334,11 +340,12 @@ constexpr Effect kEffects[] = {
      },
      prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
     {"implicit_constraints", Stage::solve, any_stretch, prepare_implicit_constraints,
-     record_implicit_constraints, only(MethodKind::implicit_constraints)},
+     record_implicit_constraints, kConstraints},
     {"implicit_euler", Stage::start, any_elements, prepare_implicit_euler, record_implicit_start,
      only(MethodKind::implicit_euler)},
     {"implicit_euler", Stage::solve, any_elements, nullptr, record_implicit_step,
      only(MethodKind::implicit_euler)},
+    {"acad", Stage::solve, any_stretch, nullptr, record_acad_solve, kAcad},
     {"strain_limit", Stage::contact, any_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, any_attachment, prepare_attachment, record_attachment},
     {"vbd_start", Stage::contact, any_elements, nullptr, record_vbd_mark, kVbd},

@@ -16,8 +16,8 @@
 #include "taut/kernels/constraint_spread.hpp"
 #include "taut/kernels/constraint_total.hpp"
 #include "taut/plan/methods.hpp"
+#include "taut/plan/stability.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/runtime/base/shown.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -100,23 +100,31 @@ void check_constrained_lengths(const Scene& scene)
 void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
 {
     check_constrained_lengths(scene);
+    bool forces = false;
     for (std::size_t body = 0; body < scene.bodies.size(); ++body)
     {
         const std::string where = "bodies[" + std::to_string(body) + "]";
-        if (scene.bodies[body].material.bending_stiffness > 0 && !scene.bodies[body].mesh.triangles.empty())
-            throw Error(ErrorCode::unsupported,
-                        where + ".material.bending_stiffness is " +
-                            shown(scene.bodies[body].material.bending_stiffness) +
-                            ", but method.type \"implicit_constraints\" has no hinges "
-                            "yet; set it to 0");
         for (const StretchElement& e : stretch_elements(scene.bodies[body]))
-            if (!may_be_constrained(scene, e))
-                throw Error(
-                    ErrorCode::unsupported,
-                    where + " has springs that are not structural, and method.constrained is \"" +
-                        scene.method.constrained +
-                        "\", but springs as forces beside constraints are not there yet; take \"all\"");
+        {
+            forces = forces || acts_as_force(scene, e);
+            if (acts_as_force(scene, e) && !(e.compliance > 0))
+                throw Error(ErrorCode::unsupported,
+                            where + ": the spring between the vertices " + std::to_string(e.a) + " and " +
+                                std::to_string(e.b) +
+                                " is rigid, but method.constrained leaves it a spring; give it a finite "
+                                "stiffness, or take method.constrained \"all\"");
+        }
+        const auto hinges = bend_elements(scene.bodies[body]);
+        forces = forces || !hinges.empty();
+        if (std::any_of(hinges.begin(), hinges.end(), [](const BendElement& e) { return !(e.compliance > 0); }))
+            throw Error(ErrorCode::unsupported, where + ".material.bending_stiffness is infinite; under "
+                                                        "method.type \"implicit_constraints\" hinges are "
+                                                        "forces: give a finite one");
     }
+    if (forces && scene.method.integrator != "semi_implicit")
+        throw Error(ErrorCode::unsupported, "method.integrator is \"" + scene.method.integrator +
+                                                "\", but forces beside constraints are stepped by "
+                                                "\"semi_implicit\" only");
 }
 
 std::vector<double> row_compliances(const PlanBuilder& b, std::span<const StretchElement> springs)

@@ -138,6 +138,12 @@ void warn_of_growth(PlanBuilder& b)
 
 } // namespace
 
+void add_inner_forces(PlanBuilder& b, std::string_view effect, std::uint32_t springs)
+{
+    forces(b).springs = springs;
+    add_force_buffer(b, effect);
+}
+
 void check_mass_spring(const Scene& scene, const DeviceTraits&) { refuse_rigid(scene); }
 
 bool wants_forces_after(const Scene& scene) { return scene.method.integrator == "verlet"; }
@@ -157,7 +163,8 @@ void prepare_spring_force(PlanBuilder& b)
     std::vector<StretchElement> elements;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
         for (const StretchElement& e : acting_springs(b, body))
-            elements.push_back(e);
+            if (acts_as_force(b.scene, e))
+                elements.push_back(e);
     ForceBuffers& f = forces(b);
     f.springs = static_cast<std::uint32_t>(elements.size());
     if (elements.empty())

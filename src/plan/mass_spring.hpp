@@ -19,6 +19,9 @@ struct ForceBuffers
     std::uint32_t hinge_start = kNoBuffer, hinge_incident = kNoBuffer, hinge_records = kNoBuffer;
 };
 
+/// For a method that forms the forces of its springs itself: makes the buffer.
+void add_inner_forces(PlanBuilder& builder, std::string_view effect, std::uint32_t springs);
+
 /// As refuse_rigid.
 void check_mass_spring(const Scene& resolved, const DeviceTraits&);
 

@@ -1,5 +1,6 @@
 #include "taut/plan/methods.hpp"
 
+#include "taut/plan/acad.hpp"
 #include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/mass_spring.hpp"
@@ -20,7 +21,8 @@ constexpr Method kMethods[] = {
     // kind                            iteration      guess   check                       substeps
     {MethodKind::mass_spring,          false,         false,  check_mass_spring,          stable_substeps},
     {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       nullptr},
-    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, nullptr},
+    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, stable_substeps},
+    {MethodKind::acad,                 false,         false,  check_acad,                 stable_substeps},
     {MethodKind::pbd,                  true,          false,  check_pbd,                  nullptr},
     {MethodKind::xpbd,                 true,          false,  nullptr,                    nullptr},
     {MethodKind::vbd,                  false,         true,   check_vbd,                  nullptr},

@@ -91,6 +91,14 @@ struct PlanSolver
     std::uint32_t log = kNoBuffer;   ///< counts over the whole run: layout::SolveLog
 };
 
+/// Springs that are constraints as long as they need be (acad).
+struct PlanActive
+{
+    std::uint32_t buffer = kNoBuffer; ///< where their number in the last substep stands, a uint32
+    std::uint64_t offset = 0;         ///< bytes
+    std::uint32_t candidates = 0;     ///< springs that may be
+};
+
 /// A pinned vertex that moves.
 struct MovingPin
 {
@@ -128,6 +136,7 @@ struct Plan
     std::vector<MovingPin> moving_pins;
     std::vector<PlanWarning> warnings;
     std::vector<PlanSolver> solvers;
+    PlanActive active;
 
     /// Further buffers that carry something from one step to the next (flags, histories): part of
     /// a world's state.

@@ -46,6 +46,12 @@ std::vector<bool> held_by_pins(const Body& body)
 
 } // namespace
 
+bool acts_as_force(const Scene& scene, const StretchElement& spring)
+{
+    return method_of(scene) != MethodKind::implicit_constraints ||
+           !(scene.method.constrained == "all" || spring.kind == SpringKind::structural);
+}
+
 RateBounds rate_bounds(const std::vector<StretchElement>& springs, const std::vector<BendElement>& hinges,
                        const std::vector<double>& mass, const std::vector<bool>& held,
                        std::span<const glm::dvec3> x)
@@ -81,7 +87,8 @@ RateBounds rate_bounds(const Scene& resolved)
     RateBounds out;
     for (const Body& body : resolved.bodies)
     {
-        const auto springs = stretch_elements(body);
+        auto springs = stretch_elements(body);
+        std::erase_if(springs, [&](const StretchElement& e) { return !acts_as_force(resolved, e); });
         const auto hinges = bend_elements(body);
         const auto mass = vertex_masses(body);
         const auto held = held_by_pins(body);

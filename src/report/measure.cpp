@@ -389,6 +389,7 @@ StepReport measure(const World& world)
     out.torn = world.torn();
     out.position_hash = hash_of(world.state());
     out.solver = world.solver_report();
+    out.active_share = world.active_share();
     judge(view, out);
     return out;
 }

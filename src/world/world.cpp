@@ -231,6 +231,15 @@ SolverReport World::solver_report() const
 
 std::uint64_t World::torn() const { return impl_->torn; }
 
+double World::active_share() const
+{
+    const PlanActive& active = impl_->plan.active;
+    if (active.buffer == kNoBuffer || active.candidates == 0)
+        return -1;
+    const auto rows = impl_->device->read<std::uint32_t>(impl_->buffers[active.buffer], 1, active.offset);
+    return static_cast<double>(rows.front()) / active.candidates;
+}
+
 BufferPtr World::position_buffer() const
 {
     return impl_->plan.position == kNoBuffer ? nullptr : impl_->buffers[impl_->plan.position];

@@ -64,6 +64,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"constraint_product", 4, "three products and their sums, twice; partial sums as dot"},
     {"constraint_matrix", 3, "a dot product, a product and a sum"},
     {"constraint_total", 1, "one sum"},
+    {"acad_force", 6, "as spring_force"},
     {"acad_begin", 0, "integers"},
     {"acad_flag", 0, "flags, and multipliers that stay or become zero"},
     {"acad_touch", 0, "integers"},

@@ -1,0 +1,253 @@
+// ACAD: springs beyond a strain become implicit constraints, and go back when they need not be.
+//
+// Based on:
+//   Va, Choi, Hong. Real-Time Cloth Simulation Using Compute Shader in Unity3D for AR/VR Contents. Applied
+//   Sciences 11(17), 2021, and the same authors 2022 (adaptive constraint activation and deactivation).
+// Departures: the rule that a spring goes back by the sign of what its multiplier is beyond the spring's own
+//   force, and the target L (1 + strain), which injects no speed, are ours to choose (docs/methods/acad.md);
+//   compressed springs stay springs.
+
+#include "taut/plan/acad.hpp"
+
+#include "taut/kernels/acad_begin.hpp"
+#include "taut/kernels/acad_flag.hpp"
+#include "taut/kernels/acad_force.hpp"
+#include "taut/kernels/acad_rows.hpp"
+#include "taut/kernels/acad_scan.hpp"
+#include "taut/kernels/acad_scatter.hpp"
+#include "taut/kernels/acad_store.hpp"
+#include "taut/kernels/acad_touch.hpp"
+#include "taut/kernels/constraint_rows.hpp"
+#include "taut/kernels/constraint_spread.hpp"
+#include "taut/kernels/shared/active_rows.h"
+#include "taut/plan/mass_spring.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+constexpr const char* kEffect = "acad";
+constexpr std::uint64_t kWord = 4;
+
+/// A strain as a sum of two floats, for parameters.
+struct Strain
+{
+    explicit Strain(double value)
+        : high(static_cast<float>(value)),
+          low(static_cast<float>(value - static_cast<double>(high)))
+    {}
+    float high, low;
+};
+
+/// Lengths below which a row is released by strain; none where multipliers decide.
+double release_strain(const Scene& scene)
+{
+    return scene.method.release == "strain" ? scene.method.release_strain : -1;
+}
+
+double target_length(const Scene& scene, const StretchElement& e)
+{
+    return scene.method.target == "rest" ? e.rest_length : e.rest_length * (1 + scene.method.activate_strain);
+}
+
+std::uint32_t size_of(const Acad& a) { return static_cast<std::uint32_t>(a.elements.size()); }
+std::uint32_t vertex_chunk(const PlanBuilder& b, const Acad& a)
+{
+    return linear::make_grid(b.plan.vertex_count, a.groups).chunk;
+}
+/// Of the list of vertices with rows: there are twice as many at most as rows.
+std::uint32_t listed_chunk(const Acad& a) { return 2 * a.chunk; }
+
+template <typename Real>
+void add_spring_records(PlanBuilder& b, Acad& a)
+{
+    using Record = layout::Spring<Real>;
+    std::vector<Record> springs, ends;
+    std::vector<Real> inverses, hold;
+    std::vector<StretchElement> targets = a.elements;
+    const std::vector<double> compliances = row_compliances(b, a.elements);
+    for (std::size_t k = 0; k < targets.size(); ++k)
+    {
+        const StretchElement& e = a.elements[k];
+        const std::uint32_t may = may_be_constrained(b.scene, e);
+        springs.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(1 / e.compliance),
+                           static_cast<Real>(e.damping), may});
+        targets[k].rest_length = target_length(b.scene, e);
+        inverses.push_back(static_cast<Real>(inverse_diagonal(b, e, compliances[k])));
+        hold.push_back(static_cast<Real>((targets[k].rest_length - e.rest_length) / e.compliance));
+    }
+    for (const std::uint32_t entry : a.at.entries)
+    {
+        ends.push_back(springs[entry / 2]);
+        ends.back().kind = entry / 2 * 2 + springs[entry / 2].kind;
+        if (entry % 2 == 1)
+            std::swap(ends.back().a, ends.back().b);
+    }
+    a.springs = b.add_buffer<Record>(kEffect, "springs", springs);
+    a.ends = b.add_buffer<Record>(kEffect, "spring ends", ends);
+    a.candidates = add_row_records(b, kEffect, targets, compliances);
+    a.inverses = b.add_buffer<Real>(kEffect, "inverses of springs", inverses);
+    a.hold = b.add_buffer<Real>(kEffect, "forces at the threshold", hold);
+    a.rows.records = b.add_buffer(kEffect, "active rows", springs.size() * sizeof(Record));
+}
+
+void add_choice_buffers(PlanBuilder& b, Acad& a)
+{
+    const std::uint64_t springs = size_of(a), vertices = b.plan.vertex_count;
+    const std::uint64_t real = b.real_size();
+    a.rows.start = b.add_buffer<std::uint32_t>(kEffect, "springs at a vertex, start", a.at.start);
+    a.rows.incident = b.add_buffer<std::uint32_t>(kEffect, "springs at a vertex", a.at.entries);
+    a.rows.direction = b.add_buffer(kEffect, "row directions", springs * 4 * real);
+    a.rows.spread = b.add_buffer(kEffect, "moves of vertices", vertices * 4 * real);
+    a.rows.list = b.add_buffer(kEffect, "vertices of rows", (vertices + 1) * kWord);
+    a.rows.place = b.add_buffer(kEffect, "rows of springs", springs * kWord);
+    a.row_list = b.add_buffer(kEffect, "springs of rows", (springs + 1) * kWord);
+    a.flags = b.add_buffer(kEffect, "flags", (springs + 1) * kWord);
+    a.multiplier = b.add_buffer(kEffect, "multipliers", springs * real);
+    a.touched = b.add_buffer(kEffect, "ends of constraints", vertices * kWord);
+    a.sums = b.add_buffer(kEffect, "sums of groups", 2 * std::uint64_t(a.groups) * kWord);
+    std::vector<std::uint32_t> control(TAUT_ACAD_WORDS, 0);
+    for (const std::size_t word : {TAUT_ACAD_CHOOSE, TAUT_ACAD_SCAN, TAUT_ACAD_SOLVE, TAUT_ACAD_ONCE})
+        control[word + 1] = control[word + 2] = 1;
+    a.control = b.add_buffer<std::uint32_t>(kEffect, "acad control", control);
+    if (b.plan.iterations > 1)
+        a.total = b.add_buffer(kEffect, "multipliers of the substep", springs * real);
+    PlanBuffer& events = b.plan.buffers[b.plan.events]; // with room for the count of this method
+    events.bytes = TAUT_EVENT_WORDS * kWord;
+}
+
+/// Adds a pass under the gate of three words of the control buffer.
+template <typename Params>
+void gated(PlanBuilder& b, const Acad& a, std::string_view kernel, std::string_view variant,
+           std::span<const Use> uses, const Params& params, std::uint32_t groups, std::uint32_t gate)
+{
+    b.dispatch_indirect(kEffect, kernel, variant, uses, params, groups, a.control, gate * kWord);
+}
+
+void record_choice(PlanBuilder& b, Acad& a)
+{
+    const std::uint32_t springs = size_of(a), n = b.plan.vertex_count;
+    const Strain on(b.scene.method.activate_strain), off(release_strain(b.scene));
+    const Use begin[] = {{b.plan.events, 0}, {a.control, 0}, {a.flags}};
+    b.dispatch(kEffect, "acad_begin", "", begin, kernels::acad_begin::Params{1, a.groups, springs}, 1);
+    const Use flag[] = {{a.springs}, {b.plan.position, 2}, {b.plan.low, 2}, {a.flags}, {a.multiplier}, {a.sums}};
+    gated(b, a, "acad_flag", "", flag,
+          kernels::acad_flag::Params{springs, a.chunk, a.groups, on.high, on.low, off.high, off.low}, a.groups,
+          TAUT_ACAD_CHOOSE);
+    const Use touch[] = {{a.rows.start}, {a.rows.incident}, {a.flags}, {a.touched}, {a.sums}};
+    gated(b, a, "acad_touch", "", touch, kernels::acad_touch::Params{n, vertex_chunk(b, a), a.groups}, a.groups,
+          TAUT_ACAD_CHOOSE);
+    const Use scan[] = {{a.sums},      {a.control},      {a.solve->control(b)},  {a.row_list},
+                        {a.rows.list}, {a.rows.records}, {a.solve->partials(b)}, {a.solve->curvatures(b)}};
+    gated(b, a, "acad_scan", "", scan, kernels::acad_scan::Params{springs, a.chunk, a.groups}, 1,
+          TAUT_ACAD_SCAN);
+    const Use rows[] = {{a.flags}, {a.sums}, {a.row_list}, {a.rows.place}};
+    gated(b, a, "acad_scatter", "place", rows, kernels::acad_scatter::Params{springs, a.chunk, 0, a.groups},
+          a.groups, TAUT_ACAD_CHOOSE);
+    const Use vertices[] = {{a.touched}, {a.sums}, {a.rows.list}};
+    gated(b, a, "acad_scatter", "", vertices,
+          kernels::acad_scatter::Params{n, vertex_chunk(b, a), a.groups, a.groups}, a.groups, TAUT_ACAD_CHOOSE);
+}
+
+} // namespace
+
+void check_acad(const Scene& scene, const DeviceTraits&)
+{
+    refuse_rigid(scene);
+    check_constrained_lengths(scene);
+    if (scene.method.integrator != "semi_implicit")
+        throw Error(ErrorCode::unsupported, "method.integrator is \"" + scene.method.integrator +
+                                                "\", but method.type \"acad\" steps by \"semi_implicit\" only");
+}
+
+void prepare_acad(PlanBuilder& b)
+{
+    auto a = std::make_shared<Acad>();
+    std::vector<std::uint32_t> corners;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (const StretchElement& e : acting_springs(b, body))
+        {
+            a->elements.push_back(e);
+            a->damped = a->damped || e.damping > 0;
+            corners.insert(corners.end(), {e.a, e.b});
+        }
+    if (a->elements.empty())
+        return;
+    a->at = incidence_of(b.plan.vertex_count, corners, 2);
+    a->rows.count = size_of(*a);
+    a->groups = linear::group_count_for(a->rows.count, b.paper()->info());
+    a->chunk = linear::make_grid(a->rows.count, a->groups).chunk;
+    check_row_trips(b, a->at, std::max(vertex_chunk(b, *a), listed_chunk(*a)));
+    with_real(b.plan.precision, [&](auto zero) { add_spring_records<decltype(zero)>(b, *a); });
+    add_choice_buffers(b, *a);
+    const BufferPtr inverse =
+        b.paper()->make_buffer(a->rows.count * b.real_size(), "inverses of rows", BufferUse::device);
+    a->solve.emplace(b, kEffect, std::make_shared<ConstraintOperator>(b, a->rows),
+                     linear::Preconditioning{linear::Preconditioner::jacobi, inverse, nullptr});
+    a->solve->use_part(b, a->control, TAUT_ACAD_SOLVE * kWord, TAUT_ACAD_ONCE * kWord);
+    b.plan.kept.insert(b.plan.kept.end(), {a->flags, a->multiplier});
+    b.plan.active = {a->control, TAUT_ACAD_ROWS * kWord,
+                     static_cast<std::uint32_t>(std::count_if(
+                         a->elements.begin(), a->elements.end(),
+                         [&](const StretchElement& e) { return may_be_constrained(b.scene, e); }))};
+    add_inner_forces(b, kEffect, a->rows.count);
+    b.acad = std::move(a);
+}
+
+void record_acad_forces(PlanBuilder& b, const Moment& moment)
+{
+    if (!b.acad)
+        return;
+    Acad& a = *b.acad;
+    const std::uint32_t n = b.plan.vertex_count, each = 2 * size_of(a) / n + 1;
+    const Strain on(b.scene.method.activate_strain), off(release_strain(b.scene));
+    std::vector<Use> uses = {{a.rows.start},      {a.ends, each},          {b.plan.position, 1 + each},
+                             {b.plan.low, 1 + each}, {b.forces->force},    {b.plan.events, 0},
+                             {a.flags, each}};
+    if (a.damped)
+        uses.push_back({b.plan.velocity, 1 + each});
+    b.dispatch(kEffect, "acad_force", a.damped ? "damped" : "", uses,
+               kernels::acad_force::Params{n, moment.substep + 1 == b.plan.substeps, size_of(a), on.high, on.low,
+                                           off.high, off.low},
+               n);
+    record_choice(b, a);
+}
+
+void record_acad_solve(PlanBuilder& b, const Moment& moment)
+{
+    if (!b.acad)
+        return;
+    Acad& a = *b.acad;
+    const std::uint32_t springs = size_of(a), further = moment.iteration > 0;
+    const bool last = moment.iteration + 1 == b.plan.iterations, kept = a.total != kNoBuffer;
+    const Use copy[] = {{a.row_list}, {a.candidates}, {a.inverses}, {a.multiplier},
+                        {a.rows.records}, {a.solve->x()}, {a.solve->inverse()}};
+    gated(b, a, "acad_rows", "", copy, kernels::acad_rows::Params{springs, a.chunk, further}, a.groups,
+          TAUT_ACAD_SOLVE);
+    std::vector<Use> uses = {{a.rows.records},        {b.plan.position, 2}, {b.plan.delta, 2},
+                             {b.plan.step_values, 0}, {b.plan.events, 0},   {a.rows.direction},
+                             {a.solve->b()}};
+    if (kept)
+        uses.push_back({a.total});
+    gated(b, a, "constraint_rows", kept ? "kept" : "", uses,
+          kernels::constraint_rows::Params{springs, a.chunk, further, moment.last}, a.groups, TAUT_ACAD_SOLVE);
+    a.solve->record(b);
+    std::vector<Use> store = {{a.row_list}, {a.solve->x()},        {a.multiplier},          {a.flags},
+                              {a.hold},     {a.solve->state(), 0}, {b.plan.step_values, 0}};
+    if (kept)
+        store.push_back({a.total});
+    const std::uint32_t release = last && b.scene.method.release == "multiplier";
+    gated(b, a, "acad_store", kept ? "total" : "", store,
+          kernels::acad_store::Params{springs, a.chunk, further, release}, a.groups, TAUT_ACAD_SOLVE);
+    const Use moved[] = {{a.rows.start}, {a.rows.incident}, {a.rows.direction}, {a.solve->x()},
+                         {b.plan.position}, {b.plan.delta}, {a.rows.list},      {a.rows.place}};
+    gated(b, a, "constraint_spread", "listed_apply", moved,
+          kernels::constraint_spread::Params{b.plan.vertex_count, listed_chunk(a)}, a.groups, TAUT_ACAD_SOLVE);
+}
+
+} // namespace taut
