@@ -2,8 +2,9 @@
 // hold the length is released.
 //
 // Based on: methods of active sets; docs/methods/acad.md (released when lambda < k tau L).
-// Departures: none.
-// Bytes per row (float): 16 read, 8 written; with TOTAL 4 more written.
+// Departures: lambda is the mean of this substep and the one before. A substep that pulls an overshoot back
+//   leaves the speed of that, and the next takes it away with a multiplier that is as much too small.
+// Bytes per row (float): 20 read, 8 written; with TOTAL 4 more read and written.
 //! variant total TOTAL=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
@@ -14,18 +15,19 @@ PARAMS
     uint count; // most rows there may be
     uint chunk; // of them a group
     uint further; // 1: not the first solve of the substep
-    uint release; // 1: after the last solve, where multipliers decide
+    uint last;    // 1: the last solve of the substep
+    uint release; // 1: multipliers decide
 };
 
 READ(0, uint, row_list);
 UPDATE(1, real, x);
-UPDATE(2, real, multiplier); // kg m, a spring: of all solves of the substep
+UPDATE(2, real, multiplier); // kg m, a spring: of all solves of the substep before; 0: it was no constraint
 UPDATE(3, uint, flags);
 READ(4, real, hold); // N, a spring: its own force at the length that the constraint aims at
 READ_ONE(5, CgState, state);
 READ_ONE(6, StepValues, step_values);
 #if TOTAL
-WRITE(7, real, total); // a row
+UPDATE(7, real, total); // kg m, a row: of the solves of this substep so far
 #endif
 
 GROUP_KERNEL(TAUT_LINEAR_GROUP)
@@ -39,15 +41,17 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     EACH_BEGIN(begin, end)
     uint s = row_list[i + 1u];
     real found = solved ? x[i] : real(0);
-    real sum = further != 0u ? multiplier[s] + found : found;
+    real sum = found;
     x[i] = found;
-    multiplier[s] = sum;
 #if TOTAL
+    sum = further != 0u ? total[i] + found : found;
     total[i] = sum;
 #endif
-    if (release != 0u)
+    if (last != 0u)
     {
-        if (sum < hold[s] * (h * h))
+        real before = multiplier[s];
+        multiplier[s] = sum;
+        if (release != 0u && before != real(0) && sum + before < real(2) * (hold[s] * (h * h)))
             flags[s] = TAUT_ACAD_RELEASED;
     }
     EACH_END

@@ -2,7 +2,7 @@
 // the rule stands here and compares squares that nobody may rearrange.
 //
 // Based on: Va, Choi, Hong. Real-time Cloth Simulation Using Compute Shader (ACAD), docs/methods/acad.md.
-// Departures: stretched springs only; one that was released stays a spring for a substep at least.
+// Departures: stretched springs only.
 #ifndef TAUT_SHARED_ACAD_GLSL
 #define TAUT_SHARED_ACAD_GLSL
 
@@ -23,7 +23,7 @@ uint acad_next(uint flag, bool may, rvec3 d, real rest_length, real activate, re
     PRECISE real lower = rest_length * release;
     bool longer = may && rest_length > real(0) && squared > upper * upper;
     bool shorter = squared < lower * lower;
-    bool row = flag == TAUT_ACAD_ROW ? !shorter : longer && flag == TAUT_ACAD_SPRING;
+    bool row = flag == TAUT_ACAD_ROW ? !shorter : longer;
     return row ? TAUT_ACAD_ROW : TAUT_ACAD_SPRING;
 }
 

@@ -3,9 +3,9 @@
 // Based on:
 //   Va, Choi, Hong. Real-Time Cloth Simulation Using Compute Shader in Unity3D for AR/VR Contents. Applied
 //   Sciences 11(17), 2021, and the same authors 2022 (adaptive constraint activation and deactivation).
-// Departures: the rule that a spring goes back by the sign of what its multiplier is beyond the spring's own
-//   force, and the target L (1 + strain), which injects no speed, are ours to choose (docs/methods/acad.md);
-//   compressed springs stay springs.
+// Departures: the rule that a spring goes back when its multiplier, the mean of two substeps, is less than the
+//   spring's own force, and the target L (1 + strain), which injects no speed, are ours to choose
+//   (docs/methods/acad.md); compressed springs stay springs.
 
 #include "taut/plan/acad.hpp"
 
@@ -241,9 +241,9 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
                               {a.hold},     {a.solve->state(), 0}, {b.plan.step_values, 0}};
     if (kept)
         store.push_back({a.total});
-    const std::uint32_t release = last && b.scene.method.release == "multiplier";
+    const std::uint32_t release = b.scene.method.release == "multiplier";
     gated(b, a, "acad_store", kept ? "total" : "", store,
-          kernels::acad_store::Params{springs, a.chunk, further, release}, a.groups, TAUT_ACAD_SOLVE);
+          kernels::acad_store::Params{springs, a.chunk, further, last, release}, a.groups, TAUT_ACAD_SOLVE);
     const Use moved[] = {{a.rows.start}, {a.rows.incident}, {a.rows.direction}, {a.solve->x()},
                          {b.plan.position}, {b.plan.delta}, {a.rows.list},      {a.rows.place}};
     gated(b, a, "constraint_spread", "listed_apply", moved,

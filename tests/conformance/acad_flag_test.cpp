@@ -54,8 +54,7 @@ TEMPLATE_TEST_CASE("acad_flag finds the springs beyond their threshold and count
         const double rest = static_cast<double>(s.rest_length), stretch = rest > 0 ? length / rest - 1 : 1;
         REQUIRE((rest == 0 || std::abs(stretch - activate) > 1e-6)); // the thresholds are not what is tested
         const bool was = flags[r] == TAUT_ACAD_ROW;
-        bool now = was ? !(stretch < release)
-                       : flags[r] == TAUT_ACAD_SPRING && s.kind == 1 && rest > 0 && stretch > activate;
+        bool now = was ? !(stretch < release) : s.kind == 1 && rest > 0 && stretch > activate;
         if (r < dealt.count)
         {
             flags[r] = now ? TAUT_ACAD_ROW : TAUT_ACAD_SPRING;

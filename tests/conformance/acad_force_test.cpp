@@ -30,8 +30,7 @@ TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and 
             s.rest_length = static_cast<Real>(length / (1 + random.uniform(-0.02, 0.1)));
         const double stretch = length / static_cast<double>(s.rest_length) - 1;
         const std::uint32_t before = awake != 0 ? flags[k] : TAUT_ACAD_SPRING;
-        row[k] = before == TAUT_ACAD_ROW ||
-                 (before == TAUT_ACAD_SPRING && k % 5 != 0 && s.rest_length > 0 && stretch > 0.05);
+        row[k] = before == TAUT_ACAD_ROW || (k % 5 != 0 && s.rest_length > 0 && stretch > 0.05);
     }
     net.incidence(count, start, incident);
     auto ends = net.ends(incident);
