@@ -56,7 +56,8 @@ KERNEL(count)
         rvec3 speed = rvec3(real(0));
 #endif
         uint before = awake ? flags[s.kind >> 1u] : TAUT_ACAD_SPRING;
-        bool row = acad_next(before, (s.kind & 1u) != 0u, d, s.rest_length, activate, release) == TAUT_ACAD_ROW;
+        bool may = (s.kind & 1u) != 0u;
+        bool row = acad_next(before, may, d, s.rest_length, activate, release) == TAUT_ACAD_ROW;
         rvec3 f = spring_force(s.rest_length, s.stiffness, s.damping, d, speed);
         sum += row ? rvec3(real(0)) : f;
         // Each spring is met at both ends; the lower one counts it.

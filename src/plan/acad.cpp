@@ -3,8 +3,8 @@
 // Based on:
 //   Va, Choi, Hong. Real-Time Cloth Simulation Using Compute Shader in Unity3D for AR/VR Contents. Applied
 //   Sciences 11(17), 2021, and the same authors 2022 (adaptive constraint activation and deactivation).
-// Departures: the rule that a spring goes back when its multiplier, the mean of two substeps, is less than the
-//   spring's own force, and the target L (1 + strain), which injects no speed, are ours to choose
+// Departures: the rule that a spring goes back when its multiplier, the mean of two substeps, is less than
+//   the spring's own force, and the target L (1 + strain), which injects no speed, are ours to choose
 //   (docs/methods/acad.md); compressed springs stay springs.
 
 #include "taut/plan/acad.hpp"
@@ -135,13 +135,14 @@ void record_choice(PlanBuilder& b, Acad& a)
     const Strain on(b.scene.method.activate_strain), off(release_strain(b.scene));
     const Use begin[] = {{b.plan.events, 0}, {a.control, 0}, {a.flags}};
     b.dispatch(kEffect, "acad_begin", "", begin, kernels::acad_begin::Params{1, a.groups, springs}, 1);
-    const Use flag[] = {{a.springs}, {b.plan.position, 2}, {b.plan.low, 2}, {a.flags}, {a.multiplier}, {a.sums}};
+    const Use flag[] = {{a.springs}, {b.plan.position, 2}, {b.plan.low, 2},
+                        {a.flags},   {a.multiplier},       {a.sums}};
     gated(b, a, "acad_flag", "", flag,
-          kernels::acad_flag::Params{springs, a.chunk, a.groups, on.high, on.low, off.high, off.low}, a.groups,
-          TAUT_ACAD_CHOOSE);
+          kernels::acad_flag::Params{springs, a.chunk, a.groups, on.high, on.low, off.high, off.low},
+          a.groups, TAUT_ACAD_CHOOSE);
     const Use touch[] = {{a.rows.start}, {a.rows.incident}, {a.flags}, {a.touched}, {a.sums}};
-    gated(b, a, "acad_touch", "", touch, kernels::acad_touch::Params{n, vertex_chunk(b, a), a.groups}, a.groups,
-          TAUT_ACAD_CHOOSE);
+    gated(b, a, "acad_touch", "", touch, kernels::acad_touch::Params{n, vertex_chunk(b, a), a.groups},
+          a.groups, TAUT_ACAD_CHOOSE);
     const Use scan[] = {{a.sums},      {a.control},      {a.solve->control(b)},  {a.row_list},
                         {a.rows.list}, {a.rows.records}, {a.solve->partials(b)}, {a.solve->curvatures(b)}};
     gated(b, a, "acad_scan", "", scan, kernels::acad_scan::Params{springs, a.chunk, a.groups}, 1,
@@ -151,7 +152,8 @@ void record_choice(PlanBuilder& b, Acad& a)
           a.groups, TAUT_ACAD_CHOOSE);
     const Use vertices[] = {{a.touched}, {a.sums}, {a.rows.list}};
     gated(b, a, "acad_scatter", "", vertices,
-          kernels::acad_scatter::Params{n, vertex_chunk(b, a), a.groups, a.groups}, a.groups, TAUT_ACAD_CHOOSE);
+          kernels::acad_scatter::Params{n, vertex_chunk(b, a), a.groups, a.groups}, a.groups,
+          TAUT_ACAD_CHOOSE);
 }
 
 } // namespace
@@ -161,8 +163,9 @@ void check_acad(const Scene& scene, const DeviceTraits&)
     refuse_rigid(scene);
     check_constrained_lengths(scene);
     if (scene.method.integrator != "semi_implicit")
-        throw Error(ErrorCode::unsupported, "method.integrator is \"" + scene.method.integrator +
-                                                "\", but method.type \"acad\" steps by \"semi_implicit\" only");
+        throw Error(ErrorCode::unsupported,
+                    "method.integrator is \"" + scene.method.integrator +
+                        "\", but method.type \"acad\" steps by \"semi_implicit\" only");
 }
 
 void prepare_acad(PlanBuilder& b)
@@ -212,8 +215,8 @@ void record_acad_forces(PlanBuilder& b, const Moment& moment)
     if (a.damped)
         uses.push_back({b.plan.velocity, 1 + each});
     b.dispatch(kEffect, "acad_force", a.damped ? "damped" : "", uses,
-               kernels::acad_force::Params{n, moment.substep + 1 == b.plan.substeps, size_of(a), on.high, on.low,
-                                           off.high, off.low},
+               kernels::acad_force::Params{n, moment.substep + 1 == b.plan.substeps, size_of(a), on.high,
+                                           on.low, off.high, off.low},
                n);
     record_choice(b, a);
 }
@@ -235,7 +238,8 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
     if (kept)
         uses.push_back({a.total});
     gated(b, a, "constraint_rows", kept ? "kept" : "", uses,
-          kernels::constraint_rows::Params{springs, a.chunk, further, moment.last}, a.groups, TAUT_ACAD_SOLVE);
+          kernels::constraint_rows::Params{springs, a.chunk, further, moment.last}, a.groups,
+          TAUT_ACAD_SOLVE);
     a.solve->record(b);
     std::vector<Use> store = {{a.row_list}, {a.solve->x()},        {a.multiplier},          {a.flags},
                               {a.hold},     {a.solve->state(), 0}, {b.plan.step_values, 0}};
@@ -247,7 +251,8 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
     const Use moved[] = {{a.rows.start}, {a.rows.incident}, {a.rows.direction}, {a.solve->x()},
                          {b.plan.position}, {b.plan.delta}, {a.rows.list},      {a.rows.place}};
     gated(b, a, "constraint_spread", "listed_apply", moved,
-          kernels::constraint_spread::Params{b.plan.vertex_count, listed_chunk(a)}, a.groups, TAUT_ACAD_SOLVE);
+          kernels::constraint_spread::Params{b.plan.vertex_count, listed_chunk(a)}, a.groups,
+          TAUT_ACAD_SOLVE);
 }
 
 } // namespace taut

@@ -116,7 +116,8 @@ void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
         }
         const auto hinges = bend_elements(scene.bodies[body]);
         forces = forces || !hinges.empty();
-        if (std::any_of(hinges.begin(), hinges.end(), [](const BendElement& e) { return !(e.compliance > 0); }))
+        if (std::any_of(hinges.begin(), hinges.end(),
+                        [](const BendElement& e) { return !(e.compliance > 0); }))
             throw Error(ErrorCode::unsupported, where + ".material.bending_stiffness is infinite; under "
                                                         "method.type \"implicit_constraints\" hinges are "
                                                         "forces: give a finite one");

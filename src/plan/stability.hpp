@@ -10,7 +10,7 @@
 
 namespace taut {
 
-/// Whether a method moves a spring by its force; under implicit_constraints those that are constraints are not.
+/// Whether a method moves a spring by its force; implicit_constraints does not where it is a constraint.
 bool acts_as_force(const Scene& scene, const StretchElement& spring);
 
 /// Bounds (Gershgorin, by rows) on the largest eigenvalues of M^-1 K and M^-1 D over the vertices that move.

@@ -33,7 +33,7 @@ struct StepReport
     double primal_residual = 0;
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
     double max_speed = 0;        ///< m/s
-    double active_share = -1;    ///< acad: share of springs that were constraints in the last substep; else -1
+    double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1
     SolverReport solver;         ///< of the run so far
     std::uint64_t torn = 0;      ///< vertices that came apart so far
     std::uint64_t position_hash = 0; ///< FNV-1a over the raw position and low words in plan order

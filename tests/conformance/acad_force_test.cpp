@@ -6,7 +6,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and counts them", "", float, double)
+TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and counts them", "", float,
+                   double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
@@ -38,17 +39,19 @@ TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and 
     for (std::size_t e = 0; e < ends.size(); ++e)
         ends[e].kind = incident[e] / 2 * 2 + (incident[e] / 2 % 5 != 0 ? 1 : 0);
     for (std::uint32_t k = 0; k < springs; ++k)
-        counted += net.spring[k].a != net.spring[k].b && (row[k] || (awake != 0 && flags[k] != TAUT_ACAD_SPRING));
+        counted +=
+            net.spring[k].a != net.spring[k].b && (row[k] || (awake != 0 && flags[k] != TAUT_ACAD_SPRING));
     std::vector<std::uint32_t> events(TAUT_EVENT_WORDS, 0);
     c.precision = precision_of<Real>();
     c.in = {{"start", bytes_of(start)}, {"end", bytes_of(ends)}, {"position", bytes_of(net.position)},
             {"low", bytes_of(net.low)}, {"velocity", bytes_of(net.velocity)}, {"flags", bytes_of(flags)},
             {"force", bytes_of(std::vector<glm::vec<4, Real>>(net.position.size(), glm::vec<4, Real>(7)))},
             {"events", bytes_of(events)}};
-    c.launches = {make_launch(
-        kernels::acad_force::info(damped ? "damped" : "", c.precision),
-        kernels::acad_force::Params{count, 0, springs, 0.05f, static_cast<float>(0.05 - double(0.05f)), -1.f, 0.f},
-        count)};
+    c.launches = {
+        make_launch(kernels::acad_force::info(damped ? "damped" : "", c.precision),
+                    kernels::acad_force::Params{count, 0, springs, 0.05f,
+                                                static_cast<float>(0.05 - double(0.05f)), -1.f, 0.f},
+                    count)};
     for (std::uint32_t k = 0; k < springs; ++k)
         if (row[k]) // no force: neither spring nor damper
             net.spring[k].stiffness = net.spring[k].damping = 0;

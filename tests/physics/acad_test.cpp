@@ -159,7 +159,7 @@ TEST_CASE("with every spring a constraint it is implicit constraints, bit for bi
                 scene.method.iterations = solves;
                 Scene all = acad(scene);
                 all.method.constraint_compliance = 1e-4; // the network has more springs than freedom
-                all.method.activate_strain = 1e-3; // all stay stretched by about that much, and none is released
+                all.method.activate_strain = 1e-3; // all stay stretched by about that; none is released
                 all.method.release_strain = 0;
                 all.method.release = "strain";
                 Scene plain = all;
