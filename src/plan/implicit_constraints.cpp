@@ -18,6 +18,7 @@
 #include "taut/plan/methods.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -114,13 +115,13 @@ void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
                                 " is rigid, but method.constrained leaves it a spring; give it a finite "
                                 "stiffness, or take method.constrained \"all\"");
         }
-        const auto hinges = bend_elements(scene.bodies[body]);
-        forces = forces || !hinges.empty();
-        if (std::any_of(hinges.begin(), hinges.end(),
-                        [](const BendElement& e) { return !(e.compliance > 0); }))
-            throw Error(ErrorCode::unsupported, where + ".material.bending_stiffness is infinite; under "
-                                                        "method.type \"implicit_constraints\" hinges are "
-                                                        "forces: give a finite one");
+        // With stiff constraints hinges gain energy (hard case F17).
+        if (scene.bodies[body].material.bending_stiffness > 0 && !scene.bodies[body].mesh.triangles.empty())
+            throw Error(ErrorCode::unsupported,
+                        where + ".material.bending_stiffness is " +
+                            shown(scene.bodies[body].material.bending_stiffness) +
+                            ", but method.type \"implicit_constraints\" has no hinges "
+                            "yet; set it to 0");
     }
     if (forces && scene.method.integrator != "semi_implicit")
         throw Error(ErrorCode::unsupported, "method.integrator is \"" + scene.method.integrator +
