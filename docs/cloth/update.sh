@@ -1,0 +1,78 @@
+#!/bin/sh
+# Makes the tables and pictures of docs/cloth.md anew: no number between its marks is typed by hand.
+#
+#   docs/cloth/update.sh build/release/taut [FIGURE...]
+set -eu
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM [FIGURE...] (the built taut)" >&2; exit 2; }
+program=$(realpath "$1")
+shift
+cd "$(dirname "$0")/../.."
+page=docs/cloth.md
+scenes=examples/scenes/cloth
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+wanted=" $* "
+
+# figure NAME VARIANT...: runs the variants of a scene, keeps table and picture.
+figure()
+{
+    name=$1
+    shift
+    case "$wanted" in "  " | *" $name "*) ;; *) return 0 ;; esac
+    echo "$name" >&2
+    for variant in "$@"; do
+        set -- "$@" --variant "$variant"
+        shift
+    done
+    "$program" compare "$scenes/$name.json" "$@" --out "$scratch/$name" > /dev/null || [ $? -eq 1 ]
+    [ ! -f "$scratch/$name/compare.png" ] || cp "$scratch/$name/compare.png" "docs/cloth/$name.png"
+    cp "$scratch/$name/compare.csv" "docs/cloth/$name.csv"
+    awk -v part="$name" -v table="$scratch/$name/compare.md" '
+        $0 == "<!-- " part " -->" {
+            print; print ""
+            while ((getline line < table) > 0) print line
+            print ""; skip = 1
+        }
+        $0 == "<!-- end -->" { skip = 0 }
+        !skip && $0 != "<!-- " part " -->" { print }' "$page" > "$scratch/page.md"
+    mv "$scratch/page.md" "$page"
+}
+
+constraints="method.type=implicit_constraints; method.constrained=structural; method.constraint_compliance=0; method.substeps=8; method.iterations=2"
+acad="method.type=acad; method.constrained=structural; method.constraint_compliance=0; method.activate_strain=0.05"
+network() # STRUCTURAL SHEAR BEND
+{
+    echo "bodies[0].grid.network.structural=$1; bodies[0].grid.network.shear=$2; bodies[0].grid.network.bend=$3"
+}
+
+figure apis "springs, native serial: device=cpu:serial" "springs, native on all cores: device=cpu" \
+    "springs, Vulkan: device=vulkan" "springs, OpenGL: device=opengl" \
+    "constraints, native serial: device=cpu:serial; $constraints" \
+    "constraints, native on all cores: device=cpu; $constraints" \
+    "constraints, Vulkan: device=vulkan; $constraints" "constraints, OpenGL: device=opengl; $constraints"
+figure stiffness "k = 20 N/m: device=cpu; $(network 20 10 2)" "k = 100: device=cpu" \
+    "k = 500: device=cpu; $(network 500 250 50)" "k = 2500: device=cpu; $(network 2500 1250 250)"
+figure constraints "springs alone: device=cpu" "structural springs enforced: device=cpu; $constraints" \
+    "all enforced with their own compliance: device=cpu; method.type=implicit_constraints; method.substeps=8"
+figure acad_stiffness "k = 20 N/m: device=cpu; $(network 20 10 2)" "k = 100: device=cpu; $(network 100 50 10)" \
+    "k = 500: device=cpu; $(network 500 250 50)"
+figure large_force "springs: device=cpu" "adaptive: device=cpu; $acad" "enforced: device=cpu; $constraints" \
+    "xpbd: device=cpu; method.type=xpbd" "vertex block descent: device=cpu; method.type=vbd; method.iterations=2; method.substeps=16"
+figure acad_load "springs: device=cpu" "adaptive, 5 %: device=cpu; $acad" \
+    "adaptive, 1 %: device=cpu; $acad; method.activate_strain=0.01"
+figure pbd_devices "native serial: device=cpu:serial" "native on all cores: device=cpu" "Vulkan: device=vulkan" \
+    "OpenGL: device=opengl" "native, by vertices: device=cpu; method.scheme=node_centric" \
+    "native, by constraints: device=cpu; method.scheme=constraint_centric"
+figure pbd_stretch "stretch 0.1: device=cpu; method.stretch=0.1" "0.5: device=cpu; method.stretch=0.5" \
+    "0.9: device=cpu; method.stretch=0.9" "1: device=cpu"
+figure pbd_bend "bend 0: device=cpu; method.bend=0" "0.02: device=cpu; method.bend=0.02" \
+    "0.1: device=cpu; method.bend=0.1" "0.5: device=cpu; method.bend=0.5"
+figure pbd_iterations "1 iteration: device=cpu; method.iterations=1" "4: device=cpu; method.iterations=4" \
+    "20: device=cpu" "80: device=cpu; method.iterations=80"
+figure pbd_sphere "4 x 5: device=cpu" "1 x 20: device=cpu; method.substeps=1; method.iterations=20" \
+    "20 x 1: device=cpu; method.substeps=20; method.iterations=1"
+figure methods "xpbd: device=cpu" "pbd: device=cpu; method.type=pbd" "mass_spring: device=cpu; method.type=mass_spring; method.stability=substep" \
+    "implicit_euler: device=cpu; method.type=implicit_euler; method.substeps=2" \
+    "implicit_constraints: device=cpu; method.type=implicit_constraints; method.substeps=5" \
+    "acad: device=cpu; method.type=acad; method.stability=substep" \
+    "vbd: device=cpu; method.type=vbd; method.substeps=5; method.iterations=2"
