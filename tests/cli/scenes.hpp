@@ -28,7 +28,8 @@ inline std::string tearing_cloth()
         "bodies": [{"grid": {"cells": [4, 4], "size": [1, 1]},
                     "material": {"stretch_stiffness": 200, "tear_strain": 0.2},
                     "pins": [{"edges": ["left"]},
-                             {"edges": ["right"], "motion": [{"time": 0}, {"time": 1, "translate": [2, 0, 0]}]}]}]})";
+                             {"edges": ["right"],
+                              "motion": [{"time": 0}, {"time": 1, "translate": [2, 0, 0]}]}]}]})";
 }
 
 /// So far away that it counts as diverged, while every number stays finite.
