@@ -1,3 +1,4 @@
+#include "support/data.hpp"
 #include "support/small_systems.hpp"
 
 using namespace taut;
