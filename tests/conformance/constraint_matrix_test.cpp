@@ -12,7 +12,7 @@ TEMPLATE_TEST_CASE("constraint_matrix gives each pair of rows weight times the c
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 127u, 128u, 129u, 1000u);
     CAPTURE(count);
     Random random(70 + count);
-    const Net<Real> net = random_net<Real>(random, 40);
+    const RowNet<Real> net = random_row_net<Real>(random, 40);
     const std::uint32_t all = count + 5; // five behind the count stay as they are
     std::vector<std::uint32_t> pair;
     for (std::uint32_t k = 0; k < all; ++k)

@@ -14,7 +14,7 @@ TEMPLATE_TEST_CASE("constraint_product is what the moves of both ends do to each
     const std::string variant = GENERATE("", "dot", "residual");
     CAPTURE(dealt.count, dealt.groups, variant);
     Random random(60 + dealt.count);
-    const Net<Real> net = random_net<Real>(random, dealt.count + 3);
+    const RowNet<Real> net = random_row_net<Real>(random, dealt.count + 3);
     const auto spread = random.vec4s<Real>(net.vertices(), 10, -5, 5); // w must not matter
     const std::vector<Real> b = random_reals<Real>(random, net.rows(), -10, 10);
 

@@ -9,7 +9,7 @@ namespace {
 
 /// The elements that divide by zero if nobody looks. Returns how many rows must be counted.
 template <typename Real>
-std::uint32_t plant(Net<Real>& net)
+std::uint32_t plant(RowNet<Real>& net)
 {
     if (net.rows() < 63)
         return 0;
@@ -41,13 +41,13 @@ TEMPLATE_TEST_CASE("constraint_rows forms directions and what is left of each le
     const std::uint32_t further = GENERATE(0u, 1u);
     CAPTURE(dealt.count, dealt.groups, kept, further);
     Random random(40 + dealt.count);
-    Net<Real> net = random_net<Real>(random, dealt.count + 3); // three behind the count stay as they are
+    RowNet<Real> net = random_row_net<Real>(random, dealt.count + 3); // three behind the count stay as they are
     const std::uint32_t counted = plant(net);
     const std::vector<Real> multiplier = random_reals<Real>(random, net.rows(), -1e-3, 1e-3);
 
     Case c;
     c.precision = precision_of<Real>();
-    const std::vector<typename Net<Real>::Vec> before(net.rows(), {7, 7, 7, 7});
+    const std::vector<typename RowNet<Real>::Vec> before(net.rows(), {7, 7, 7, 7});
     c.in = {{"row", bytes_of(net.row)},
             {"position", bytes_of(net.position)},
             {"delta", bytes_of(net.delta)},

@@ -44,7 +44,7 @@ TEMPLATE_TEST_CASE("constraint_spread gathers w J^T x, and the variants apply ta
     const bool nothing = apply && !listed && GENERATE(false, true);
     CAPTURE(dealt.count, dealt.groups, apply, listed, nothing);
     Random random(50 + dealt.count);
-    Net<Real> net = random_net<Real>(random, 2 * dealt.count); // one vertex more than the count
+    RowNet<Real> net = random_row_net<Real>(random, 2 * dealt.count); // one vertex more than the count
     REQUIRE(net.vertices() > dealt.count);
     Selection chosen = select(random, net.rows(), dealt.count);
     layout::CgState<Real> state{};
@@ -52,7 +52,7 @@ TEMPLATE_TEST_CASE("constraint_spread gathers w J^T x, and the variants apply ta
 
     Case c;
     c.precision = precision_of<Real>();
-    const std::vector<typename Net<Real>::Vec> before(net.vertices(), {7, 7, 7, 7});
+    const std::vector<typename RowNet<Real>::Vec> before(net.vertices(), {7, 7, 7, 7});
     c.in = {{"start", bytes_of(net.start)},         {"incident", bytes_of(net.incident)},
             {"direction", bytes_of(net.direction)}, {"x", bytes_of(net.p)},
             {"position", bytes_of(net.position)},   {"delta", bytes_of(net.delta)},

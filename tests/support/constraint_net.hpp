@@ -9,7 +9,7 @@
 namespace taut::conformance {
 
 template <typename Real>
-struct Net
+struct RowNet
 {
     using Vec = glm::vec<4, Real>;
     std::vector<layout::Spring<Real>> row;
@@ -39,9 +39,9 @@ layout::Spring<Real> spring_record(std::uint32_t a, std::uint32_t b, Real rest_l
 
 /// `rows` springs among about half as many vertices; two of them the same, some vertices held.
 template <typename Real>
-Net<Real> random_net(Random& random, std::uint32_t rows)
+RowNet<Real> random_row_net(Random& random, std::uint32_t rows)
 {
-    Net<Real> net;
+    RowNet<Real> net;
     const std::uint32_t vertices = rows / 2 + 2;
     for (std::uint32_t v = 0; v < vertices; ++v)
     {
