@@ -14,10 +14,10 @@ TEMPLATE_TEST_CASE("acad_flag finds the springs beyond their threshold and count
     const bool by_strain = GENERATE(false, true);
     CAPTURE(dealt.count, dealt.groups, by_strain);
     Random random(90 + dealt.count);
-    Net<Real> net = random_net<Real>(random, dealt.count + 3);
+    RowNet<Real> net = random_row_net<Real>(random, dealt.count + 3);
     std::vector<std::uint32_t> flags = random_flags(random, net.rows(), 0.4);
     const std::vector<Real> multiplier = random_reals<Real>(random, net.rows(), 1, 2);
-    std::vector<typename Net<Real>::Vec> low(net.vertices(), {0, 0, 0, 0});
+    std::vector<typename RowNet<Real>::Vec> low(net.vertices(), {0, 0, 0, 0});
     for (auto& lost : low)
         lost = random.vec4<Real>(1e-8, Real(1e-3));
     const double activate = 0.05, release = by_strain ? 0.02 : -1;

@@ -15,7 +15,7 @@ TEMPLATE_TEST_CASE("acad_rows copies the springs of a list side by side", "", fl
     const std::uint32_t further = GENERATE(0u, 1u);
     CAPTURE(dealt.count, dealt.groups, share, further);
     Random random(130 + dealt.count);
-    const Net<Real> net = random_net<Real>(random, dealt.count);
+    const RowNet<Real> net = random_row_net<Real>(random, dealt.count);
     const std::vector<Real> multiplier = random_reals<Real>(random, dealt.count);
     const std::vector<Real> inverse = random_reals<Real>(random, dealt.count, 1, 2);
     const auto rows = static_cast<std::uint32_t>(share * dealt.count);

@@ -41,7 +41,7 @@ TEMPLATE_TEST_CASE("constraint_rows forms directions and what is left of each le
     const std::uint32_t further = GENERATE(0u, 1u);
     CAPTURE(dealt.count, dealt.groups, kept, further);
     Random random(40 + dealt.count);
-    RowNet<Real> net = random_row_net<Real>(random, dealt.count + 3); // three behind the count stay as they are
+    RowNet<Real> net = random_row_net<Real>(random, dealt.count + 3); // three stay as they are
     const std::uint32_t counted = plant(net);
     const std::vector<Real> multiplier = random_reals<Real>(random, net.rows(), -1e-3, 1e-3);
 
