@@ -12,7 +12,8 @@ TEST_CASE("acad_touch finds the vertices that are ends of constraints and counts
         return;
     CAPTURE(dealt.count, dealt.groups);
     Random random(100 + dealt.count);
-    const RowNet<float> net = random_row_net<float>(random, 2 * dealt.count); // one vertex more than the count
+    const RowNet<float> net =
+        random_row_net<float>(random, 2 * dealt.count); // one vertex more than the count
     const std::vector<std::uint32_t> flags = random_flags(random, net.rows(), 0.2);
     Case c;
     std::vector<std::uint32_t> touched(net.vertices(), 77), sums(2 * dealt.groups, 77);
