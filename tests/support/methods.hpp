@@ -26,6 +26,7 @@ inline Scene under(Scene scene, const std::string& method)
 }
 
 /// The words of all methods that have a row in the table and move springs: a row may come before its effects.
+/// Not acad: it holds strain by itself, so what the effects' tests ask of soft cloth does not hold under it.
 inline std::vector<std::string> methods()
 {
     std::vector<std::string> out;
@@ -33,6 +34,8 @@ inline std::vector<std::string> methods()
         try
         {
             const std::string word(name);
+            if (word == "acad")
+                continue;
             Scene loose = under(hanging(2), word);
             const std::size_t passes = make_plan(loose).passes.size();
             loose.bodies[0].material.stretch_stiffness = 0;
