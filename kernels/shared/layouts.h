@@ -42,6 +42,34 @@ LAYOUT_STRUCT(BendingConstraint)
     real compliance; // rad/(N m); 0 = rigid
 };
 
+/// Keeps the signed volume of a tetrahedron at rest_volume.
+LAYOUT_STRUCT(VolumeConstraint)
+{
+    uint a;
+    uint b;
+    uint c;
+    uint d;
+    real rest_volume; // m^3
+    real compliance;  // m^6/J; 0 = rigid
+};
+
+/// An elastic tetrahedron (src/plan/solid.hpp): F = [xb - xa, xc - xa, xd - xa] B, B by rows.
+LAYOUT_STRUCT(SolidTetrahedron)
+{
+    uint a;
+    uint b;
+    uint c;
+    uint d;
+    real b00, b01, b02; // 1/m
+    real b10, b11, b12;
+    real b20, b21, b22;
+    real volume;        // at rest, m^3
+    real mu;            // Pa
+    real lambda;        // Pa
+    real rest;          // det F at which the second term vanishes
+    real log_term;      // 1 with the logarithm, 0 without
+};
+
 /// Half-space {x : dot(normal, x) >= offset}; normal has length 1. Start and end of a time step.
 LAYOUT_STRUCT(PlaneCollider)
 {

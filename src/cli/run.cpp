@@ -100,6 +100,8 @@ public:
     std::uint64_t done() const { return done_; }
     std::size_t mesh_count() const { return meshes_.count(); }
     const std::vector<double>& step_ms() const { return step_ms_; }
+    /// The smallest V / V0 of all frames.
+    double volume_min() const { return volume_min_; }
     const std::vector<Moment>& moments() const { return moments_; }
 
 private:
@@ -110,6 +112,8 @@ private:
         step_ms_.push_back(
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         ++done_;
+        if (has_volume_)
+            volume_min_ = std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).ratio);
         finite_ = simulation_.events().non_finite == 0;
     }
 
@@ -150,6 +154,8 @@ private:
     std::vector<Moment> moments_;
     MeshSequence meshes_;
     std::uint64_t torn_ = 0;
+    bool has_volume_ = measure_volume(simulation_.scene(), simulation_.positions()).any;
+    double volume_min_ = 1;
     std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
 };
 
@@ -198,6 +204,7 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.colours = world.plan().colour_counts();
     result.solvers = world.plan().solvers.size();
     result.report = measure(world);
+    result.volume_min = runner.volume_min();
     result.step_ms = runner.step_ms();
     for (const PlanWarning& warning : world.plan().warnings)
         result.messages.push_back(warning.sentence());

@@ -87,6 +87,11 @@ Json to_json(const RunResult& result)
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = report.active_share >= 0 ? Json(report.active_share) : Json(nullptr);
     json["torn"] = report.torn;
+    if (report.volume.any)
+    {
+        json["volume_ratio"] = {{"min", result.volume_min}, {"final", report.volume.ratio}};
+        json["inverted_elements"] = report.volume.inverted;
+    }
     json["position_hash"] = hex(report.position_hash);
     json["folder"] = result.folder;
     json["meshes"] = result.meshes;

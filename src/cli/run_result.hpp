@@ -22,6 +22,7 @@ struct RunResult
     std::map<std::string, std::uint64_t> constraints, colours; ///< by kind
     std::size_t solvers = 0; ///< linear systems of a step
     StepReport report;
+    double volume_min = 1; ///< smallest V / V0 of all frames, of scenes with solids
     std::vector<double> step_ms;       ///< wall time of each frame, ms
     std::vector<EffectTime> passes;    ///< device time of one frame by effect; empty after an interruption
     std::vector<std::string> messages; ///< what scene and plan warn of, in sentences

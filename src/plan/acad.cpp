@@ -21,6 +21,7 @@
 #include "taut/kernels/constraint_spread.hpp"
 #include "taut/kernels/shared/active_rows.h"
 #include "taut/plan/mass_spring.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #define TAUT_HOST
@@ -67,16 +68,14 @@ template <typename Real>
 void add_spring_records(PlanBuilder& b, Acad& a)
 {
     using Record = layout::Spring<Real>;
-    std::vector<Record> springs, ends;
+    std::vector<Record> springs = records_of(a.elements, spring_record<Real>), ends;
     std::vector<Real> inverses, hold;
     std::vector<StretchElement> targets = a.elements;
     const std::vector<double> compliances = row_compliances(b, a.elements);
     for (std::size_t k = 0; k < targets.size(); ++k)
     {
         const StretchElement& e = a.elements[k];
-        const std::uint32_t may = may_be_constrained(b.scene, e);
-        springs.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(1 / e.compliance),
-                           static_cast<Real>(e.damping), may});
+        springs[k].kind = may_be_constrained(b.scene, e);
         targets[k].rest_length = target_length(b.scene, e);
         inverses.push_back(static_cast<Real>(inverse_diagonal(b, e, compliances[k])));
         hold.push_back(static_cast<Real>((targets[k].rest_length - e.rest_length) / e.compliance));
@@ -171,17 +170,12 @@ void check_acad(const Scene& scene, const DeviceTraits&)
 void prepare_acad(PlanBuilder& b)
 {
     auto a = std::make_shared<Acad>();
-    std::vector<std::uint32_t> corners;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (const StretchElement& e : acting_springs(b, body))
-        {
-            a->elements.push_back(e);
-            a->damped = a->damped || e.damping > 0;
-            corners.insert(corners.end(), {e.a, e.b});
-        }
+    a->elements = all_springs(b);
+    a->damped = std::any_of(a->elements.begin(), a->elements.end(),
+                            [](const StretchElement& e) { return e.damping > 0; });
     if (a->elements.empty())
         return;
-    a->at = incidence_of(b.plan.vertex_count, corners, 2);
+    a->at = incidence_of(b.plan.vertex_count, a->elements);
     a->rows.count = size_of(*a);
     a->groups = linear::group_count_for(a->rows.count, b.paper()->info());
     a->chunk = linear::make_grid(a->rows.count, a->groups).chunk;

@@ -9,15 +9,13 @@
 
 #include "taut/plan/constraints.hpp"
 
-#include "taut/plan/grouping.hpp"
+#include "taut/plan/coloured_set.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/kernels/bending.hpp"
 #include "taut/kernels/distance.hpp"
 #include "taut/kernels/hub.hpp"
-
-#define TAUT_HOST
-#include "taut/kernels/shared/layouts.h"
 
 #include <glm/geometric.hpp>
 
@@ -27,22 +25,6 @@
 
 namespace taut {
 namespace {
-
-void add_buffers(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table, bool multipliers)
-{
-    if (multipliers && (b.plan.iterations > 1 || b.options.residuals))
-        set.multipliers = b.add_buffer(set.kind, set.kind + " multipliers", set.count * b.real_size());
-    bool grouped = set.small_bodies > 0;
-    for (const Run& run : runs_of(b, set))
-        if (run.grouped())
-        {
-            table.insert(table.end(), {run.begin, run.end});
-            grouped = true;
-        }
-    if (grouped)
-        set.table = b.add_buffer<std::uint32_t>(set.kind, set.kind + " colours", table);
-    b.plan.constraints.push_back(set);
-}
 
 /// Splits the constraints of a hub so that no part holds two with the same other end.
 void add_hubs(Coloured<StretchElement>& out, const std::vector<StretchElement>& elements,
@@ -68,16 +50,6 @@ void add_hubs(Coloured<StretchElement>& out, const std::vector<StretchElement>& 
             rest = std::move(later);
         }
     }
-}
-
-/// A graph over one body's plan vertices, counted from its first, without constraints yet. Held vertices
-/// conflict like others: kernels write both ends of a constraint.
-ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t stride)
-{
-    ConstraintGraph graph;
-    graph.vertex_count = b.plan.body_start[body + 1] - b.plan.body_start[body];
-    graph.stride = stride;
-    return graph;
 }
 
 /// The edges of a grid, or the springs of its network, and nothing else.
@@ -132,48 +104,6 @@ void add_damping(PlanBuilder& b, const ConstraintSet& set, const std::vector<Str
     });
 }
 
-std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                         bool grouped)
-{
-    std::vector<Use> uses = {{set.buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
-                             {b.plan.step_values, 0}, {b.plan.events, 0}};
-    if (grouped)
-        uses.push_back({set.table});
-    if (set.multipliers != kNoBuffer)
-        uses.push_back({set.multipliers});
-    if (is_damped(b, set))
-        uses.push_back({b.distance_damping});
-    return uses;
-}
-
-/// Passes of one sweep. `Params` is {first, count, first_iteration, report} for every constraint kernel.
-template <typename Params>
-void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                    const Moment& moment)
-{
-    const bool keep = set.multipliers != kNoBuffer;
-    const bool damped = is_damped(b, set);
-    const std::string_view alone = damped ? (keep ? "damped_lambda" : "damped") : (keep ? "lambda" : "");
-    const std::string_view grouped =
-        damped ? (keep ? "damped_tail_lambda" : "damped_tail") : (keep ? "tail_lambda" : "tail");
-    const std::uint32_t first_iteration = moment.iteration == 0, report = moment.last;
-    std::uint32_t range = first_run_range(set);
-    for (const Run& run : runs_of(b, set))
-    {
-        const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
-        const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped());
-        if (run.grouped())
-            b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 1, first_iteration, report}, 1, size);
-        else
-            b.dispatch(set.kind, set.kind, alone, uses, Params{first, size, first_iteration, report}, size);
-        range += run.grouped() ? 2 : 0;
-    }
-    if (set.small_bodies > 0)
-        b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true),
-                   Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
-                   set.small_constraints);
-}
-
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 {
     const bool keep = set.multipliers != kNoBuffer;
@@ -193,6 +123,38 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 }
 
 } // namespace
+
+ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t stride)
+{
+    ConstraintGraph graph;
+    graph.vertex_count = b.plan.body_start[body + 1] - b.plan.body_start[body];
+    graph.stride = stride;
+    return graph;
+}
+
+void add_set(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table, const SetOptions& options,
+             std::uint32_t each)
+{
+    if (options.multipliers && (b.plan.iterations > 1 || b.options.residuals))
+        set.multipliers = b.add_buffer(set.kind, set.kind + " multipliers",
+                                       std::uint64_t(set.count) * each * b.real_size());
+    add_colour_table(b, set, std::move(table));
+    b.plan.constraints.push_back(set);
+}
+
+std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
+                         bool grouped, bool damped)
+{
+    std::vector<Use> uses = {{set.buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
+                             {b.plan.step_values, 0}, {b.plan.events, 0}};
+    if (grouped)
+        uses.push_back({set.table});
+    if (set.multipliers != kNoBuffer)
+        uses.push_back({set.multipliers});
+    if (damped)
+        uses.push_back({b.distance_damping});
+    return uses;
+}
 
 Colouring grid_edge_colouring(std::span<const std::array<std::uint32_t, 2>> edges, std::uint32_t columns)
 {
@@ -232,46 +194,19 @@ void prepare_springs(PlanBuilder& b, const SetOptions& options)
         return;
     with_real(b.plan.precision, [&](auto zero) {
         using Real = decltype(zero);
-        std::vector<layout::DistanceConstraint<Real>> records;
-        for (const StretchElement& e : flat)
-            records.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(e.compliance)});
-        set.buffer =
-            b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, set.kind + " constraints", records);
+        set.buffer = b.add_buffer<layout::DistanceConstraint<Real>>(set.kind, set.kind + " constraints",
+                                                                    records_of(flat, distance_record<Real>));
     });
     if (options.kind == "distance")
         add_damping(b, set, flat);
-    add_buffers(b, set, std::move(table), options.multipliers);
+    add_set(b, set, std::move(table), options);
 }
 
 void prepare_hinges(PlanBuilder& b, const SetOptions& options)
 {
-    Coloured<BendElement> coloured;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-    {
-        ConstraintGraph graph = body_graph(b, body, 4);
-        const std::uint32_t first = b.plan.body_start[body];
-        const std::vector<BendElement> elements = acting_hinges(b, body);
-        for (const BendElement& e : elements)
-            for (const std::uint32_t v : {e.edge0, e.edge1, e.wing0, e.wing1})
-                graph.vertices.push_back(v - first);
-        // Hinges round a hub share its neighbours too, so they stay in the colouring, one after another.
-        add_body(b, coloured, elements, colour_greedy(graph, {0, true}));
-    }
-    std::vector<BendElement> flat;
-    std::vector<std::uint32_t> table;
-    ConstraintSet set = lay_out(options.kind, coloured, flat, table);
-    if (flat.empty())
-        return;
-    with_real(b.plan.precision, [&](auto zero) {
-        using Real = decltype(zero);
-        std::vector<layout::BendingConstraint<Real>> records;
-        for (const BendElement& e : flat)
-            records.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
-                               static_cast<Real>(e.compliance)});
-        set.buffer =
-            b.add_buffer<layout::BendingConstraint<Real>>(set.kind, set.kind + " constraints", records);
-    });
-    add_buffers(b, set, std::move(table), options.multipliers);
+    prepare_set(
+        b, options, 1, [&](std::size_t body) { return acting_hinges(b, body); },
+        [](auto zero, const BendElement& e) { return bending_record<decltype(zero)>(e); });
 }
 
 const ConstraintSet* find_set(const Plan& plan, std::string_view kind)
@@ -293,7 +228,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "distance"))
     {
-        record_colours<kernels::distance::Params>(b, *set, 2, moment);
+        record_colours<kernels::distance::Params>(b, *set, 2, moment, is_damped(b, *set));
         record_hubs(b, *set, moment);
     }
 }

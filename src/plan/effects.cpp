@@ -7,6 +7,8 @@
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/limits.hpp"
 #include "taut/plan/pbd.hpp"
+#include "taut/plan/solid.hpp"
+#include "taut/plan/solid_constraints.hpp"
 #include "taut/plan/wind.hpp"
 #include "taut/kernels/capsule.hpp"
 #include "taut/kernels/cuboid.hpp"
@@ -270,8 +272,7 @@ bool wants_friction(const Scene& scene)
 
 bool any_stretch(const Scene& scene)
 {
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                       [](const Body& b) { return b.material.stretch_stiffness > 0 || !b.springs.empty(); });
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), has_springs);
 }
 
 bool any_bending(const Scene& scene)
@@ -301,6 +302,16 @@ bool any_tearing(const Scene& scene)
                                              [](const Body& b) { return b.material.tear_strain > 0; });
 }
 
+bool any_volume(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), holds_volumes);
+}
+
+bool any_solid(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), is_elastic);
+}
+
 bool any_elements(const Scene& scene) { return any_stretch(scene) || any_bending(scene); }
 
 constexpr MethodSet kVbd = only(MethodKind::vbd);
@@ -327,6 +338,9 @@ constexpr Effect kEffects[] = {
     {"vbd_solve", Stage::solve, any_elements, nullptr, record_vbd_solve, kVbd},
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance, only(MethodKind::xpbd)},
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending, only(MethodKind::xpbd)},
+    {"volume", Stage::solve, any_volume, prepare_volume, record_volume, only(MethodKind::xpbd)},
+    {"neo_hookean", Stage::solve, any_solid, prepare_neo_hookean, record_neo_hookean,
+     only(MethodKind::xpbd)},
     {"pbd_stretch", Stage::solve,
      [](const Scene& s) { return pbd_is_coloured(s) && s.method.stretch > 0 && any_stretch(s); },
      prepare_pbd_stretch, record_pbd_stretch, only(MethodKind::pbd)},

@@ -145,6 +145,21 @@ inline std::vector<Run> runs_of(const PlanBuilder& b, const ConstraintSet& set)
     return runs;
 }
 
+/// Adds the device's table of colours, where groups that run several of them need one. `table`: as lay_out
+/// leaves it.
+inline void add_colour_table(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table)
+{
+    bool grouped = set.small_bodies > 0;
+    for (const Run& run : runs_of(b, set))
+        if (run.grouped())
+        {
+            table.insert(table.end(), {run.begin, run.end});
+            grouped = true;
+        }
+    if (grouped)
+        set.table = b.add_buffer<std::uint32_t>(set.kind, set.kind + " colours", table);
+}
+
 /// The ranges of grouped runs, two words each in order, after the small bodies' ones.
 inline std::uint32_t first_run_range(const ConstraintSet& set)
 {

@@ -16,6 +16,7 @@
 #include "taut/kernels/constraint_spread.hpp"
 #include "taut/kernels/constraint_total.hpp"
 #include "taut/plan/methods.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -47,10 +48,7 @@ std::uint32_t groups_of(const PlanBuilder& b, const ImplicitConstraints& c)
 
 void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
 {
-    std::vector<std::uint32_t> corners;
-    for (const StretchElement& e : c.elements)
-        corners.insert(corners.end(), {e.a, e.b});
-    c.at = incidence_of(b.plan.vertex_count, corners, 2);
+    c.at = incidence_of(b.plan.vertex_count, c.elements);
     c.rows.count = static_cast<std::uint32_t>(c.elements.size());
     check_row_trips(b, c.at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
     const std::uint64_t vec = 4 * b.real_size();
@@ -163,15 +161,13 @@ double inverse_diagonal(const PlanBuilder& b, const StretchElement& e, double co
 }
 
 std::uint32_t add_row_records(PlanBuilder& b, std::string_view effect,
-                              std::span<const StretchElement> springs, std::span<const double> compliances)
+                              const std::vector<StretchElement>& springs, std::span<const double> compliances)
 {
     return with_real(b.plan.precision, [&](auto zero) {
         using Real = decltype(zero);
-        std::vector<layout::Spring<Real>> records;
+        std::vector<layout::Spring<Real>> records = records_of(springs, spring_record<Real>);
         for (std::size_t k = 0; k < springs.size(); ++k)
-            records.push_back({springs[k].a, springs[k].b, static_cast<Real>(springs[k].rest_length),
-                               stiffness_of<Real>(compliances[k]), static_cast<Real>(springs[k].damping),
-                               static_cast<std::uint32_t>(springs[k].kind)});
+            records[k].stiffness = stiffness_of<Real>(compliances[k]);
         return b.add_buffer<layout::Spring<Real>>(effect, "rows", records);
     });
 }
@@ -198,10 +194,8 @@ void check_row_trips(const PlanBuilder& b, const Incidence& at, std::uint32_t ch
 void prepare_implicit_constraints(PlanBuilder& b)
 {
     auto c = std::make_shared<ImplicitConstraints>();
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (const StretchElement& e : acting_springs(b, body))
-            if (may_be_constrained(b.scene, e))
-                c->elements.push_back(e);
+    c->elements = all_springs(b);
+    std::erase_if(c->elements, [&](const StretchElement& e) { return !may_be_constrained(b.scene, e); });
     if (c->elements.empty())
         return;
     add_row_buffers(b, *c);

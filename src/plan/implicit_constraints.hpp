@@ -37,7 +37,8 @@ inline constexpr double kRegularisation = 1e-4;
 double inverse_diagonal(const PlanBuilder& builder, const StretchElement& spring, double compliance);
 /// layout::Spring<real> a spring, as constraint_rows.comp reads them.
 std::uint32_t add_row_records(PlanBuilder& builder, std::string_view effect,
-                              std::span<const StretchElement> springs, std::span<const double> compliances);
+                              const std::vector<StretchElement>& springs,
+                              std::span<const double> compliances);
 /// Throws Error{limit} where a vertex has more rows than one invocation may loop over.
 void check_row_trips(const PlanBuilder& builder, const Incidence& at, std::uint32_t chunk);
 

@@ -15,6 +15,7 @@
 #include "taut/plan/implicit_product.hpp"
 #include "taut/plan/implicit_table.hpp"
 #include "taut/plan/solve.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
 
@@ -65,21 +66,9 @@ struct Elements
 
 Elements acting_elements(PlanBuilder& b)
 {
-    Elements out;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-    {
-        for (const StretchElement& e : acting_springs(b, body))
-        {
-            out.springs.push_back(e);
-            out.spring_ends.vertices.insert(out.spring_ends.vertices.end(), {e.a, e.b});
-        }
-        for (const BendElement& e : acting_hinges(b, body))
-        {
-            out.hinges.push_back(e);
-            out.hinge_corners.vertices.insert(out.hinge_corners.vertices.end(),
-                                              {e.edge0, e.edge1, e.wing0, e.wing1});
-        }
-    }
+    Elements out{all_springs(b), all_hinges(b)};
+    out.spring_ends.vertices = corners_of(out.springs);
+    out.hinge_corners.vertices = corners_of(out.hinges);
     return out;
 }
 
@@ -92,20 +81,14 @@ float power_below(double value)
 template <typename Real>
 void add_records(PlanBuilder& b, ImplicitEuler& m, const Elements& elements)
 {
-    std::vector<layout::Spring<Real>> springs;
-    for (const StretchElement& e : elements.springs)
-        springs.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(1 / e.compliance),
-                           static_cast<Real>(e.damping), static_cast<std::uint32_t>(e.kind)});
+    auto springs = records_of(elements.springs, spring_record<Real>);
     if (springs.empty())
         springs.push_back({}); // a binding has bytes; no entry of the table leads here
     m.springs = b.add_buffer<layout::Spring<Real>>(kName, "springs", springs);
     if (elements.hinges.empty())
         return;
-    std::vector<layout::BendingConstraint<Real>> hinges;
-    for (const BendElement& e : elements.hinges)
-        hinges.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
-                          static_cast<Real>(e.compliance)});
-    m.hinges = b.add_buffer<layout::BendingConstraint<Real>>(kName, "hinges", hinges);
+    m.hinges = b.add_buffer<layout::BendingConstraint<Real>>(
+        kName, "hinges", records_of(elements.hinges, bending_record<Real>));
 }
 
 void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std::uint32_t arity,

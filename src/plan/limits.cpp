@@ -5,7 +5,7 @@
 #include "taut/plan/limits.hpp"
 
 #include "taut/plan/grouping.hpp"
-#include "taut/plan/material.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/kernels/attachment.hpp"
 #include "taut/kernels/strain_limit.hpp"
 #include "taut/kernels/tearing.hpp"
@@ -35,6 +35,7 @@ std::vector<StretchElement> limited_springs(const PlanBuilder& b, std::size_t bo
         e.a = b.vertex(body, e.a);
         e.b = b.vertex(body, e.b);
         e.rest_length *= 1 + strain;
+        e.compliance = 0; // a limit does not give
         if (e.rest_length > 0 && (b.inverse_mass[e.a] > 0 || b.inverse_mass[e.b] > 0))
             out.push_back(e);
     }
@@ -45,11 +46,9 @@ std::uint32_t add_springs(PlanBuilder& b, std::string_view effect, std::string_v
                           const std::vector<StretchElement>& springs)
 {
     return with_real(b.plan.precision, [&](auto zero) {
-        using Record = layout::DistanceConstraint<decltype(zero)>;
-        std::vector<Record> records;
-        for (const StretchElement& e : springs)
-            records.push_back({e.a, e.b, static_cast<decltype(zero)>(e.rest_length), zero});
-        return b.add_buffer<Record>(effect, name, records);
+        using Real = decltype(zero);
+        return b.add_buffer<layout::DistanceConstraint<Real>>(effect, name,
+                                                              records_of(springs, distance_record<Real>));
     });
 }
 
@@ -118,15 +117,7 @@ void prepare_strain_limit(PlanBuilder& b)
     if (flat.empty())
         return;
     set.buffer = add_springs(b, kStrain, "strain limits", flat);
-    bool grouped = set.small_bodies > 0;
-    for (const Run& run : runs_of(b, set))
-        if (run.grouped())
-        {
-            table.insert(table.end(), {run.begin, run.end});
-            grouped = true;
-        }
-    if (grouped)
-        set.table = b.add_buffer<std::uint32_t>(kStrain, "strain limit colours", table);
+    add_colour_table(b, set, std::move(table));
     b.limits = std::move(set);
 }
 

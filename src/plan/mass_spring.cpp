@@ -15,6 +15,7 @@
 #include "taut/kernels/slot_sum.hpp"
 #include "taut/kernels/spring_force.hpp"
 #include "taut/kernels/spring_slots.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -42,17 +43,6 @@ void add_force_buffer(PlanBuilder& b, std::string_view effect)
     if (f.force == kNoBuffer)
         f.force =
             b.add_buffer(effect, "inner forces", std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
-}
-
-template <typename Real>
-layout::Spring<Real> record_of(const StretchElement& e)
-{
-    return {e.a,
-            e.b,
-            static_cast<Real>(e.rest_length),
-            static_cast<Real>(1 / e.compliance),
-            static_cast<Real>(e.damping),
-            static_cast<std::uint32_t>(e.kind)};
 }
 
 /// Elements that an invocation of one vertex visits, on average, for the accounts.
@@ -153,35 +143,27 @@ bool wants_kick(const Scene& scene)
 {
     return wants_kick_after(scene) ||
            std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
-               return b.material.stretch_stiffness > 0 || !b.springs.empty() ||
+               return has_springs(b) ||
                       (b.material.bending_stiffness > 0 && !b.mesh.triangles.empty());
            });
 }
 
 void prepare_spring_force(PlanBuilder& b)
 {
-    std::vector<StretchElement> elements;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (const StretchElement& e : acting_springs(b, body))
-            if (acts_as_force(b.scene, e))
-                elements.push_back(e);
+    std::vector<StretchElement> elements = all_springs(b);
+    std::erase_if(elements, [&](const StretchElement& e) { return !acts_as_force(b.scene, e); });
     ForceBuffers& f = forces(b);
     f.springs = static_cast<std::uint32_t>(elements.size());
     if (elements.empty())
         return;
     f.node_centric = b.scene.method.scheme != "spring_centric";
-    std::vector<std::uint32_t> corners;
-    for (const StretchElement& e : elements)
-    {
-        corners.insert(corners.end(), {e.a, e.b});
-        f.damped = f.damped || e.damping > 0;
-    }
-    const Incidence at = incidence_of(b.plan.vertex_count, corners, 2);
+    f.damped = std::any_of(elements.begin(), elements.end(),
+                           [](const StretchElement& e) { return e.damping > 0; });
+    const Incidence at = incidence_of(b.plan.vertex_count, elements);
     with_real(b.plan.precision, [&](auto zero) {
         using Record = layout::Spring<decltype(zero)>;
-        std::vector<Record> records, ends;
-        for (const StretchElement& e : elements)
-            records.push_back(record_of<decltype(zero)>(e));
+        const std::vector<Record> records = records_of(elements, spring_record<decltype(zero)>);
+        std::vector<Record> ends;
         if (!f.node_centric)
         {
             f.records = b.add_buffer<Record>("spring_force", "springs", records);

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 
 namespace taut {
 namespace {
@@ -71,7 +72,37 @@ void append_links(std::vector<StretchElement>& out, const Mesh& mesh, double mod
     }
 }
 
+/// Each edge with the volume round it, m^3, by (a, b).
+std::map<std::array<std::uint32_t, 2>, double> edge_volumes(const Mesh& mesh)
+{
+    std::map<std::array<std::uint32_t, 2>, double> out;
+    for (const auto& t : mesh.tetrahedra)
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = i + 1; j < 4; ++j)
+                out[{std::min(t[i], t[j]), std::max(t[i], t[j])}] += six_volumes(mesh.positions, t) / 6;
+    return out;
+}
+
+void append_solid_edges(std::vector<StretchElement>& out, const Mesh& mesh, double modulus)
+{
+    for (const auto& [edge, volume] : edge_volumes(mesh))
+    {
+        const double length = glm::distance(mesh.positions[edge[0]], mesh.positions[edge[1]]);
+        out.push_back({edge[0], edge[1], length, length * length / (modulus * volume)});
+    }
+}
+
+bool of_springs(const Body& body)
+{
+    return !body.mesh.tetrahedra.empty() && body.material.model == "springs";
+}
+
 } // namespace
+
+bool has_springs(const Body& body)
+{
+    return body.material.stretch_stiffness > 0 || of_springs(body) || !body.springs.empty();
+}
 
 std::vector<double> vertex_masses(const Body& body)
 {
@@ -82,7 +113,10 @@ std::vector<double> vertex_masses(const Body& body)
         return body.vertex_masses;
     }
     std::vector<double> mass(mesh.positions.size(), 0.0);
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const auto& t : mesh.tetrahedra)
+        for (std::uint32_t v : t)
+            mass[v] += body.material.density * six_volumes(mesh.positions, t) / 24;
+    for (std::uint32_t t = 0; t < mesh.triangles.size() && mesh.tetrahedra.empty(); ++t)
         for (std::uint32_t v : mesh.triangles[t])
             mass[v] += body.material.density * triangle_area(mesh, t) / 3;
     for (const auto& [a, b] : mesh.links)
@@ -105,6 +139,8 @@ std::vector<StretchElement> stretch_elements(const Body& body)
         append_edges(out, body.mesh, modulus);
         append_links(out, body.mesh, modulus);
     }
+    if (of_springs(body))
+        append_solid_edges(out, body.mesh, body.material.youngs_modulus);
     for (const Body::Spring& s : body.springs)
         out.push_back({s.a, s.b, s.rest_length, s.compliance, s.kind});
     for (StretchElement& e : out)

@@ -5,27 +5,30 @@
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/mass_spring.hpp"
 #include "taut/plan/pbd.hpp"
+#include "taut/plan/solid.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/plan/vbd.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <vector>
 
 namespace taut {
 namespace {
 
 // clang-format off
 constexpr Method kMethods[] = {
-    //                                 contacts each  keeps
-    // kind                            iteration      guess   check                       substeps
-    {MethodKind::mass_spring,          false,         false,  check_mass_spring,          stable_substeps},
-    {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       nullptr},
-    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, stable_substeps},
-    {MethodKind::acad,                 false,         false,  check_acad,                 stable_substeps},
-    {MethodKind::pbd,                  true,          false,  check_pbd,                  nullptr},
-    {MethodKind::xpbd,                 true,          false,  nullptr,                    nullptr},
-    {MethodKind::vbd,                  false,         true,   check_vbd,                  nullptr},
+    //                                 contacts each  keeps                                neo-
+    // kind                            iteration      guess   check                       volumes Hookean substeps
+    {MethodKind::mass_spring,          false,         false,  check_mass_spring,          false,  false,  stable_substeps},
+    {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       false,  false,  nullptr},
+    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, false,  false,  stable_substeps},
+    {MethodKind::acad,                 false,         false,  check_acad,                 false,  false,  stable_substeps},
+    {MethodKind::pbd,                  true,          false,  check_pbd,                  false,  false,  nullptr},
+    {MethodKind::xpbd,                 true,          false,  nullptr,                    true,   true,   nullptr},
+    {MethodKind::vbd,                  false,         true,   check_vbd,                  false,  false,  nullptr},
 };
 // clang-format on
 
@@ -43,12 +46,42 @@ MethodKind method_of(const Scene& scene)
 
 const Method& find_method(MethodKind kind)
 {
+    const Method& method = kMethods[static_cast<std::size_t>(kind)];
+    assert(method.kind == kind);
+    return method;
+}
+
+namespace {
+
+std::string methods_with(bool Method::*can)
+{
+    std::vector<std::string_view> names;
     for (const Method& method : kMethods)
-        if (method.kind == kind)
-            return method;
-    throw Error(ErrorCode::unsupported, "method.type \"" +
-                                            std::string(kMethodNames[static_cast<std::size_t>(kind)]) +
-                                            "\" is not built yet");
+        if (method.*can)
+            names.push_back(kMethodNames[static_cast<std::size_t>(method.kind)]);
+    return scene_file::listing(names);
+}
+
+} // namespace
+
+void check_solids(const Scene& scene)
+{
+    const Method& method = find_method(method_of(scene));
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    {
+        const Body& body = scene.bodies[k];
+        const std::string where = "bodies[" + std::to_string(k) + "].material.";
+        if (is_elastic(body) && !method.elastic)
+            throw Error(ErrorCode::unsupported,
+                        where + "model is \"" + body.material.model + "\", which method \"" +
+                            scene.method.type + "\" does not have; take model \"springs\", or a method of " +
+                            methods_with(&Method::elastic));
+        if (holds_volumes(body) && !method.volumes)
+            throw Error(ErrorCode::unsupported,
+                        where + "volume_stiffness is not 0, but method \"" + scene.method.type +
+                            "\" does not hold the volume of tetrahedra; set it to 0, or take a method of " +
+                            methods_with(&Method::volumes));
+    }
 }
 
 } // namespace taut

@@ -11,6 +11,7 @@
 
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/grouping.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -104,49 +105,18 @@ void check_degree(const PlanBuilder& b, const Incidence& springs, const Incidenc
     }
 }
 
-template <typename Element>
-std::vector<Element> of_all_bodies(PlanBuilder& b, std::vector<Element> (*acting)(PlanBuilder&, std::size_t))
-{
-    std::vector<Element> out;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (const Element& e : acting(b, body))
-            out.push_back(e);
-    return out;
-}
-
 void add_jacobi_records(PlanBuilder& b, const std::vector<StretchElement>& springs,
                         const std::vector<BendElement>& hinges)
 {
     with_real(b.plan.precision, [&](auto zero) {
         using Real = decltype(zero);
-        std::vector<layout::DistanceConstraint<Real>> stretch;
-        for (const StretchElement& e : springs)
-            stretch.push_back({e.a, e.b, static_cast<Real>(e.rest_length), static_cast<Real>(e.compliance)});
+        auto stretch = records_of(springs, distance_record<Real>);
         stretch.resize(std::max<std::size_t>(stretch.size(), 1)); // hinges alone: no buffer is empty
         b.pbd.springs = b.add_buffer<layout::DistanceConstraint<Real>>(kJacobi, "springs", stretch);
-        std::vector<layout::BendingConstraint<Real>> bend;
-        for (const BendElement& e : hinges)
-            bend.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
-                            static_cast<Real>(e.compliance)});
+        const auto bend = records_of(hinges, bending_record<Real>);
         if (!bend.empty())
             b.pbd.hinges = b.add_buffer<layout::BendingConstraint<Real>>(kJacobi, "hinges", bend);
     });
-}
-
-std::vector<std::uint32_t> corners_of(const std::vector<StretchElement>& springs)
-{
-    std::vector<std::uint32_t> corners;
-    for (const StretchElement& e : springs)
-        corners.insert(corners.end(), {e.a, e.b});
-    return corners;
-}
-
-std::vector<std::uint32_t> corners_of(const std::vector<BendElement>& hinges)
-{
-    std::vector<std::uint32_t> corners;
-    for (const BendElement& e : hinges)
-        corners.insert(corners.end(), {e.edge0, e.edge1, e.wing0, e.wing1});
-    return corners;
 }
 
 struct Shares
@@ -247,13 +217,13 @@ void record_pbd_bend(PlanBuilder& b, const Moment& moment)
 void prepare_pbd_jacobi(PlanBuilder& b)
 {
     const MethodSettings& m = b.scene.method;
-    const auto springs = m.stretch > 0 ? of_all_bodies(b, acting_springs) : std::vector<StretchElement>{};
-    const auto hinges = m.bend > 0 ? of_all_bodies(b, acting_hinges) : std::vector<BendElement>{};
+    const auto springs = m.stretch > 0 ? all_springs(b) : std::vector<StretchElement>{};
+    const auto hinges = m.bend > 0 ? all_hinges(b) : std::vector<BendElement>{};
     if (springs.empty() && hinges.empty())
         return;
     const std::uint32_t n = b.plan.vertex_count;
-    const Incidence at_springs = incidence_of(n, corners_of(springs), 2);
-    const Incidence at_hinges = incidence_of(n, corners_of(hinges), 4);
+    const Incidence at_springs = incidence_of(n, springs);
+    const Incidence at_hinges = incidence_of(n, hinges);
     check_degree(b, at_springs, at_hinges);
     b.pbd.spring_count = static_cast<std::uint32_t>(springs.size());
     b.pbd.hinge_count = static_cast<std::uint32_t>(hinges.size());

@@ -29,6 +29,7 @@ void check_settings(const Scene& scene, const DeviceTraits& traits)
     if (scene.method.precision == "double" && !traits.float64)
         throw Error(ErrorCode::unsupported, "method.precision is \"double\", but the device has no 64-bit "
                                             "floats; use \"float\" or another device");
+    check_solids(scene);
     if (method.check != nullptr)
         method.check(scene, traits);
 }

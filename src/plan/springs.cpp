@@ -1,9 +1,7 @@
 #include "taut/plan/springs.hpp"
 
+#include "taut/plan/records.hpp"
 #include "taut/runtime/base/error.hpp"
-
-#define TAUT_HOST
-#include "taut/kernels/shared/layouts.h"
 
 #include <glm/geometric.hpp>
 
@@ -57,7 +55,7 @@ void refuse_rigid(const Scene& scene)
             if (!(e.compliance > 0))
                 throw Error(ErrorCode::unsupported,
                             where + "bending_stiffness is infinite; give a finite one");
-            for (const std::uint32_t v : {e.edge0, e.edge1, e.wing0, e.wing1})
+            for (const std::uint32_t v : corners_of(e))
                 ++at[v];
         }
         const auto most = std::max_element(at.begin(), at.end());
@@ -112,51 +110,34 @@ std::vector<BendElement> acting_hinges(PlanBuilder& b, std::size_t body)
     return out;
 }
 
-SpringBuffers make_spring_buffers(PlanBuilder& b, std::string_view effect)
+namespace {
+
+template <typename Element>
+std::vector<Element> of_all_bodies(PlanBuilder& b, std::vector<Element> (*acting)(PlanBuilder&, std::size_t))
 {
-    SpringBuffers out;
+    std::vector<Element> out;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (const StretchElement& e : acting_springs(b, body))
-            out.elements.push_back(e);
-    if (out.elements.empty())
-        return out;
-    std::vector<std::uint32_t> corners;
-    for (const StretchElement& e : out.elements)
-        corners.insert(corners.end(), {e.a, e.b});
-    out.at = incidence_of(b.plan.vertex_count, corners, 2);
-    with_real(b.plan.precision, [&](auto zero) {
-        using Real = decltype(zero);
-        std::vector<layout::Spring<Real>> records;
-        for (const StretchElement& e : out.elements)
-            records.push_back({e.a, e.b, static_cast<Real>(e.rest_length),
-                               e.compliance > 0 ? static_cast<Real>(1 / e.compliance) : Real(0),
-                               static_cast<Real>(e.damping), static_cast<std::uint32_t>(e.kind)});
-        out.records = b.add_buffer<layout::Spring<Real>>(effect, "springs", records);
-    });
-    out.start = b.add_buffer<std::uint32_t>(effect, "springs at a vertex, start", out.at.start);
-    out.incident = b.add_buffer<std::uint32_t>(effect, "springs at a vertex", out.at.entries);
+        for (const Element& e : acting(b, body))
+            out.push_back(e);
     return out;
 }
+
+} // namespace
+
+std::vector<StretchElement> all_springs(PlanBuilder& b) { return of_all_bodies(b, acting_springs); }
+std::vector<BendElement> all_hinges(PlanBuilder& b) { return of_all_bodies(b, acting_hinges); }
 
 HingeBuffers make_hinge_buffers(PlanBuilder& b, std::string_view effect)
 {
     HingeBuffers out;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (const BendElement& e : acting_hinges(b, body))
-            out.elements.push_back(e);
+    out.elements = all_hinges(b);
     if (out.elements.empty())
         return out;
-    std::vector<std::uint32_t> corners;
-    for (const BendElement& e : out.elements)
-        corners.insert(corners.end(), {e.edge0, e.edge1, e.wing0, e.wing1});
-    out.at = incidence_of(b.plan.vertex_count, corners, 4);
+    out.at = incidence_of(b.plan.vertex_count, out.elements);
     with_real(b.plan.precision, [&](auto zero) {
         using Real = decltype(zero);
-        std::vector<layout::BendingConstraint<Real>> records;
-        for (const BendElement& e : out.elements)
-            records.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
-                               static_cast<Real>(e.compliance)});
-        out.records = b.add_buffer<layout::BendingConstraint<Real>>(effect, "hinges", records);
+        out.records = b.add_buffer<layout::BendingConstraint<Real>>(
+            effect, "hinges", records_of(out.elements, bending_record<Real>));
     });
     out.start = b.add_buffer<std::uint32_t>(effect, "hinges at a vertex, start", out.at.start);
     out.incident = b.add_buffer<std::uint32_t>(effect, "hinges at a vertex", out.at.entries);

@@ -4,7 +4,9 @@
 
 #include "taut/plan/builder.hpp"
 #include "taut/plan/material.hpp"
+#include "taut/plan/solid.hpp"
 
+#include <array>
 #include <vector>
 
 namespace taut {
@@ -20,6 +22,33 @@ struct Incidence
 Incidence incidence_of(std::uint32_t vertex_count, std::span<const std::uint32_t> corners,
                        std::uint32_t arity);
 
+/// The vertices of an element, in the order of its record.
+inline std::array<std::uint32_t, 2> corners_of(const StretchElement& e) { return {e.a, e.b}; }
+inline std::array<std::uint32_t, 4> corners_of(const BendElement& e)
+{
+    return {e.edge0, e.edge1, e.wing0, e.wing1};
+}
+inline std::array<std::uint32_t, 4> corners_of(const VolumeElement& e) { return e.vertex; }
+inline std::array<std::uint32_t, 4> corners_of(const SolidElement& e) { return e.vertex; }
+
+/// Those of all, element by element.
+template <typename Element>
+std::vector<std::uint32_t> corners_of(const std::vector<Element>& elements)
+{
+    std::vector<std::uint32_t> out;
+    for (const Element& e : elements)
+        for (const std::uint32_t v : corners_of(e))
+            out.push_back(v);
+    return out;
+}
+
+template <typename Element>
+Incidence incidence_of(std::uint32_t vertex_count, const std::vector<Element>& elements)
+{
+    constexpr auto arity = static_cast<std::uint32_t>(std::tuple_size_v<decltype(corners_of(Element{}))>);
+    return incidence_of(vertex_count, corners_of(elements), arity);
+}
+
 /// For methods that move by forces. Throws Error{unsupported} for rigid elements, Error{degenerate_rest} for
 /// springs that are rigid because they have no length, Error{limit} for a vertex of more elements than one
 /// invocation may visit.
@@ -31,21 +60,15 @@ std::vector<StretchElement> acting_springs(PlanBuilder& builder, std::size_t bod
 /// The same for hinges. Adds the warning "degenerate" for those without an angle at rest.
 std::vector<BendElement> acting_hinges(PlanBuilder& builder, std::size_t body);
 
-/// Buffers of springs on the device, kNoBuffer where a scene has none.
-struct SpringBuffers
-{
-    std::vector<StretchElement> elements; ///< as acting_springs, body by body
-    Incidence at;
-    std::uint32_t records = kNoBuffer;  ///< layout::Spring<real>; a rigid spring's stiffness is 0
-    std::uint32_t start = kNoBuffer;    ///< uint32, vertices + 1: Incidence::start
-    std::uint32_t incident = kNoBuffer; ///< uint32: Incidence::entries, 2 * spring + end
-};
-SpringBuffers make_spring_buffers(PlanBuilder& builder, std::string_view effect);
+/// Those of all bodies, body by body.
+std::vector<StretchElement> all_springs(PlanBuilder& builder);
+std::vector<BendElement> all_hinges(PlanBuilder& builder);
 
-/// The same of hinges; incident entries are 4 * hinge + corner (edge0, edge1, wing0, wing1).
+/// Hinges on the device, kNoBuffer where a scene has none; incident entries are 4 * hinge + corner (edge0,
+/// edge1, wing0, wing1).
 struct HingeBuffers
 {
-    std::vector<BendElement> elements;
+    std::vector<BendElement> elements; ///< as all_hinges
     Incidence at;
     std::uint32_t records = kNoBuffer; ///< layout::BendingConstraint<real>
     std::uint32_t start = kNoBuffer;

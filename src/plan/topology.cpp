@@ -1,4 +1,4 @@
-// Edges, hinges and a cache-friendly vertex order of a triangle mesh.
+// Edges, hinges and a cache-friendly vertex order of a mesh.
 // Based on:
 //   G. M. Morton. A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing.
 //   IBM 1966: interleaved bits, at morton_code.
@@ -59,19 +59,31 @@ void for_each_side(const Mesh& mesh, Visit visit)
     {
         visit(link[0], link[1], kNoTriangle);
     }
+    for (const auto& t : mesh.tetrahedra)
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = i + 1; j < 4; ++j)
+                visit(t[i], t[j], kNoTriangle);
+}
+
+/// "triangles[7]": the element of a side, counted as for_each_side goes.
+std::string place_of(const Mesh& mesh, std::size_t side)
+{
+    const std::size_t of_triangles = 3 * mesh.triangles.size(), of_links = mesh.links.size();
+    if (side < of_triangles)
+        return "triangles[" + std::to_string(side / 3) + "]";
+    side -= of_triangles;
+    if (side < of_links)
+        return "links[" + std::to_string(side) + "]";
+    return "tetrahedra[" + std::to_string((side - of_links) / 6) + "]";
 }
 
 void check_mesh(const Mesh& mesh)
 {
     const std::size_t count = mesh.positions.size();
     std::size_t side = 0;
-    for_each_side(mesh, [&](std::uint32_t a, std::uint32_t b, std::uint32_t triangle) {
+    for_each_side(mesh, [&](std::uint32_t a, std::uint32_t b, std::uint32_t) {
         if (a >= count || b >= count || a == b)
-        {
-            const bool link = triangle == kNoTriangle;
-            const std::size_t index = link ? side - 3 * mesh.triangles.size() : triangle;
-            refuse_side(mesh, a, b, (link ? "links[" : "triangles[") + std::to_string(index) + "]");
-        }
+            refuse_side(mesh, a, b, place_of(mesh, side));
         ++side;
     });
 }

@@ -14,10 +14,11 @@ namespace taut {
 struct MeshEdge
 {
     std::uint32_t a = 0, b = 0;           ///< a < b
-    std::vector<std::uint32_t> triangles; ///< ascending; empty for a link
+    std::vector<std::uint32_t> triangles; ///< ascending; empty for a link and inside a solid
 };
 
-/// Every edge once, sorted by (a, b): the sides of the triangles and the links. Throws
+/// Every edge once, sorted by (a, b): the sides of the triangles, the links, the edges of the
+/// tetrahedra. Throws
 /// Error{bad_input} for a corner that is no vertex and for an edge from a vertex to itself.
 std::vector<MeshEdge> mesh_edges(const Mesh& mesh);
 

@@ -15,6 +15,7 @@
 #include "taut/kernels/vbd_solve.hpp"
 #include "taut/kernels/vbd_start.hpp"
 #include "taut/plan/grouping.hpp"
+#include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/plan/vertex_colouring.hpp"
 
@@ -39,23 +40,9 @@ struct Elements
 
 Elements elements_of(PlanBuilder& b)
 {
-    Elements out;
-    std::vector<std::uint32_t> ends, corners;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-    {
-        for (const StretchElement& e : acting_springs(b, body))
-        {
-            out.springs.push_back(e);
-            ends.insert(ends.end(), {e.a, e.b});
-        }
-        for (const BendElement& e : acting_hinges(b, body))
-        {
-            out.hinges.push_back(e);
-            corners.insert(corners.end(), {e.edge0, e.edge1, e.wing0, e.wing1});
-        }
-    }
-    out.at_spring = incidence_of(b.plan.vertex_count, ends, 2);
-    out.at_hinge = incidence_of(b.plan.vertex_count, corners, 4);
+    Elements out{all_springs(b), all_hinges(b), {}, {}};
+    out.at_spring = incidence_of(b.plan.vertex_count, out.springs);
+    out.at_hinge = incidence_of(b.plan.vertex_count, out.hinges);
     return out;
 }
 
@@ -70,18 +57,15 @@ std::vector<std::vector<std::uint32_t>> colours_of(const PlanBuilder& b, const E
         for (std::uint32_t v = first; v < end; ++v)
             free.push_back(b.inverse_mass[v] > 0);
         VertexGraph graph(std::move(free));
-        const auto add = [&](std::initializer_list<std::uint32_t> corners) {
+        const auto add = [&](const auto& element) {
             std::vector<std::uint32_t> own;
-            for (const std::uint32_t v : corners)
+            for (const std::uint32_t v : corners_of(element))
                 own.push_back(v - first);
-            graph.add(own, static_cast<std::uint32_t>(own.size()));
+            if (own.front() < end - first) // unsigned: neither before nor behind the body
+                graph.add(own, static_cast<std::uint32_t>(own.size()));
         };
-        for (const StretchElement& e : elements.springs)
-            if (e.a >= first && e.a < end)
-                add({e.a, e.b});
-        for (const BendElement& e : elements.hinges)
-            if (e.edge0 >= first && e.edge0 < end)
-                add({e.edge0, e.edge1, e.wing0, e.wing1});
+        std::for_each(elements.springs.begin(), elements.springs.end(), add);
+        std::for_each(elements.hinges.begin(), elements.hinges.end(), add);
         graph.finish();
         const VertexColours found = colour_vertices(graph, b.scene.bodies[body].mesh.grid_columns);
         out.resize(std::max<std::size_t>(out.size(), found.count));
@@ -153,15 +137,14 @@ void add_rows(PlanBuilder& b, BlockBuffers& f, const Elements& elements,
             for (std::uint32_t k = elements.at_spring.start[v]; k < elements.at_spring.start[v + 1]; ++k)
             {
                 const StretchElement& e = elements.springs[elements.at_spring.entries[k] / 2];
-                ends.push_back({v, e.a == v ? e.b : e.a, static_cast<Real>(e.rest_length),
-                                static_cast<Real>(1 / e.compliance), static_cast<Real>(e.damping),
-                                static_cast<std::uint32_t>(e.kind)});
+                ends.push_back(spring_record<Real>(e));
+                if (e.a != v)
+                    std::swap(ends.back().a, ends.back().b);
             }
             for (std::uint32_t k = elements.at_hinge.start[v]; k < elements.at_hinge.start[v + 1]; ++k)
             {
                 const BendElement& e = elements.hinges[elements.at_hinge.entries[k] / 4];
-                corners.push_back({e.edge0, e.edge1, e.wing0, e.wing1, static_cast<Real>(e.rest_angle),
-                                   static_cast<Real>(e.compliance)});
+                corners.push_back(bending_record<Real>(e));
             }
         }
     }

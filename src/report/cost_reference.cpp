@@ -26,11 +26,14 @@ std::string unmodelled(const Scene& scene)
             out += std::string(out.empty() ? "it does not model " : ", ") + what;
     };
     add(scene.wind.density > 0 &&
-            any([](const ClothMaterial& m) { return m.drag > 0 || m.friction_drag > 0; }),
+            any([](const Material& m) { return m.drag > 0 || m.friction_drag > 0; }),
         "wind");
-    add(any([](const ClothMaterial& m) { return m.strain_limit > 0; }), "limits of strain");
-    add(any([](const ClothMaterial& m) { return m.attachment_slack >= 0; }), "attachments");
-    add(any([](const ClothMaterial& m) { return m.tear_strain > 0; }), "tearing");
+    add(any([](const Material& m) { return m.strain_limit > 0; }), "limits of strain");
+    add(any([](const Material& m) { return m.attachment_slack >= 0; }), "attachments");
+    add(any([](const Material& m) { return m.tear_strain > 0; }), "tearing");
+    add(std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                    [](const Body& body) { return !body.mesh.tetrahedra.empty(); }),
+        "tetrahedra");
     return out;
 }
 

@@ -161,6 +161,11 @@ void measure_energy(const View& view, StepReport& out)
             out.potential_energy +=
                 0.5 * std::pow(reference::angle_difference(view.angle(c).angle, c.rest_angle), 2) /
                 c.compliance;
+    for (const VolumeElement& e : view.model.volumes)
+        if (e.compliance > 0)
+            out.potential_energy += 0.5 * std::pow(volume_of(e.vertex, view.x) - e.rest_volume, 2) / e.compliance;
+    for (const SolidElement& e : view.model.solids)
+        out.potential_energy += solid_energy(e, view.x);
 }
 
 /// Signed distance of a point to a collider's surface at a time, m; of a box, to its nearest face.
@@ -286,8 +291,9 @@ void measure_residuals(const View& view, StepReport& out)
 {
     out.primal_residual = out.dual_residual = -1;
     const auto& sets = view.plan.constraints;
-    const bool kept = std::all_of(sets.begin(), sets.end(),
-                                  [](const ConstraintSet& s) { return s.multipliers != kNoBuffer; });
+    const bool kept = std::all_of(sets.begin(), sets.end(), [](const ConstraintSet& s) {
+        return s.multipliers != kNoBuffer && (s.kind == "distance" || s.kind == "bending");
+    });
     const bool limited = // by forces that are on no record
         std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
                     [](const EffectCost& e) { return e.name == "strain_limit" || e.name == "attachment"; });
@@ -386,6 +392,7 @@ StepReport measure(const World& world)
     measure_penetration(view, out);
     measure_momentum(view, out);
     measure_residuals(view, out);
+    out.volume = measure_volume(world.scene(), view.x);
     out.torn = world.torn();
     out.position_hash = hash_of(world.state());
     out.solver = world.solver_report();

@@ -57,6 +57,16 @@ void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first
         model.hinges.push_back(h);
     }
     model.dropped_hinges += dropped;
+    const auto append = [first](auto elements, auto& out) {
+        for (auto& e : elements)
+        {
+            for (std::uint32_t& v : e.vertex)
+                v += first;
+            out.push_back(e);
+        }
+    };
+    append(volume_elements(body), model.volumes);
+    append(solid_elements(body), model.solids);
 }
 
 /// The first pin that names a vertex holds it.
@@ -127,6 +137,14 @@ double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
         if (angle != 0)
             energy += 0.5 * angle * angle / h.compliance;
     }
+    for (const VolumeElement& e : model.volumes)
+    {
+        const double change = volume_of(e.vertex, x) - e.rest_volume;
+        if (change != 0)
+            energy += 0.5 * change * change / e.compliance;
+    }
+    for (const SolidElement& e : model.solids)
+        energy += solid_energy(e, x);
     return energy;
 }
 
@@ -165,6 +183,21 @@ void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::
             out[vertex[c]] += torque * glm::dvec3(g.x, g.y, g.z);
         }
     }
+    for (const VolumeElement& e : model.volumes)
+    {
+        if (!(e.compliance > 0))
+            continue;
+        const double pressure = -(volume_of(e.vertex, x) - e.rest_volume) / e.compliance;
+        const std::array<glm::dvec3, 4> gradient = volume_gradient(e.vertex, x);
+        for (std::size_t c = 0; c < 4; ++c)
+            out[e.vertex[c]] += pressure * gradient[c];
+    }
+    for (const SolidElement& e : model.solids)
+    {
+        const std::array<glm::dvec3, 4> force = solid_forces(e, x);
+        for (std::size_t c = 0; c < 4; ++c)
+            out[e.vertex[c]] += force[c];
+    }
 }
 
 double total_weight(const PhysicalModel& model)
@@ -179,7 +212,8 @@ std::size_t rigid_element_count(const PhysicalModel& model)
 {
     const auto rigid = [](const auto& element) { return !(element.compliance > 0); };
     return static_cast<std::size_t>(std::count_if(model.springs.begin(), model.springs.end(), rigid) +
-                                    std::count_if(model.hinges.begin(), model.hinges.end(), rigid));
+                                    std::count_if(model.hinges.begin(), model.hinges.end(), rigid) +
+                                    std::count_if(model.volumes.begin(), model.volumes.end(), rigid));
 }
 
 double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x)

@@ -4,6 +4,7 @@
 // with the plan only the formulas of plan/material.hpp and the mesh's edges and hinges.
 
 #include "taut/plan/material.hpp"
+#include "taut/plan/solid.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <cstddef>
@@ -30,6 +31,8 @@ struct PhysicalModel
     std::vector<glm::dvec3> velocity;         ///< m/s; 0 where pinned
     std::vector<StretchElement> springs;
     std::vector<BendElement> hinges;
+    std::vector<VolumeElement> volumes;       ///< tetrahedra whose volume is held
+    std::vector<SolidElement> solids;         ///< elastic tetrahedra
     std::size_t dropped_hinges = 0;           ///< without an angle at rest
     std::vector<ModelPin> pins;               ///< ascending, one a vertex
     std::vector<Collider> colliders;

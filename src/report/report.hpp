@@ -1,6 +1,7 @@
 #pragma once
 // How a run went, as values: statuses, errors of measure, energies, residuals.
 
+#include "taut/report/volume.hpp"
 #include "taut/runtime/base/status.hpp"
 #include "taut/world/world.hpp"
 
@@ -35,6 +36,7 @@ struct StepReport
     double max_speed = 0;        ///< m/s
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1
     SolverReport solver;         ///< of the run so far
+    VolumeReport volume;         ///< of bodies with tetrahedra
     std::uint64_t torn = 0;      ///< vertices that came apart so far
     std::uint64_t position_hash = 0; ///< FNV-1a over the raw position and low words in plan order
 };

@@ -92,24 +92,79 @@ void check_chain(const Shape& shape, const Checker& out)
     out.positive("width", shape.width, "m");
 }
 
-void check_shape(const Shape& shape, const Checker& out)
+/// More cells than a body may have vertices.
+bool too_many(double x, double y, double z)
 {
-    if (shape.kind == ShapeKind::grid)
-        check_grid(shape, out.at("grid"));
-    else if (shape.kind == ShapeKind::chain)
-        check_chain(shape, out.at("chain"));
-    else
-    {
-        if (shape.file.empty())
-            out.error("mesh", "is empty; it must name an OBJ, PLY, OFF or STL file");
-        out.finite("weld_distance", shape.weld_distance, "in the units of the file");
-    }
+    return (x + 1) * (y + 1) * (z + 1) > kMaxVertices;
 }
 
-void check_material(const ClothMaterial& material, const Checker& out)
+void check_box(const Shape& shape, const Checker& out)
 {
-    out.positive("density", material.density, "kg/m^2");
-    if (material.stretch_stiffness != std::numeric_limits<double>::infinity())
+    constexpr std::array<std::string_view, 2> splits = {"five", "six"};
+    const auto c = shape.box_cells;
+    if (c.x < 1 || c.y < 1 || c.z < 1 || too_many(c.x, c.y, c.z))
+        out.error("cells", "is [" + std::to_string(c.x) + ", " + std::to_string(c.y) + ", " +
+                               std::to_string(c.z) +
+                               "]; each must be 1 or more, and the box may have at most 67108864 vertices");
+    for (int axis = 0; axis < 3; ++axis)
+        out.positive("size", shape.box_size[axis], "m");
+    out.word("split", shape.split, splits);
+}
+
+void check_ball(const Shape& shape, const Checker& out)
+{
+    const std::uint32_t n = shape.ball_cells;
+    if (n < 2 || too_many(n, n, n))
+        out.error("cells", "is " + std::to_string(n) +
+                               "; it must be 2 or more, and the ball may have at most 67108864 vertices");
+    out.positive("radius", shape.radius, "m");
+}
+
+void check_shape(const Shape& shape, const Checker& out)
+{
+    switch (shape.kind)
+    {
+    case ShapeKind::grid: return check_grid(shape, out.at("grid"));
+    case ShapeKind::chain: return check_chain(shape, out.at("chain"));
+    case ShapeKind::box: return check_box(shape, out.at("box"));
+    case ShapeKind::ball: return check_ball(shape, out.at("ball"));
+    case ShapeKind::tetrahedra:
+        if (shape.file.empty())
+            out.error("tetrahedra", "is empty; it must name a TetGen, Gmsh, VTK or Medit file");
+        return;
+    case ShapeKind::mesh: break;
+    }
+    if (shape.file.empty())
+        out.error("mesh", "is empty; it must name an OBJ, PLY, OFF or STL file");
+    out.finite("weld_distance", shape.weld_distance, "in the units of the file");
+}
+
+/// What only tetrahedra have.
+void check_solid(const Material& material, const Checker& out)
+{
+    constexpr std::array<std::string_view, 3> models = {"neo_hookean", "neo_hookean_simple", "springs"};
+    constexpr std::array<std::string_view, 1> volumes = {"tetrahedra"};
+    out.positive("youngs_modulus", material.youngs_modulus, "Pa");
+    if (!(material.poissons_ratio > -1 && material.poissons_ratio < 0.5))
+        out.error("poissons_ratio", "is " + shown(material.poissons_ratio) +
+                                        "; it must be greater than -1 and less than 0.5 (0.5 is "
+                                        "incompressible: take model \"springs\" with volume_stiffness "
+                                        "\"rigid\")");
+    out.word("model", material.model, models);
+    out.word("volume", material.volume, volumes);
+    if (material.tear_strain > 0)
+        out.error("tear_strain", "is " + shown(material.tear_strain) + "; solids do not tear");
+}
+
+void check_material(const Material& material, bool solid, const Checker& out)
+{
+    out.positive("density", material.density, solid ? "kg/m^3" : "kg/m^2");
+    if (solid)
+        check_solid(material, out);
+    const bool own = solid && material.volume_stiffness == -1; // the bulk modulus
+    if (!own && material.volume_stiffness != std::numeric_limits<double>::infinity())
+        out.not_negative("volume_stiffness", material.volume_stiffness, "Pa");
+    if (!solid && material.stretch_stiffness != std::numeric_limits<double>::infinity())
         out.not_negative("stretch_stiffness", material.stretch_stiffness, "N/m");
     out.not_negative("bending_stiffness", material.bending_stiffness, "N m");
     out.not_negative("thickness", material.thickness, "m");
@@ -137,13 +192,19 @@ void check_pin_names(const Pin& pin, ShapeKind kind, const Checker& out)
                                                               "bottom_right"};
     constexpr std::array<std::string_view, 2> chain_ends = {"first", "last"};
     constexpr std::array<std::string_view, 4> grid_edges = {"top", "bottom", "left", "right"};
-    if (kind == ShapeKind::mesh && !pin.corners.empty())
-        out.error("corners", "names a corner, which a mesh file has not; use \"vertices\" or \"box\"");
+    constexpr std::array<std::string_view, 6> box_faces = {"left", "right", "bottom", "top", "back", "front"};
+    const bool named = kind == ShapeKind::grid || kind == ShapeKind::chain;
+    if (!named && !pin.corners.empty())
+        out.error("corners", "names a corner, which only grids and chains have; use \"vertices\" or \"box\"");
+    if (kind != ShapeKind::box && !pin.faces.empty())
+        out.error("faces", "names a face, which only a box has; use \"vertices\" or \"box\"");
+    for (std::size_t i = 0; kind == ShapeKind::box && i < pin.faces.size(); ++i)
+        out.at("faces", i).word("", pin.faces[i], box_faces);
     if (kind != ShapeKind::grid && !pin.edges.empty())
         out.error("edges", "names an edge, which only a grid has; use \"vertices\" or \"box\"");
     for (std::size_t i = 0; kind == ShapeKind::grid && i < pin.edges.size(); ++i)
         out.at("edges", i).word("", pin.edges[i], grid_edges);
-    for (std::size_t i = 0; kind != ShapeKind::mesh && i < pin.corners.size(); ++i)
+    for (std::size_t i = 0; named && i < pin.corners.size(); ++i)
         if (kind == ShapeKind::grid)
             out.at("corners", i).word("", pin.corners[i], grid_corners);
         else
@@ -152,8 +213,8 @@ void check_pin_names(const Pin& pin, ShapeKind kind, const Checker& out)
 
 void check_pin(const Pin& pin, ShapeKind kind, const Checker& out)
 {
-    if (pin.vertices.empty() && !pin.use_box && pin.corners.empty() && pin.edges.empty())
-        out.error("", "holds nothing; it must name vertices, a box, corners or edges");
+    if (pin.vertices.empty() && !pin.use_box && pin.corners.empty() && pin.edges.empty() && pin.faces.empty())
+        out.error("", "holds nothing; it must name vertices, a box, corners, edges or faces");
     if (pin.use_box)
         check_pin_box(pin, out);
     check_pin_names(pin, kind, out);
@@ -176,7 +237,7 @@ void check_springs(const Body& body, const Checker& out)
 /// What does not depend on where the mesh comes from.
 void check_body_values(const Body& body, const Checker& out)
 {
-    check_material(body.material, out.at("material"));
+    check_material(body.material, is_solid(body.shape.kind), out.at("material"));
     const bool own_springs = !body.springs.empty() || body.shape.network.used;
     if (body.material.tear_strain > 0 && (own_springs || body.shape.kind == ShapeKind::chain))
         out.error("material.tear_strain",
@@ -206,6 +267,11 @@ void check_body(const Body& body, const Checker& out)
             body, (std::size_t(body.shape.cells.x) + 1) * (std::size_t(body.shape.cells.y) + 1), out);
     else if (body.shape.kind == ShapeKind::chain)
         scene_file::check_counts(body, std::size_t(body.shape.links) + 1, out);
+    else if (body.shape.kind == ShapeKind::box)
+    {
+        const auto c = body.shape.box_cells;
+        scene_file::check_counts(body, (std::size_t(c.x) + 1) * (c.y + 1) * (c.z + 1), out);
+    }
 }
 
 void check_collider(const Collider& collider, const Checker& out)
@@ -308,19 +374,30 @@ namespace {
 void check_mesh(const Mesh& mesh, const Checker& out)
 {
     const std::size_t count = mesh.positions.size();
+    bool sound = true; // every element names vertices that are there
     for (std::size_t v = 0; v < count; ++v)
         out.at("mesh.positions", v).finite("", mesh.positions[v], "m");
     const auto corners = [&](std::string_view list, std::size_t index, const auto& vertices) {
         for (const std::uint32_t vertex : vertices)
             if (vertex >= count)
+            {
+                sound = false;
                 out.at(list, index)
                     .error("", "names vertex " + std::to_string(vertex) + "; the mesh has " +
                                    std::to_string(count) + ", numbered from 0");
+            }
     };
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         corners("mesh.triangles", t, mesh.triangles[t]);
     for (std::size_t k = 0; k < mesh.links.size(); ++k)
         corners("mesh.links", k, mesh.links[k]);
+    for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k)
+        corners("mesh.tetrahedra", k, mesh.tetrahedra[k]);
+    for (std::size_t k = 0; k < mesh.tetrahedra.size() && sound; ++k)
+        if (!(six_volumes(mesh.positions, mesh.tetrahedra[k]) > 0))
+            out.at("mesh.tetrahedra", k)
+                .error("", "has no volume, or is left-handed; exchange two corners, or remove it",
+                       ErrorCode::degenerate_rest);
     if (mesh.grid_columns != 0 && std::size_t(mesh.grid_columns) * mesh.grid_rows != count)
         out.error("mesh", "says " + std::to_string(mesh.grid_columns) + " x " +
                               std::to_string(mesh.grid_rows) + " vertices and has " + std::to_string(count));

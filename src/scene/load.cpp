@@ -85,6 +85,7 @@ Pin read_pin(Field field)
     }
     read_names(field, "corner", "corners", pin.corners);
     read_names(field, "edge", "edges", pin.edges);
+    read_names(field, "face", "faces", pin.faces);
     if (const auto motion = field.find("motion"))
         pin.motion = read_motion(*motion);
     return pin;
@@ -119,9 +120,32 @@ void read_grid(Field field, Shape& shape)
     }
 }
 
+void read_box(Field field, Shape& shape)
+{
+    field.object("solid box");
+    shape.kind = ShapeKind::box;
+    if (const auto cells = field.find("cells"))
+    {
+        const auto parts = cells->elements();
+        if (parts.size() != 3)
+            cells->refuse("it must be three whole numbers [x, y, z]");
+        shape.box_cells = {parts[0].count(), parts[1].count(), parts[2].count()};
+    }
+    field.read("size", shape.box_size);
+    field.read("split", shape.split);
+}
+
+void read_ball(Field field, Shape& shape)
+{
+    field.object("ball");
+    shape.kind = ShapeKind::ball;
+    field.read("cells", shape.ball_cells);
+    field.read("radius", shape.radius);
+}
+
 void read_shape(const Field& body, Shape& shape)
 {
-    constexpr std::array<std::string_view, 3> kinds = {"grid", "chain", "mesh"};
+    constexpr std::array<std::string_view, 6> kinds = {"grid", "chain", "mesh", "box", "ball", "tetrahedra"};
     const std::string_view kind = exactly_one(body, kinds);
     Field field = body.need(kind);
     if (kind == "grid")
@@ -134,9 +158,13 @@ void read_shape(const Field& body, Shape& shape)
         field.read("length", shape.length);
         field.read("width", shape.width);
     }
+    else if (kind == "box")
+        read_box(field, shape);
+    else if (kind == "ball")
+        read_ball(field, shape);
     else
     {
-        shape.kind = ShapeKind::mesh;
+        shape.kind = kind == "mesh" ? ShapeKind::mesh : ShapeKind::tetrahedra;
         shape.file = field.text();
     }
     const auto weld = body.find("weld_distance");
@@ -146,25 +174,44 @@ void read_shape(const Field& body, Shape& shape)
         shape.weld_distance = weld->number();
 }
 
-void read_material(Field field, ClothMaterial& material)
+/// A number, or the word for one without bound.
+void read_or_rigid(const Field& object, std::string_view key, std::string_view unit, double& out)
 {
-    field.object("material");
+    const auto value = object.find(key);
+    if (!value)
+        return;
+    if (!value->is_text())
+        out = value->number();
+    else if (value->text() == "rigid")
+        out = std::numeric_limits<double>::infinity();
+    else
+        value->refuse("it must be a number in " + std::string(unit) + " or \"rigid\"");
+}
+
+void read_material(Field field, bool solid, Material& material)
+{
+    field.object(solid ? "solid material" : "material");
     field.read("density", material.density);
-    if (const auto stretch = field.find("stretch_stiffness"))
+    if (solid)
     {
-        if (!stretch->is_text())
-            material.stretch_stiffness = stretch->number();
-        else if (stretch->text() == "rigid")
-            material.stretch_stiffness = std::numeric_limits<double>::infinity();
-        else
-            stretch->refuse("it must be a number in N/m or \"rigid\"");
+        field.read("youngs_modulus", material.youngs_modulus);
+        field.read("poissons_ratio", material.poissons_ratio);
+        field.read("model", material.model);
+        field.read("volume", material.volume);
+        read_or_rigid(field, "volume_stiffness", "Pa", material.volume_stiffness);
+        if (field.find("volume_stiffness") && material.volume_stiffness < 0)
+            field.need("volume_stiffness").refuse("it must be 0 Pa or more, or \"rigid\"");
+    }
+    else
+    {
+        read_or_rigid(field, "stretch_stiffness", "N/m", material.stretch_stiffness);
+        field.read("tear_strain", material.tear_strain);
     }
     field.read("bending_stiffness", material.bending_stiffness);
     field.read("thickness", material.thickness);
     field.read("stretch_damping", material.stretch_damping);
     field.read("strain_limit", material.strain_limit);
     field.read("attachment_slack", material.attachment_slack);
-    field.read("tear_strain", material.tear_strain);
     field.read("drag", material.drag);
     field.read("friction_drag", material.friction_drag);
 }
@@ -197,8 +244,11 @@ Body read_body(Field field)
     Body body;
     field.read("name", body.name);
     read_shape(field, body.shape);
+    const bool solid = is_solid(body.shape.kind);
+    if (solid)
+        body.material = solid_material();
     if (const auto material = field.find("material"))
-        read_material(*material, body.material);
+        read_material(*material, solid, body.material);
     if (const auto transform = field.find("transform"))
         read_transform(*transform, body.transform);
     field.read("velocity", body.velocity);

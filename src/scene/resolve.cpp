@@ -30,7 +30,7 @@ void throw_if_any(const std::vector<SceneIssue>& issues)
         fail(issues);
 }
 
-void warn_of(const MeshFindings& findings, const Checker& out)
+void warn_of(const MeshFindings& findings, bool solid, const Checker& out)
 {
     const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what; };
     if (!findings.degenerate_triangles.empty())
@@ -38,7 +38,10 @@ void warn_of(const MeshFindings& findings, const Checker& out)
                                 "dropped; the first is number " +
                                 std::to_string(findings.degenerate_triangles.front()) + " of the file");
     if (findings.unused_vertices > 0)
-        out.warning("mesh", "had " + count(findings.unused_vertices, "vertices of no triangle, dropped"));
+        out.warning("mesh", "had " + count(findings.unused_vertices, "vertices of no ") +
+                                (solid ? "tetrahedron" : "triangle") + ", dropped");
+    if (findings.turned_tetrahedra > 0)
+        out.warning("mesh", "had " + count(findings.turned_tetrahedra, "left-handed tetrahedra, turned"));
     if (!findings.non_manifold_edges.empty())
         out.warning("mesh",
                     "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
@@ -56,11 +59,18 @@ Mesh make_mesh(const Shape& shape, const std::filesystem::path& directory, const
         return make_grid(shape.cells.x, shape.cells.y, shape.size.x, shape.size.y,
                          shape.diagonals == "alternating");
     case ShapeKind::chain: return make_chain(shape.links, shape.length, shape.width);
-    case ShapeKind::mesh: break;
+    case ShapeKind::box:
+        return make_box({shape.box_cells.x, shape.box_cells.y, shape.box_cells.z}, shape.box_size,
+                        shape.split == "five");
+    case ShapeKind::ball: return make_ball(shape.ball_cells, shape.radius);
+    case ShapeKind::mesh:
+    case ShapeKind::tetrahedra: break;
     }
     MeshFindings findings;
-    Mesh mesh = read_mesh(directory / shape.file, shape.weld_distance, &findings);
-    warn_of(findings, out);
+    const std::filesystem::path file = directory / shape.file;
+    Mesh mesh = shape.kind == ShapeKind::mesh ? read_mesh(file, shape.weld_distance, &findings)
+                                              : read_tetrahedra(file, &findings);
+    warn_of(findings, is_solid(shape.kind), out);
     return mesh;
 }
 
@@ -97,6 +107,18 @@ void add_edge(const std::string& name, const Mesh& mesh, std::vector<std::uint32
             out.push_back(row * columns + (name == "left" ? 0 : columns - 1));
 }
 
+void add_face(const std::string& name, const glm::uvec3& cells, std::vector<std::uint32_t>& out)
+{
+    const int axis = name == "left" || name == "right" ? 0 : name == "bottom" || name == "top" ? 1 : 2;
+    const bool high = name == "right" || name == "top" || name == "front";
+    glm::uvec3 at;
+    for (at.z = 0; at.z <= cells.z; ++at.z)
+        for (at.y = 0; at.y <= cells.y; ++at.y)
+            for (at.x = 0; at.x <= cells.x; ++at.x)
+                if (at[axis] == (high ? cells[axis] : 0))
+                    out.push_back((at.z * (cells.y + 1) + at.y) * (cells.x + 1) + at.x);
+}
+
 bool inside(const glm::dvec3& p, const Pin& pin)
 {
     return p.x >= pin.box_min.x && p.x <= pin.box_max.x && p.y >= pin.box_min.y && p.y <= pin.box_max.y &&
@@ -121,13 +143,15 @@ void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Chec
         add_corner(corner, body.mesh, vertices);
     for (const std::string& edge : pin.edges)
         add_edge(edge, body.mesh, vertices);
+    for (const std::string& face : pin.faces)
+        add_face(face, body.shape.box_cells, vertices);
     const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
     if (pin.use_box && add_box(pin, start, vertices) == 0)
         out.warning("box", "from " + scene_file::shown(pin.box_min) + " to " +
                                scene_file::shown(pin.box_max) +
                                " holds no vertex at the start; boxes are in world space, m");
     std::sort(vertices.begin(), vertices.end());
-    pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .motion = std::move(pin.motion)};
+    pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .faces = {}, .motion = std::move(pin.motion)};
     for (const std::uint32_t vertex : vertices)
         if (!held[vertex])
         {
@@ -180,11 +204,21 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
             break;
     if (body.shape.kind == ShapeKind::grid && body.shape.network.used)
         add_network(body);
-    if (body.shape.kind == ShapeKind::mesh)
+    if (body.shape.kind != ShapeKind::grid && body.shape.kind != ShapeKind::chain)
         scene_file::check_counts(body, body.mesh.positions.size(), out);
 }
 
 } // namespace
+
+Material solid_material()
+{
+    Material material;
+    material.density = 1000;
+    material.stretch_stiffness = 0;
+    material.youngs_modulus = 1e5;
+    material.volume_stiffness = -1;
+    return material;
+}
 
 Scene resolve(const Scene& scene, std::vector<SceneIssue>* warnings)
 {

@@ -17,10 +17,11 @@
 
 namespace taut {
 
-/// Cloth material. All stiffnesses are continuum values, so they do not depend on the mesh.
-struct ClothMaterial
+/// Material of cloth and, from `youngs_modulus` on, of solids. All stiffnesses are continuum values, so they
+/// do not depend on the mesh.
+struct Material
 {
-    double density = 0.2;           ///< kg/m^2, > 0
+    double density = 0.2;           ///< kg/m^2, of solids kg/m^3, > 0
     double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
     double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
@@ -32,7 +33,22 @@ struct ClothMaterial
     double tear_strain = 0;   ///< (l - L)/L at which cloth tears, >= 0; 0 = no tearing effect
     double drag = 0;          ///< of a triangle along its normal in the wind, >= 0; 0 = no wind effect
     double friction_drag = 0; ///< the same across its normal (skin friction), >= 0
+
+    // Solids: tetrahedra. stretch_stiffness is not theirs.
+    double youngs_modulus = 0;   ///< Pa, > 0 in solids
+    double poissons_ratio = 0.3; ///< (-1, 0.5)
+    /// "neo_hookean": stable neo-Hookean tetrahedra, "neo_hookean_simple": without the logarithm that keeps
+    /// them from collapsing to a point (plan/solid.hpp); "springs": springs along the edges, and constraints of
+    /// volume beside them.
+    std::string model = "neo_hookean";
+    /// Pa: springs hold volumes V by an energy of K/2 (V - V0)^2 / V0; 0 = no volume effect, inf = rigid,
+    /// -1 = the bulk modulus E / (3 (1 - 2 nu)).
+    double volume_stiffness = 0;
+    std::string volume = "tetrahedra"; ///< what springs hold: the volume of each of them
 };
+
+/// Defaults of bodies with tetrahedra: soft rubber.
+Material solid_material();
 
 /// Springs of a grid of its own, in place of its edges: structural to the side neighbours, shear to the
 /// diagonal ones, bend to the second ones along rows and columns (Provot 1995).
@@ -44,7 +60,7 @@ struct SpringNetwork
     double bend = 0;          ///< N/m
 };
 
-/// What a spring stands for. Methods may treat kinds differently (ClothMaterial's edges are structural).
+/// What a spring stands for. Methods may treat kinds differently (a material's edges are structural).
 enum class SpringKind
 {
     structural,
@@ -78,6 +94,7 @@ struct Pin
     std::vector<std::string>
         corners; ///< grid: "top_left", "top_right", "bottom_left", "bottom_right"; chain: "first", "last"
     std::vector<std::string> edges; ///< grid: "top", "bottom", "left", "right"
+    std::vector<std::string> faces; ///< box: "left", "right" (along x), "bottom", "top" (y), "back", "front" (z)
     std::vector<Keyframe> motion;
 };
 
@@ -93,8 +110,13 @@ enum class ShapeKind
 {
     grid,
     chain,
-    mesh
+    mesh,
+    box,
+    ball,
+    tetrahedra
 };
+/// Shapes that have tetrahedra.
+constexpr bool is_solid(ShapeKind kind) { return kind >= ShapeKind::box; }
 
 /// Where a body's rest shape comes from.
 struct Shape
@@ -110,15 +132,20 @@ struct Shape
     std::uint32_t links = 10;   ///< >= 0 (0 = one free particle)
     double length = 1;          ///< m
     double width = 0.01;        ///< m, > 0
-    std::filesystem::path file; ///< mesh: OBJ, PLY, OFF or STL
+    std::filesystem::path file; ///< mesh: OBJ, PLY, OFF or STL; tetrahedra: docs/scene.md lists the formats
     double weld_distance = 0;   ///< mesh: vertices this close become one, m in file units; < 0 = keep all
+    glm::uvec3 box_cells{4, 4, 4}; ///< box: cells along x, y, z, >= 1 each; centred at the origin
+    glm::dvec3 box_size{1, 1, 1};  ///< box: m
+    std::string split = "five";    ///< box: tetrahedra a cell, "five" (mirrored by turns) or "six" (Kuhn's)
+    std::uint32_t ball_cells = 8;  ///< ball: cells along a diameter, >= 2
+    double radius = 0.5;           ///< ball: m
 };
 
 struct Body
 {
     std::string name;
     Shape shape;
-    ClothMaterial material;
+    Material material;
     Transform transform;
     std::vector<Pin> pins;
     glm::dvec3 velocity{0}; ///< m/s at start

@@ -102,7 +102,7 @@ public:
     /// Share of the springs that were constraints in the last substep, of those that may be; -1 under methods
     /// without that choice. Waits.
     double active_share() const;
-    /// Vertices that came apart so far (ClothMaterial::tear_strain). Each made a new one, at the end of its
+    /// Vertices that came apart so far (Material::tear_strain). Each made a new one, at the end of its
     /// body's: plan(), scene(), position_buffer() and the number of positions change with it.
     std::uint64_t torn() const;
 

@@ -52,6 +52,8 @@ inline constexpr Tolerance kTolerances[] = {
     {"vbd_accelerate", 2, "a difference, a product, a sum"},
     {"bending", 8,
      "cross products of cross products: each gradient passes some ten roundings, the angle six"},
+    {"volume", 8, "differences, cross products and their squares, a sum of four, a quotient, products"},
+    {"neo_hookean", 8, "F from nine products, its cofactors, sums of four squares, a 2 x 2 system"},
     {"hub", 6, "as distance, and a tree of 64 partial sums of up to 16 terms each"},
     {"pbd_stretch", 6, "as distance"},
     {"pbd_hub", 6, "as hub"},

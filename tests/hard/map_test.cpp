@@ -88,9 +88,6 @@ std::string verdict(const MapCase& hard_case, MethodKind method, const std::shar
     }
     catch (const Error& error)
     {
-        if (error.code() == ErrorCode::unsupported &&
-            std::string(error.what()).find("is not built yet") != std::string::npos)
-            return "not built yet";
         return "refuses: " + std::string(to_string(error.code()));
     }
 }

@@ -54,7 +54,7 @@ TEST_CASE("a file that says nothing has the defaults of the types")
     const Body default_body = body("\"grid\": {}");
     CHECK(default_body.shape.cells == Shape().cells);
     CHECK(default_body.shape.diagonals == Shape().diagonals);
-    CHECK(default_body.material.stretch_stiffness == ClothMaterial().stretch_stiffness);
+    CHECK(default_body.material.stretch_stiffness == Material().stretch_stiffness);
     CHECK(default_body.transform.scale == 1);
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("a missing or doubled choice is refused")
           "my.json: the scene lacks the key \"taut\"; write \"taut\": 1, the version of the format");
     CHECK(refusal("{\"taut\": 2}") == "my.json: taut is 2; this library reads version 1");
     CHECK_THAT(refusal_of_body("\"name\": \"x\""),
-               Contains("bodies[0] needs one of \"grid\", \"chain\" or \"mesh\""));
+               Contains("bodies[0] needs one of \"grid\", \"chain\", \"mesh\", \"box\", \"ball\" or"));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"mesh\": \"a.obj\""),
                Contains("bodies[0] has both \"grid\" and \"mesh\""));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"weld_distance\": 0"),

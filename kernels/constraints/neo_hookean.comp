@@ -1,0 +1,116 @@
+// XPBD stable neo-Hookean tetrahedron, one invocation per tetrahedron of one colour (no two share a vertex).
+//
+// Based on:
+//   Macklin, Mueller. A Constraint-based Formulation of Stable Neo-Hookean Materials. MIG 2021: the
+//     constraints C_D = |F| and C_H = det F - rest with compliances 1/(mu V), 1/(lambda V).
+//   Smith, de Goes, Kim. Stable Neo-Hookean Flesh Simulation. 2018: the logarithm, as the share of mu that
+//     it leaves at the current F.
+// Departures: both constraints are solved together; one after the other they pull against each other and the
+//   rest state shrinks. The gradient of C_D is taken times C_D, so that nothing divides by it, and less its
+//   part along that of C_H, so that the determinant is a sum of positive terms: near rest the two are
+//   parallel, and the difference of their products would have no digit left.
+// Bytes per element: 72 constraint + 128 read + 64 written (float).
+//! lanes
+//! variant lambda LAMBDA=1
+//! variant tail TAIL=1
+//! variant tail_lambda TAIL=1 LAMBDA=1
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/solid.glsl"
+
+PARAMS
+{
+    uint first;           // first constraint of the colour; in the tail variant the table's first range
+    uint count;           // constraints of the colour; groups in the tail variant
+    uint first_iteration; // 1: the multipliers start at zero
+    uint report;          // 1: count degenerate tetrahedra
+};
+
+READ(0, SolidTetrahedron, constraint);
+READ(1, rvec4, position); // xyz m, w = inverse mass 1/kg
+READ_ONE(3, StepValues, step_values);
+COUNTERS(4, events);
+#if TAIL
+GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
+READ(5, uint, table);          // as in distance.comp
+#else
+UPDATE(2, rvec4, delta);
+#endif
+#if LAMBDA
+#if TAIL
+UPDATE(6, rvec4, multiplier); // x of C_D, y of C_H, J s^2
+#else
+UPDATE(5, rvec4, multiplier);
+#endif
+#endif
+
+void project(ELEMENT k)
+{
+    SolidTetrahedron t = constraint[k];
+    rvec4 p0 = position[t.a];
+    rvec4 p1 = position[t.b];
+    rvec4 p2 = position[t.c];
+    rvec4 p3 = position[t.d];
+    rvec4 d0 = delta[t.a];
+    rvec4 d1 = delta[t.b];
+    rvec4 d2 = delta[t.c];
+    rvec4 d3 = delta[t.d];
+    Deformation f = deformation_of(t, rvec3((p1 - p0) + (d1 - d0)), rvec3((p2 - p0) + (d2 - d0)),
+                                   rvec3((p3 - p0) + (d3 - d0)));
+    // r: C_D times its gradient; h: the gradient of C_H.
+    rvec3 r1 = gradient_b(t, f.f0, f.f1, f.f2);
+    rvec3 r2 = gradient_c(t, f.f0, f.f1, f.f2);
+    rvec3 r3 = gradient_d(t, f.f0, f.f1, f.f2);
+    rvec3 c0 = cross(f.f1, f.f2);
+    rvec3 c1 = cross(f.f2, f.f0);
+    rvec3 c2 = cross(f.f0, f.f1);
+    rvec3 h1 = gradient_b(t, c0, c1, c2);
+    rvec3 h2 = gradient_c(t, c0, c1, c2);
+    rvec3 h3 = gradient_d(t, c0, c1, c2);
+    rvec3 r0 = -((r1 + r2) + r3);
+    rvec3 h0 = -((h1 + h2) + h3);
+    real hh = ((p0.w * dot(h0, h0) + p1.w * dot(h1, h1)) + p2.w * dot(h2, h2)) + p3.w * dot(h3, h3);
+    real rh = ((p0.w * dot(r0, h0) + p1.w * dot(r1, h1)) + p2.w * dot(r2, h2)) + p3.w * dot(r3, h3);
+    real along = SELECT(hh > REAL(1e-30), rh / max(hh, REAL(1e-30)), real(0));
+    r0 -= h0 * along;
+    r1 -= h1 * along;
+    r2 -= h2 * along;
+    r3 -= h3 * along;
+    real rr = ((p0.w * dot(r0, r0) + p1.w * dot(r1, r1)) + p2.w * dot(r2, r2)) + p3.w * dot(r3, r3);
+    // 1/alpha of both, J h^2, bounded so that products stay finite: beyond, both constraints are rigid.
+    real inverse = step_values[0].inverse_substep;
+    real stiff = t.volume / (inverse * inverse);
+    real grip_d = min(t.mu * f.share * stiff, REAL(1e15) / max(rr + along * along * hh, REAL(1e-30)));
+    real grip_h = min(t.lambda * stiff, REAL(1e15) / max(hh, REAL(1e-30)));
+    real pull_d = grip_d * f.square;
+    real pull_h = grip_h * (f.volume - t.rest);
+#if LAMBDA
+    real size = sqrt(f.square);
+    rvec4 before = first_iteration != 0u ? rvec4(real(0)) : multiplier[k];
+    pull_d += before.x * size;
+    pull_h += before.y;
+#endif
+    // The push is W (r u + h v): (rr + |F|^2 / grip_d + along^2 / grip_h) u - along / grip_h v =
+    // (along pull_h) / grip_h - pull_d / grip_d and (hh + 1 / grip_h) v - along / grip_h u = -pull_h / grip_h.
+    real shape = f.square + grip_d * rr;
+    real bulk = real(1) + grip_h * hh;
+    real determinant = bulk * shape + (along * along) * (grip_d * hh);
+    rbool usable = f.square > REAL(1e-20);
+    real safe = SELECT(usable, determinant, real(1));
+    // Bracketed so: of a chain of products Mesa's OpenGL takes factors out, and the last bit differs.
+    real u = ((grip_d * hh) * (along * pull_h) - bulk * pull_d) / safe;
+    real v = (pull_h * shape + along * pull_d) / -safe;
+    u = SELECT(usable, u, real(0));
+    v = SELECT(usable, v, real(0));
+#if LAMBDA
+    multiplier[k] = before + rvec4(u * size, v - along * u, real(0), real(0));
+#endif
+    delta[t.a] = d0 + rvec4((r0 * u + h0 * v) * p0.w, real(0));
+    delta[t.b] = d1 + rvec4((r1 * u + h1 * v) * p1.w, real(0));
+    delta[t.c] = d2 + rvec4((r2 * u + h2 * v) * p2.w, real(0));
+    delta[t.d] = d3 + rvec4((r3 * u + h3 * v) * p3.w, real(0));
+    if (report != 0u)
+        COUNT_EVENT_IF(!usable && ((p0.w + p1.w) + p2.w) + p3.w > real(0), events, TAUT_EVENT_DEGENERATE);
+}
+
+#include "shared/sweep.glsl"

@@ -1,0 +1,84 @@
+#pragma once
+// Internal to src/plan: constraints of one kind, from elements of every body to coloured records and passes.
+
+#include "taut/plan/constraints.hpp"
+#include "taut/plan/grouping.hpp"
+#include "taut/plan/springs.hpp"
+
+namespace taut {
+
+/// A graph over one body's plan vertices, counted from its first, without constraints yet. Held vertices
+/// conflict like others: kernels write all ends of a constraint.
+ConstraintGraph body_graph(const PlanBuilder& builder, std::size_t body, std::uint32_t stride);
+
+/// Adds multipliers (`each` reals a constraint, where options.multipliers and the plan want them) and the table
+/// of grouped colours, and puts the set into the plan.
+void add_set(PlanBuilder& builder, ConstraintSet& set, std::vector<std::uint32_t> table,
+             const SetOptions& options, std::uint32_t each = 1);
+
+/// Colours `elements(body)` of all bodies and adds their records (`record(real{}, element)`) as the set's
+/// buffer; nothing where there are none. For elements of four vertices.
+template <typename Elements, typename Record>
+void prepare_set(PlanBuilder& b, const SetOptions& options, std::uint32_t multipliers_each,
+                 const Elements& elements, const Record& record)
+{
+    using List = decltype(elements(std::size_t(0)));
+    using Element = typename List::value_type;
+    Coloured<Element> coloured;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        const List own = elements(body);
+        ConstraintGraph graph = body_graph(b, body, 4);
+        for (const Element& e : own)
+            for (const std::uint32_t v : corners_of(e))
+                graph.vertices.push_back(v - b.plan.body_start[body]);
+        // Constraints round a hub share its neighbours too, so they stay in the colouring, one after another.
+        add_body(b, coloured, own, colour_greedy(graph, {0, true}));
+    }
+    List flat;
+    std::vector<std::uint32_t> table;
+    ConstraintSet set = lay_out(options.kind, coloured, flat, table);
+    if (flat.empty())
+        return;
+    with_real(b.plan.precision, [&](auto zero) {
+        using Kept = decltype(record(zero, flat.front()));
+        std::vector<Kept> records;
+        for (const Element& e : flat)
+            records.push_back(record(zero, e));
+        set.buffer = b.add_buffer<Kept>(set.kind, set.kind + " constraints", records);
+    });
+    add_set(b, set, std::move(table), options, multipliers_each);
+}
+
+/// What the passes of a set bind. `damped`: the set has dampers (PlanBuilder::distance_damping).
+std::vector<Use> uses_of(const PlanBuilder& builder, const ConstraintSet& set, std::uint32_t vertices_each,
+                         bool grouped, bool damped);
+
+/// Passes of one sweep. `Params` is {first, count, first_iteration, report} for every constraint kernel.
+template <typename Params>
+void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
+                    const Moment& moment, bool damped = false)
+{
+    const bool keep = set.multipliers != kNoBuffer;
+    const std::string_view alone = damped ? (keep ? "damped_lambda" : "damped") : (keep ? "lambda" : "");
+    const std::string_view grouped =
+        damped ? (keep ? "damped_tail_lambda" : "damped_tail") : (keep ? "tail_lambda" : "tail");
+    const std::uint32_t first_iteration = moment.iteration == 0, report = moment.last;
+    std::uint32_t range = first_run_range(set);
+    for (const Run& run : runs_of(b, set))
+    {
+        const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
+        const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped(), damped);
+        if (run.grouped())
+            b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 1, first_iteration, report}, 1, size);
+        else
+            b.dispatch(set.kind, set.kind, alone, uses, Params{first, size, first_iteration, report}, size);
+        range += run.grouped() ? 2 : 0;
+    }
+    if (set.small_bodies > 0)
+        b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true, damped),
+                   Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
+                   set.small_constraints);
+}
+
+} // namespace taut
