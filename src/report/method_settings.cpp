@@ -36,6 +36,7 @@ constexpr Setting kSettings[] = {
      [](const MethodSettings& m) { return Json(m.scheme); }},
     {"stretch", only(MethodKind::pbd), [](const MethodSettings& m) { return Json(m.stretch); }},
     {"bend", only(MethodKind::pbd), [](const MethodSettings& m) { return Json(m.bend); }},
+    {"volume", only(MethodKind::pbd), [](const MethodSettings& m) { return Json(m.volume); }},
     {"relaxation", only(MethodKind::pbd) | only(MethodKind::vbd),
      [](const MethodSettings& m) { return Json(m.relaxation); }},
     {"linear_iterations", kSolvers, [](const MethodSettings& m) { return Json(m.linear_iterations); }},

@@ -38,6 +38,7 @@ void check_explicit(const MethodSettings& method, const Checker& out)
                   "is \"" + method.scheme + "\"; mass_spring has \"node_centric\" and \"spring_centric\"");
     check_share(out, "stretch", method.stretch, 1, true, true);
     check_share(out, "bend", method.bend, 1, true, true);
+    check_share(out, "volume", method.volume, 1, true, true);
     check_share(out, "relaxation", method.relaxation, 2, false, false);
     check_share(out, "spectral_radius", method.spectral_radius, 1, true, false);
 }

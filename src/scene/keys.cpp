@@ -22,6 +22,7 @@ std::span<const KeySet> all_keys()
           "scheme",
           "stretch",
           "bend",
+          "volume",
           "relaxation",
           "linear_iterations",
           "linear_tolerance",

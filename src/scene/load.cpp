@@ -325,6 +325,7 @@ void read_method(Field field, MethodSettings& method)
     field.read("scheme", method.scheme);
     field.read("stretch", method.stretch);
     field.read("bend", method.bend);
+    field.read("volume", method.volume);
     field.read("relaxation", method.relaxation);
     field.read("linear_iterations", method.linear_iterations);
     field.read("linear_tolerance", method.linear_tolerance);

@@ -211,6 +211,7 @@ struct MethodSettings
     std::string scheme = "automatic";
     double stretch = 1;    ///< pbd: stiffness of springs in [0, 1], whatever the number of iterations
     double bend = 1;       ///< pbd: of hinges
+    double volume = 1;     ///< pbd: of the volumes of tetrahedra
     double relaxation = 1; ///< pbd, vbd: each correction times this, in (0, 2)
 
     std::uint32_t linear_iterations = 100; ///< implicit_*, acad: of conjugate gradients a solve, 1..100000

@@ -68,6 +68,9 @@ const std::vector<Fault> kFaults = {
     {"method.substeps", [](S s) { s.method.substeps = 1001; }},
     {"method.iterations", [](S s) { s.method.iterations = 0; }},
     {"method.precision", [](S s) { s.method.precision = "half"; }},
+    {"method.volume", [](S s) { s.method.volume = -0.01; }},
+    {"method.volume", [](S s) { s.method.volume = 1.01; }},
+    {"method.volume", [](S s) { s.method.volume = kNan; }},
     {"bodies[0].grid.cells",
      [](S s) {
          s.bodies[0] = {};

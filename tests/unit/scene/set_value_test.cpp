@@ -29,10 +29,12 @@ TEST_CASE("settings change single values of a scene, and make objects that are m
 {
     const std::vector<std::string> settings = {"method.type=acad", "method.substeps=7",
                                                "bodies[0].material.drag=1.5", "gravity=[0, 0, -1]",
-                                               "bodies[1].chain.links=9", "bodies[0].grid.network.bend=4"};
+                                               "bodies[1].chain.links=9", "bodies[0].grid.network.bend=4",
+                                               "method.volume=0.25"};
     const Scene scene = parse_scene(kScene, {}, "my.json", settings);
     CHECK(scene.method.type == "acad");
     CHECK(scene.method.substeps == 7);
+    CHECK(scene.method.volume == 0.25);
     CHECK(scene.bodies[0].material.drag == 1.5);
     CHECK(scene.gravity == glm::dvec3(0, 0, -1));
     CHECK(scene.bodies[1].shape.links == 9);
