@@ -1,11 +1,9 @@
 // taut cost: error against time over the settings of one or several methods.
 
 #include "taut/report/cost.hpp"
-#include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
-#include "taut/cli/interrupt.hpp"
 #include "taut/cli/output.hpp"
-#include "taut/cli/progress.hpp"
+#include "taut/cli/study.hpp"
 #include "taut/report/cost_energy.hpp"
 #include "taut/report/cost_ratio.hpp"
 #include "taut/report/method_settings.hpp"
@@ -186,24 +184,17 @@ int cost(const CostCommand& command)
     CostOptions options = study_options(command);
     if (!command.folder.empty())
         make_folder(command.folder); // before minutes of work
-    const InterruptGuard guard;
-    options.progress = [&](std::size_t, std::size_t) { return !guard.interrupted(); };
+    StudyProgress progress;
+    options.progress = progress.silent();
     if (!command.ratio.empty())
         return ratios(command, scene, options);
     if (command.conserved)
         return conserved(command, scene, options);
     const auto device = open_device(command.device);
-    std::optional<Progress> bar;
-    options.progress = [&](std::size_t done, std::size_t total) {
-        if (!bar)
-            bar.emplace(total);
-        bar->update(done);
-        return !guard.interrupted();
-    };
+    options.progress = progress.callback();
     const CostStudy study = run_cost(scene, device, options);
-    bar.reset();
-    for (const SceneIssue& issue : issues)
-        warn((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
+    progress.end();
+    warn_of(issues);
     if (!command.folder.empty())
         write_files(study, command.folder);
     std::cout << (command.json ? cost_json(study) : summary(study));
@@ -227,12 +218,8 @@ void add_cost(CLI::App& app, Command& chosen)
         ->check(CLI::IsMember({"wall", "cpu", "work"}));
     command->add_option("--substeps", options->substeps, "To try (default: 1,2,5,10,20,50)")->delimiter(',');
     command->add_option("--iterations", options->iterations, "To try (default: 1,2,5,10)")->delimiter(',');
-    command->add_option("--precision", options->precisions, "To try (default: float,double)")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"float", "double"}));
-    auto* at_rest = command->add_flag("--static", options->at_rest, "Compare the state at rest");
-    auto* moving = command->add_flag("--moving", options->moving, "Compare the trajectory");
-    at_rest->excludes(moving);
+    add_precisions_option(*command, options->precisions);
+    add_kind_options(*command, options->at_rest, options->moving, "Compare");
     auto* ratio = command->add_option("--ratio", options->ratio,
                                       "Instead: error against a growing ratio of masses or stiffnesses");
     ratio->check(CLI::IsMember({"mass", "stiffness"}));

@@ -8,6 +8,7 @@
 #include "taut/cli/progress.hpp"
 #include "taut/cli/run_result.hpp"
 #include "taut/cli/simulation.hpp"
+#include "taut/report/warnings.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/settings.hpp"
@@ -221,12 +222,7 @@ void describe_parts(const Simulation& simulation, RunResult& result)
     result.device.executor = "hybrid";
     result.device.name = result.parts[0].device.name + " and " + result.parts[1].device.name;
     const Events events = simulation.events();
-    const std::pair<Warning, std::uint64_t> counts[] = {{Warning::degenerate, events.degenerate},
-                                                        {Warning::speed_clamp, events.speed_clamped},
-                                                        {Warning::conflict, events.conflicts}};
-    for (const auto& [warning, count] : counts)
-        if (count > 0)
-            result.report.warnings[std::string(to_string(warning))] += count;
+    add_warnings(events, result.report.warnings);
     if (events.non_finite > 0)
         result.report.status = Status::non_finite;
 }

@@ -1,11 +1,9 @@
 // taut tune: the cheapest method and setting that keeps an error.
 
 #include "taut/report/tune.hpp"
-#include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
-#include "taut/cli/interrupt.hpp"
 #include "taut/cli/output.hpp"
-#include "taut/cli/progress.hpp"
+#include "taut/cli/study.hpp"
 #include "taut/report/method_settings.hpp"
 
 #include <algorithm>
@@ -116,18 +114,11 @@ int tune_scene(const TuneCommand& command)
     const Scene scene = resolve(load_scene(command.scene), &issues);
     const auto device = open_device(command.device);
     TuneOptions options = tune_options(command);
-    const InterruptGuard guard;
-    std::optional<Progress> bar;
-    options.progress = [&](std::size_t done, std::size_t total) {
-        if (!bar)
-            bar.emplace(total);
-        bar->update(done);
-        return !guard.interrupted();
-    };
+    StudyProgress progress;
+    options.progress = progress.callback();
     const TuneResult result = tune(scene, device, options);
-    bar.reset();
-    for (const SceneIssue& issue : issues)
-        warn((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
+    progress.end();
+    warn_of(issues);
     std::cout << (command.json ? tune_json(result) : summary(result));
     return result.found ? kDone : kNotSound;
 }
@@ -143,12 +134,8 @@ void add_tune(CLI::App& app, Command& chosen)
     add_device_option(*command, options->device);
     command->add_option("--error", options->error, "Bound on the error, 0.01 is 1 % (default: 0.01)");
     command->add_option("--methods", options->methods, "To try, or \"all\" (default: all)")->delimiter(',');
-    command->add_option("--precision", options->precisions, "To try (default: float,double)")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"float", "double"}));
-    auto* at_rest = command->add_flag("--static", options->at_rest, "Bound the error of the state at rest");
-    auto* moving = command->add_flag("--moving", options->moving, "Bound the error of the trajectory");
-    at_rest->excludes(moving);
+    add_precisions_option(*command, options->precisions);
+    add_kind_options(*command, options->at_rest, options->moving, "Bound the error of");
     command->add_option("--frames", options->frames, "Moving: frames compared at most (default: 120)");
     command->add_option("--rest-seconds", options->rest_seconds,
                         "Static: simulated seconds at most until rest (default: 30)");

@@ -2,6 +2,7 @@
 
 #include "taut/report/errors.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/runtime/base/csv.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -99,16 +100,6 @@ const std::vector<std::string> kHead = {"variant",
                                         "status"};
 
 /// In quotes where CSV wants it.
-std::string quoted(const std::string& text)
-{
-    if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 } // namespace
 
 std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames)
@@ -153,7 +144,7 @@ std::string compare_csv(const std::vector<CompareRow>& rows)
     const auto line = [](const std::vector<std::string>& cells_of_row) {
         std::string text;
         for (const std::string& cell : cells_of_row)
-            text += (text.empty() ? "" : ",") + quoted(cell);
+            text += (text.empty() ? "" : ",") + csv_cell(cell);
         return text + "\n";
     };
     std::string text = line(kHead);

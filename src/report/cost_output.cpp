@@ -3,6 +3,7 @@
 
 #include "taut/report/method_settings.hpp"
 #include "taut/version.hpp"
+#include "taut/runtime/base/csv.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -104,29 +105,19 @@ Json reference_json(const CostReference& reference)
 }
 
 /// Quoted where a comma or quote would break the row.
-std::string field(const std::string& text)
-{
-    if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 std::string csv_row(const CostStudy& study, const CostPoint& point)
 {
     const auto value = [](const std::optional<double>& v) { return v ? number(*v) : std::string(); };
     const auto timed = [&](double v) { return point.error ? number(v) : std::string(); };
-    const std::string cells[] = {field(study.scene),
-                                 field(study.device.executor),
+    const std::string cells[] = {csv_cell(study.scene),
+                                 csv_cell(study.device.executor),
                                  point.method,
                                  std::to_string(point.substeps),
                                  std::to_string(point.iterations),
                                  std::string(to_string(point.precision)),
                                  value(point.error),
                                  study.metric,
-                                 field(study.reference.name),
+                                 csv_cell(study.reference.name),
                                  value(study.reference.error),
                                  value(point.error_l),
                                  value(point.error_smoothed),
@@ -137,8 +128,8 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
                                  point.pareto ? "1" : "0",
                                  point.at_floor ? "1" : "0",
                                  std::string(to_string(point.status)),
-                                 field(point.reason),
-                                 field(settings_details(point.settings)),
+                                 csv_cell(point.reason),
+                                 csv_cell(settings_details(point.settings)),
                                  point.refused};
     std::string row;
     for (const std::string& cell : cells)

@@ -9,6 +9,7 @@
 #include "taut/report/hinge.hpp"
 #include "taut/report/model.hpp"
 #include "taut/report/report.hpp"
+#include "taut/report/warnings.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -337,17 +338,18 @@ bool exaggerates(const MethodSettings& method)
     return method.type == "pbd" && (method.relaxation > 1 || method.spectral_radius > 0);
 }
 
+void count(Warning warning, std::uint64_t times, std::map<std::string, std::uint64_t>& warnings)
+{
+    if (times > 0)
+        warnings[std::string(to_string(warning))] += times;
+}
+
 void judge(const View& view, StepReport& out)
 {
     const Events events = view.world.events();
-    const std::pair<Warning, std::uint64_t> counts[] = {{Warning::degenerate, events.degenerate},
-                                                        {Warning::speed_clamp, events.speed_clamped},
-                                                        {Warning::conflict, events.conflicts},
-                                                        {Warning::iteration_limit, out.solver.limited},
-                                                        {Warning::solve_failed, out.solver.failed}};
-    for (const auto& [warning, count] : counts)
-        if (count > 0)
-            out.warnings[std::string(to_string(warning))] += count;
+    add_warnings(events, out.warnings);
+    count(Warning::iteration_limit, out.solver.limited, out.warnings);
+    count(Warning::solve_failed, out.solver.failed, out.warnings);
     for (const PlanWarning& warning : view.plan.warnings)
         out.warnings[warning.word] += warning.count;
     bool finite = true;
@@ -379,6 +381,13 @@ std::string_view to_string(Warning warning)
     case Warning::solve_failed: return "solve_failed";
     }
     return "unknown";
+}
+
+void add_warnings(const Events& events, std::map<std::string, std::uint64_t>& warnings)
+{
+    count(Warning::degenerate, events.degenerate, warnings);
+    count(Warning::speed_clamp, events.speed_clamped, warnings);
+    count(Warning::conflict, events.conflicts, warnings);
 }
 
 StepReport measure(const World& world)

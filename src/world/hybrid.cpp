@@ -18,6 +18,14 @@
 namespace taut {
 namespace {
 
+void add(Events& sum, const Events& more)
+{
+    sum.non_finite += more.non_finite;
+    sum.speed_clamped += more.speed_clamped;
+    sum.degenerate += more.degenerate;
+    sum.conflicts += more.conflicts;
+}
+
 using Clockwork = std::chrono::steady_clock;
 
 constexpr double kWorthMoving = 0.9; ///< share of the present time that a new division must promise
@@ -226,11 +234,7 @@ void HybridWorld::Impl::rebalance()
         return;
     for (const Side& side : sides)
     {
-        const Events events = side.world->events();
-        before.non_finite += events.non_finite;
-        before.speed_clamped += events.speed_clamped;
-        before.degenerate += events.degenerate;
-        before.conflicts += events.conflicts;
+        add(before, side.world->events());
     }
     const Carried state = carried();
     assign(now);
@@ -336,13 +340,7 @@ Events HybridWorld::events() const
     Events sum = impl_->before;
     for (const Side& side : impl_->sides)
         if (side.world)
-        {
-            const Events own = side.world->events();
-            sum.non_finite += own.non_finite;
-            sum.speed_clamped += own.speed_clamped;
-            sum.degenerate += own.degenerate;
-            sum.conflicts += own.conflicts;
-        }
+            add(sum, side.world->events());
     return sum;
 }
 

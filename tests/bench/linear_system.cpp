@@ -1,6 +1,7 @@
 // What the subcommands of taut_linear_bench share.
 
 #include "linear_bench.hpp"
+#include "taut/runtime/base/csv.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -35,16 +36,6 @@ std::filesystem::path matrix_folder()
                  "no folder %s: real matrices are left out; set TAUT_DATA to the folder of the data\n",
                  folder.string().c_str());
     return {};
-}
-
-std::string cell(const std::string& text)
-{
-    if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
 }
 
 double median_of(std::vector<double> values)
