@@ -14,7 +14,7 @@
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/compliance.glsl"
-#include "shared/angle.glsl"
+#include "shared/hinge.glsl"
 
 PARAMS
 {
@@ -61,32 +61,11 @@ void project(ELEMENT k)
     real w1 = p1.w;
     real w2 = p2.w;
     real w3 = p3.w;
-    rvec3 n1 = cross(e, a);
-    rvec3 n2 = cross(b, e);
-    real e2 = dot(e, e);
-    real area1 = dot(n1, n1);
-    real area2 = dot(n2, n2);
-    rbool shaped = area1 > REAL(1e-12) * e2 * dot(a, a) && area2 > REAL(1e-12) * e2 * dot(b, b);
-
-    // Safe stand-ins keep every lane on one path; their result is dropped at `push`.
-    e2 = SELECT(shaped, e2, real(1));
-    area1 = SELECT(shaped, area1, real(1));
-    area2 = SELECT(shaped, area2, real(1));
-    real edge = sqrt(e2);
-    real angle = angle_of(dot(cross(n1, n2), e) / edge, dot(n1, n2));
-    real value = angle - c.rest_angle;
-    value = SELECT(value > REAL(3.14159265358979323846), value - REAL(6.28318530717958647693), value);
-    value = SELECT(value < REAL(-3.14159265358979323846), value + REAL(6.28318530717958647693), value);
-
-    rvec3 g2 = n1 * (-edge / area1);
-    rvec3 g3 = n2 * (-edge / area2);
-    real s2 = dot(a, e) / e2;
-    real s3 = dot(b, e) / e2;
-    rvec3 g0 = g2 * (s2 - real(1)) + g3 * (s3 - real(1));
-    rvec3 g1 = g2 * -s2 + g3 * -s3;
-
-    real weight = w0 * dot(g0, g0) + w1 * dot(g1, g1) + w2 * dot(g2, g2) + w3 * dot(g3, g3);
-    rbool usable = shaped && weight > real(0); // held vertices alone may carry the gradient
+    HingeShape hinge = hinge_shape(e, a, b);
+    real value = angle_difference(hinge.angle, c.rest_angle);
+    real weight = w0 * dot(hinge.edge0, hinge.edge0) + w1 * dot(hinge.edge1, hinge.edge1) +
+                  w2 * dot(hinge.wing0, hinge.wing0) + w3 * dot(hinge.wing1, hinge.wing1);
+    rbool usable = hinge.shaped && weight > real(0); // held vertices alone may carry the gradient
     real scaled = scaled_compliance(c.compliance, step_values[0].inverse_substep);
     real total = SELECT(usable, weight + scaled, real(1));
 #if LAMBDA
@@ -96,12 +75,12 @@ void project(ELEMENT k)
 #else
     real dlambda = SELECT(usable, -value / total, real(0));
 #endif
-    delta[c.edge0] = d0 + rvec4(g0 * (w0 * dlambda), real(0));
-    delta[c.edge1] = d1 + rvec4(g1 * (w1 * dlambda), real(0));
-    delta[c.wing0] = d2 + rvec4(g2 * (w2 * dlambda), real(0));
-    delta[c.wing1] = d3 + rvec4(g3 * (w3 * dlambda), real(0));
+    delta[c.edge0] = d0 + rvec4(hinge.edge0 * (w0 * dlambda), real(0));
+    delta[c.edge1] = d1 + rvec4(hinge.edge1 * (w1 * dlambda), real(0));
+    delta[c.wing0] = d2 + rvec4(hinge.wing0 * (w2 * dlambda), real(0));
+    delta[c.wing1] = d3 + rvec4(hinge.wing1 * (w3 * dlambda), real(0));
     if (report != 0u)
-        COUNT_EVENT_IF(!shaped && w0 + w1 + w2 + w3 > real(0), events, TAUT_EVENT_DEGENERATE);
+        COUNT_EVENT_IF(!hinge.shaped && w0 + w1 + w2 + w3 > real(0), events, TAUT_EVENT_DEGENERATE);
 }
 
 #include "shared/sweep.glsl"

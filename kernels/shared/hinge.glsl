@@ -11,7 +11,7 @@
 
 struct HingeShape
 {
-    bool shaped;                // both triangles have an area; otherwise the rest is finite and means nothing
+    rbool shaped;               // both triangles have an area; otherwise the rest is finite and means nothing
     real angle;                 // rad, in (-pi, pi]; 0 = flat
     rvec3 edge0, edge1;         // its gradients, rad/m
     rvec3 wing0, wing1;
@@ -28,9 +28,9 @@ HingeShape hinge_shape(rvec3 e, rvec3 a, rvec3 b)
     real area2 = dot(n2, n2);
     hinge.shaped = area1 > REAL(1e-12) * e2 * dot(a, a) && area2 > REAL(1e-12) * e2 * dot(b, b);
     // Safe stand-ins keep every invocation on one path.
-    e2 = hinge.shaped ? e2 : real(1);
-    area1 = hinge.shaped ? area1 : real(1);
-    area2 = hinge.shaped ? area2 : real(1);
+    e2 = SELECT(hinge.shaped, e2, real(1));
+    area1 = SELECT(hinge.shaped, area1, real(1));
+    area2 = SELECT(hinge.shaped, area2, real(1));
     real edge = sqrt(e2);
     hinge.angle = angle_of(dot(cross(n1, n2), e) / edge, dot(n1, n2));
     hinge.wing0 = n1 * (-edge / area1);
@@ -46,8 +46,8 @@ HingeShape hinge_shape(rvec3 e, rvec3 a, rvec3 b)
 real angle_difference(real angle, real rest_angle)
 {
     real value = angle - rest_angle;
-    value = value > REAL(3.14159265358979323846) ? value - REAL(6.28318530717958647693) : value;
-    return value < REAL(-3.14159265358979323846) ? value + REAL(6.28318530717958647693) : value;
+    value = SELECT(value > REAL(3.14159265358979323846), value - REAL(6.28318530717958647693), value);
+    return SELECT(value < REAL(-3.14159265358979323846), value + REAL(6.28318530717958647693), value);
 }
 
 #endif
