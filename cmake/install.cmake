@@ -47,7 +47,7 @@ install(EXPORT taut-targets NAMESPACE taut:: DESTINATION ${taut_cmake_dir})
 # found them.
 set(taut_link_names)
 set(taut_link_folders)
-foreach(library IN LISTS taut_glslang_libraries TAUT_SPIRV_TOOLS_OPT TAUT_SPIRV_TOOLS)
+foreach(library IN LISTS taut_glslang_libraries TAUT_SPIRV_TOOLS_OPT TAUT_SPIRV_TOOLS TAUT_EXPAT)
     if(library)
         cmake_path(GET library STEM LAST_ONLY stem)
         string(REGEX REPLACE "^lib" "" stem "${stem}")

@@ -9,7 +9,8 @@
 {
 taut_packages_build=(g++ cmake ninja-build pkg-config libvulkan-dev libvulkan-volk-dev glslang-dev
     "spirv-tools-dev|spirv-tools" spirv-headers libglm-dev libeigen3-dev catch2 nlohmann-json3-dev
-    libcli11-dev libassimp-dev libegl-dev libgl-dev libstb-dev)
+    libcli11-dev libassimp-dev libegl-dev libgl-dev libstb-dev
+    libexpat1-dev)
 taut_packages_run=(libvulkan1 libegl1 mesa-vulkan-drivers libegl-mesa0 libgl1-mesa-dri)
 taut_packages_test=(vulkan-validationlayers)
 taut_packages_bench=(libviennacl-dev) # a rival of taut_linear_bench; no script installs it

@@ -2,6 +2,7 @@
 
 #include "taut/runtime/base/error.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -88,6 +89,45 @@ std::string_view Words::any_word()
         ++line_;
     }
     return word();
+}
+
+std::string_view Words::raw_line()
+{
+    started_ = true;
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view line = text_.substr(at_, end - at_);
+    if (end < text_.size())
+        ++line_;
+    at_ = std::min(end + 1, text_.size());
+    return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
+}
+
+void Words::end_line()
+{
+    started_ = true;
+    if (skip_blanks())
+        fail("there is " + quoted(word()) + " where the line must end");
+    if (at_ < text_.size())
+        ++at_, ++line_;
+}
+
+std::string_view Words::take(std::size_t bytes)
+{
+    if (bytes > left())
+        fail("the file ends in the middle of its values");
+    const std::string_view taken = text_.substr(at_, bytes);
+    line_ += static_cast<std::size_t>(std::count(taken.begin(), taken.end(), '\n'));
+    at_ += bytes;
+    return taken;
+}
+
+bool Words::skip_past(std::string_view mark)
+{
+    const std::size_t found = text_.find(mark, at_);
+    if (found == std::string_view::npos)
+        return false;
+    take(found + mark.size() - at_);
+    return true;
 }
 
 double Words::to_number(std::string_view word, std::string_view what) const

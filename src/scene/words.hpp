@@ -12,7 +12,12 @@ namespace taut::scene_file {
 class Words
 {
 public:
-    Words(std::string_view text, const std::string& file) : text_(text), file_(&file) {}
+    /// `line`: of the file, where the text starts.
+    Words(std::string_view text, const std::string& file, std::size_t line = 1)
+        : text_(text),
+          file_(&file),
+          line_(line)
+    {}
 
     /// Goes to the next line that has a word; false at the end. `#` starts a comment.
     bool next_line();
@@ -20,6 +25,15 @@ public:
     std::string_view word();
     /// The next word of the text, over line ends; empty at its end.
     std::string_view any_word();
+
+    /// The rest of the line as it is, without its end; goes past that.
+    std::string_view raw_line();
+    /// Goes past the end of the line; refuses a line that has another word.
+    void end_line();
+    /// The next bytes, whatever they are; refuses when the text has fewer left.
+    std::string_view take(std::size_t bytes);
+    /// Goes behind the next `mark`; false, and nowhere, if there is none.
+    bool skip_past(std::string_view mark);
 
     /// The next word (of the line) as a finite number, a position, or a whole number.
     double number(std::string_view what);
@@ -43,7 +57,7 @@ private:
 
     std::string_view text_;
     const std::string* file_;
-    std::size_t at_ = 0, line_ = 1;
+    std::size_t at_ = 0, line_;
     bool started_ = false, joins_ = false;
     char comment_ = '#';
 };

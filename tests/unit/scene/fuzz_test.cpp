@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/raw_solid.hpp"
 #include "taut/scene/scene.hpp"
 #include "taut/scene/weld.hpp"
 
@@ -67,6 +68,58 @@ bool read_damaged(const seeds::Seed& file, std::uint64_t seed)
     catch (const Error& error)
     {
         require(error.code() == ErrorCode::bad_input, "another code than bad_input");
+        require(std::string(error.what()).starts_with("damaged: "),
+                "the message does not start with the file");
+        return false;
+    }
+}
+
+void require_sound_solid(const Mesh& mesh)
+{
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const auto& corners : mesh.tetrahedra)
+    {
+        for (const std::uint32_t corner : corners)
+        {
+            require(corner < mesh.positions.size(), "an index is out of range");
+            used[corner] = true;
+        }
+        require(six_volumes(mesh.positions, corners) > 0, "a tetrahedron is not right-handed");
+    }
+    for (std::size_t v = 0; v < used.size(); ++v)
+    {
+        require(used[v], "a vertex belongs to no tetrahedron");
+        for (int c = 0; c < 3; ++c)
+            require(std::isfinite(mesh.positions[v][c]), "a coordinate is not finite");
+    }
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle)
+            require(corner < mesh.positions.size(), "an index of the surface is out of range");
+}
+
+Mesh parse_solid(const seeds::Seed& file, const std::string& text)
+{
+    const std::string name = "damaged",
+                      sound = file.extension == "node" ? seeds::solids()[2].text : seeds::solids()[1].text;
+    MeshFindings findings;
+    if (file.extension == "node")
+        return scene_file::parse_tetgen({text, name}, {sound, name}, findings);
+    if (file.extension == "ele")
+        return scene_file::parse_tetgen({sound, name}, {text, name}, findings);
+    return scene_file::parse_tetrahedra(text, "." + file.extension, name, findings);
+}
+
+bool read_damaged_solid(const seeds::Seed& file, std::uint64_t seed)
+{
+    try
+    {
+        require_sound_solid(parse_solid(file, seed == 0 ? file.text : mutate::damage(file.text, seed)));
+        return true;
+    }
+    catch (const Error& error)
+    {
+        require(error.code() == ErrorCode::bad_input || error.code() == ErrorCode::degenerate_rest,
+                "another code than bad_input or degenerate_rest");
         require(std::string(error.what()).starts_with("damaged: "),
                 "the message does not start with the file");
         return false;
@@ -138,6 +191,19 @@ TEST_CASE("no damaged mesh file crashes, hangs or fills the memory")
         INFO(file.extension << " from\n" << file.text.substr(0, 60));
         CHECK(outcome.failures == "");
         // Damage that is never refused, or always, would test nothing.
+        CHECK(outcome.accepted > 0);
+        CHECK(outcome.refused > 0);
+    }
+}
+
+TEST_CASE("no damaged file of tetrahedra crashes, hangs or fills the memory")
+{
+    for (const seeds::Seed& file : seeds::solids())
+    {
+        const auto outcome =
+            child::run(seed_count(4000), [&](std::uint64_t seed) { return read_damaged_solid(file, seed); });
+        INFO(file.extension << " from\n" << file.text.substr(0, 60));
+        CHECK(outcome.failures == "");
         CHECK(outcome.accepted > 0);
         CHECK(outcome.refused > 0);
     }

@@ -1,6 +1,8 @@
 #pragma once
 // Small good files of every format: the ground that the fuzzers start from.
 
+#include "support/solid_files.hpp"
+
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -89,6 +91,32 @@ inline std::vector<Seed> meshes()
                 "   vertex 0 1 0\n  endloop\n endfacet\nendsolid square\n"},
         {"stl", binary_stl()},
     };
+}
+
+/// Files of tetrahedra; "node" and "ele" are two halves of a pair.
+inline std::vector<Seed> solids()
+{
+    using namespace solid_files;
+    std::vector<Seed> all = {{"mesh", medit()},
+                             {"node", node()},
+                             {"ele", ele()},
+                             {"msh", gmsh1()},
+                             {"msh", gmsh2()},
+                             {"msh", gmsh2_binary(false)},
+                             {"msh", gmsh2_binary(true)},
+                             {"msh", gmsh4()},
+                             {"msh", gmsh4_binary(false)},
+                             {"msh", gmsh4_binary(true)},
+                             {"vtk", vtk()},
+                             {"vtk", vtk_binary()},
+                             {"vtk", vtk5(false)},
+                             {"vtk", vtk5(true)}};
+#if TAUT_HAS_EXPAT
+    all.push_back({"vtu", vtu_text()});
+    all.push_back({"vtu", vtu_binary(false, false)});
+    all.push_back({"vtu", vtu_binary(true, true)});
+#endif
+    return all;
 }
 
 } // namespace seeds
