@@ -228,6 +228,7 @@ std::vector<MapCase> map_cases()
     add_geometry(out);
     add_topology(out);
     add_contact_and_more(out);
+    add_solids(out);
     return out;
 }
 

@@ -58,7 +58,8 @@ inline Scene hanging(std::uint32_t n, double damping = 0.5)
     return scene;
 }
 
-/// The cases of the other file.
+/// The cases of the other files.
 void add_contact_and_more(std::vector<MapCase>& out);
+void add_solids(std::vector<MapCase>& out);
 
 } // namespace taut::hard

@@ -54,6 +54,13 @@ void set_method(Scene& scene, MethodKind method)
     case MethodKind::acad:
     case MethodKind::xpbd: break;
     }
+    for (Body& body : scene.bodies)
+    {
+        if (!find_method(method).elastic && is_solid(body.shape.kind))
+            body.material.model = "springs";
+        if (!find_method(method).volumes)
+            body.material.volume_stiffness = 0;
+    }
 }
 
 std::string verdict(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
