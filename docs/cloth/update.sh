@@ -12,6 +12,7 @@ scenes=examples/scenes/cloth
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wanted=" $* "
+. docs/put.sh
 
 # figure NAME VARIANT...: runs the variants of a scene, keeps table and picture.
 figure()
@@ -27,15 +28,7 @@ figure()
     "$program" compare "$scenes/$name.json" "$@" --out "$scratch/$name" > /dev/null || [ $? -eq 1 ]
     [ ! -f "$scratch/$name/compare.png" ] || cp "$scratch/$name/compare.png" "docs/cloth/$name.png"
     cp "$scratch/$name/compare.csv" "docs/cloth/$name.csv"
-    awk -v part="$name" -v table="$scratch/$name/compare.md" '
-        $0 == "<!-- " part " -->" {
-            print; print ""
-            while ((getline line < table) > 0) print line
-            print ""; skip = 1
-        }
-        $0 == "<!-- end -->" { skip = 0 }
-        !skip && $0 != "<!-- " part " -->" { print }' "$page" > "$scratch/page.md"
-    mv "$scratch/page.md" "$page"
+    put "$page" "$name" "$scratch/$name/compare.md"
 }
 
 constraints="method.type=implicit_constraints; method.constrained=structural; method.constraint_compliance=0; method.substeps=8; method.iterations=2"

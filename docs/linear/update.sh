@@ -13,19 +13,7 @@ page=docs/linear.md
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# What stands between "<!-- PART -->" and "<!-- end -->" becomes the program's table.
-put() # PART
-{
-    awk -v part="$1" -v table="$scratch/$1.md" '
-        $0 == "<!-- " part " -->" {
-            print; print ""
-            while ((getline line < table) > 0) print line
-            print ""; skip = 1
-        }
-        $0 == "<!-- end -->" { skip = 0 }
-        !skip && $0 != "<!-- " part " -->" { print }' "$page" > "$scratch/page.md"
-    mv "$scratch/page.md" "$page"
-}
+. docs/put.sh
 
 for part in "$@"; do
     csv=tests/bench/results/linear_$part.csv
@@ -33,5 +21,5 @@ for part in "$@"; do
         precision) "$program" "$part" --csv "$csv" --pictures docs/linear > "$scratch/$part.md" ;;
         *) "$program" "$part" --csv "$csv" > "$scratch/$part.md" ;;
     esac
-    put "$part"
+    put "$page" "$part" "$scratch/$part.md"
 done

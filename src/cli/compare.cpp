@@ -113,6 +113,11 @@ Json to_json(const CompareRow& row)
     json["worst_rms_stretch"] = row.worst_rms_stretch;
     json["max_stretch"] = row.report.max_stretch;
     json["rms_stretch"] = row.report.rms_stretch;
+    if (row.report.volume.any)
+    {
+        json["volume_ratio"] = {{"min", row.smallest_volume}, {"final", row.report.volume.ratio}};
+        json["inverted_elements"] = row.report.volume.inverted;
+    }
     json["energy"] = row.report.kinetic_energy + row.report.potential_energy;
     json["highest_energy"] = row.highest_energy;
     json["difference"] = row.difference ? Json(*row.difference) : Json();

@@ -28,6 +28,7 @@ void look(const World& world, CompareRow& row)
     row.report = measure(world);
     row.worst_stretch = std::max(row.worst_stretch, row.report.max_stretch);
     row.worst_rms_stretch = std::max(row.worst_rms_stretch, row.report.rms_stretch);
+    row.smallest_volume = std::min(row.smallest_volume, row.report.volume.ratio);
     row.highest_energy =
         std::max(row.highest_energy, row.report.kinetic_energy + row.report.potential_energy);
 }
@@ -69,37 +70,47 @@ CompareRow row_of(const Variant& variant, std::uint64_t frames)
     return row;
 }
 
-/// The cells of a row; `percent` of strains.
-std::vector<std::string> cells(const CompareRow& row)
+std::vector<std::string> head(bool volume)
+{
+    std::vector<std::string> out = {"variant",        "method",
+                                    "executor",       "ms a step",
+                                    "worst strain %", "largest strain at the end %",
+                                    "rms strain at the end %"};
+    if (volume)
+        out.insert(out.end(), {"least volume %", "volume at the end %", "inverted"});
+    out.insert(out.end(), {"energy at the end J", "difference e_L %", "status"});
+    return out;
+}
+
+bool any_volume(const std::vector<CompareRow>& rows)
+{
+    return std::any_of(rows.begin(), rows.end(), [](const CompareRow& row) { return row.report.volume.any; });
+}
+
+/// The cells of a row; `percent` of strains. `volume`: a row of the table has one.
+std::vector<std::string> cells(const CompareRow& row, bool volume)
 {
     const StepReport& r = row.report;
     std::vector<std::string> out = {row.label, row.method, row.executor};
     if (!row.refusal.empty())
     {
-        out.insert(out.end(), {"refused", "", "", "", "", "", row.refusal});
+        out.push_back("refused");
+        out.resize(head(volume).size() - 1);
+        out.push_back(row.refusal);
         return out;
     }
     const double percent = 100;
+    out.insert(out.end(), {shown(row.step_ms, 3), shown(percent * row.worst_stretch, 3),
+                           shown(percent * r.max_stretch, 3), shown(percent * r.rms_stretch, 3)});
+    if (volume)
+        out.insert(out.end(), {shown(percent * row.smallest_volume, 4), shown(percent * r.volume.ratio, 4),
+                               std::to_string(r.volume.inverted)});
     out.insert(out.end(),
-               {shown(row.step_ms, 3), shown(percent * row.worst_stretch, 3),
-                shown(percent * r.max_stretch, 3), shown(percent * r.rms_stretch, 3),
-                shown(r.kinetic_energy + r.potential_energy, 4),
+               {shown(r.kinetic_energy + r.potential_energy, 4),
                 row.difference ? shown(percent * *row.difference, 3) : "", std::string(to_string(r.status))});
     return out;
 }
 
-const std::vector<std::string> kHead = {"variant",
-                                        "method",
-                                        "executor",
-                                        "ms a step",
-                                        "worst strain %",
-                                        "largest strain at the end %",
-                                        "rms strain at the end %",
-                                        "energy at the end J",
-                                        "difference e_L %",
-                                        "status"};
-
-/// In quotes where CSV wants it.
 } // namespace
 
 std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames)
@@ -130,12 +141,13 @@ std::string compare_markdown(const std::vector<CompareRow>& rows)
             text += " " + cell + " |";
         return text + "\n";
     };
-    std::string text = line(kHead) + "|";
-    for (std::size_t column = 0; column < kHead.size(); ++column)
+    const bool volume = any_volume(rows);
+    std::string text = line(head(volume)) + "|";
+    for (std::size_t column = 0; column < head(volume).size(); ++column)
         text += column < 3 ? "---|" : "---:|";
     text += "\n";
     for (const CompareRow& row : rows)
-        text += line(cells(row));
+        text += line(cells(row, volume));
     return text;
 }
 
@@ -147,9 +159,10 @@ std::string compare_csv(const std::vector<CompareRow>& rows)
             text += (text.empty() ? "" : ",") + csv_cell(cell);
         return text + "\n";
     };
-    std::string text = line(kHead);
+    const bool volume = any_volume(rows);
+    std::string text = line(head(volume));
     for (const CompareRow& row : rows)
-        text += line(cells(row));
+        text += line(cells(row, volume));
     return text;
 }
 

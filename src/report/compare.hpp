@@ -24,6 +24,7 @@ struct CompareRow
     StepReport report;            ///< at the end
     double worst_stretch = 0;     ///< (l - L)/L, largest over all frames looked at
     double worst_rms_stretch = 0; ///< the same of the root mean square of tension
+    double smallest_volume = 1;   ///< V / V0, of all frames looked at; of scenes with volumes
     double highest_energy = 0;    ///< J, kinetic and potential
     double step_ms = 0;           ///< median wall time of a step, waiting included
     /// e_L of the last frame against the first variant that ran; empty where vertices do not correspond.

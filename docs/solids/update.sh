@@ -1,0 +1,97 @@
+#!/bin/sh
+# Makes the tables and pictures of docs/solids.md anew: no number between its marks is typed by hand. Figures of
+# real meshes are made where the data is: TAUT_DATA, else ../shared/data.
+#
+#   docs/solids/update.sh build/release/taut [FIGURE...]
+set -eu
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM [FIGURE...] (the built taut)" >&2; exit 2; }
+program=$(realpath "$1")
+shift
+cd "$(dirname "$0")/../.."
+page=docs/solids.md
+scenes=examples/scenes/solids
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+wanted=" $* "
+. docs/put.sh
+
+# figure NAME SCENE VARIANT...: runs the variants of a scene, keeps table and picture.
+figure()
+{
+    name=$1
+    scene=$2
+    shift 2
+    case "$wanted" in "  " | *" $name "*) ;; *) return 0 ;; esac
+    echo "$name" >&2
+    for variant in "$@"; do
+        set -- "$@" --variant "$variant"
+        shift
+    done
+    "$program" compare "$scene" "$@" --out "$scratch/$name" > /dev/null || [ $? -eq 1 ]
+    [ ! -f "$scratch/$name/compare.png" ] || cp "$scratch/$name/compare.png" "docs/solids/$name.png"
+    cp "$scratch/$name/compare.csv" "docs/solids/$name.csv"
+    put "$page" "$name" "$scratch/$name/compare.md"
+}
+
+springs="bodies[0].material.model=springs"
+bare="$springs; bodies[0].material.volume_stiffness=0"
+surface="$springs; bodies[0].material.volume=surface; bodies[0].material.volume_stiffness=rigid"
+ms="method.type=mass_spring; method.stability=substep"
+
+figure volume $scenes/drop.json \
+    "springs: device=cpu; $ms; $bare" "springs, volume of the surface: device=cpu; $ms; $surface" \
+    "the same, native serial: device=cpu:serial; $ms; $surface" "the same, Vulkan: device=vulkan; $ms; $surface" \
+    "the same, OpenGL: device=opengl; $ms; $surface"
+figure stiffness $scenes/stiffness.json \
+    "E = 3e4 Pa: device=cpu; bodies[0].material.youngs_modulus=3e4" "1e5: device=cpu" \
+    "1e6: device=cpu; bodies[0].material.youngs_modulus=1e6" \
+    "3e4, volume held: device=cpu; bodies[0].material.youngs_modulus=3e4; bodies[0].material.volume=surface; bodies[0].material.volume_stiffness=rigid" \
+    "1e6, volume held: device=cpu; bodies[0].material.youngs_modulus=1e6; bodies[0].material.volume=surface; bodies[0].material.volume_stiffness=rigid"
+figure methods $scenes/drop.json \
+    "xpbd, neo-Hookean: device=cpu" "vbd, neo-Hookean: device=cpu; method.type=vbd; method.substeps=10; method.iterations=4" \
+    "implicit Euler, neo-Hookean: device=cpu; method.type=implicit_euler; method.substeps=2; method.iterations=2; method.linear_operator=matrix_free" \
+    "xpbd, springs and volumes: device=cpu; $springs" "pbd, springs and volumes: device=cpu; method.type=pbd; method.substeps=5; method.iterations=4; $springs" \
+    "implicit constraints: device=cpu; method.type=implicit_constraints; method.linear_operator=matrix_free; method.substeps=5; $springs" \
+    "mass-spring, surface: device=cpu; $ms; $surface"
+figure recovery $scenes/recovery.json \
+    "xpbd, neo-Hookean: device=cpu" "vbd, neo-Hookean: device=cpu; method.type=vbd; method.substeps=10; method.iterations=4" \
+    "xpbd, springs and volumes: device=cpu; $springs" "mass-spring: device=cpu; $ms; $bare" \
+    "mass-spring, surface: device=cpu; $ms; $surface"
+figure twist $scenes/twist.json \
+    "xpbd, neo-Hookean: device=cpu" "vbd, neo-Hookean: device=cpu; method.type=vbd; method.substeps=10; method.iterations=4" \
+    "xpbd, springs and volumes: device=cpu; $springs" "mass-spring: device=cpu; $ms; $bare" \
+    "mass-spring, surface: device=cpu; $ms; $surface"
+figure iterations $scenes/iterations.json \
+    "1 iteration: device=cpu; method.iterations=1" "2: device=cpu; method.iterations=2" "5: device=cpu; method.iterations=5" \
+    "10: device=cpu" "20: device=cpu; method.iterations=20"
+figure schemes $scenes/iterations.json \
+    "colours, native serial: device=cpu:serial" "colours, native: device=cpu" \
+    "by vertices, native serial: device=cpu:serial; method.scheme=node_centric" \
+    "by vertices, native: device=cpu; method.scheme=node_centric" \
+    "by constraints, native serial: device=cpu:serial; method.scheme=constraint_centric" \
+    "by constraints, native: device=cpu; method.scheme=constraint_centric" \
+    "colours, Vulkan: device=vulkan" "by vertices, Vulkan: device=vulkan; method.scheme=node_centric" \
+    "by constraints, Vulkan: device=vulkan; method.scheme=constraint_centric"
+
+# mesh NAME FILE SCALE HEIGHT: a real mesh in place of the ball of iterations.json.
+mesh()
+{
+    data=${TAUT_DATA:-../shared/data}
+    [ -f "$data/tets/$2" ] || { echo "SKIPPED: $data/tets/$2 is not there" >&2; return 0; }
+    cat > "$scratch/$1.json" <<END
+{
+  "taut": 1, "timestep": 0.02, "duration": 2, "damping": 0.1,
+  "method": {"type": "pbd", "substeps": 1, "iterations": 10, "stretch": 0.8},
+  "bodies": [{
+    "tetrahedra": "$(realpath "$data/tets/$2")",
+    "material": {"model": "springs", "poissons_ratio": 0.4, "thickness": 0.005},
+    "transform": {"scale": $3, "translate": [0, $4, 0]}
+  }],
+  "colliders": [{"plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}, "friction": 0.5}]
+}
+END
+    figure "$1" "$scratch/$1.json" "1 iteration: device=cpu; method.iterations=1" \
+        "5: device=cpu; method.iterations=5" "10: device=cpu" "20: device=cpu; method.iterations=20"
+}
+mesh bunny bunny0.msh 0.7 1.2
+mesh armadillo Armadillo13K.vtk 0.01 1.3
