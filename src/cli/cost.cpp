@@ -1,5 +1,6 @@
 // taut cost: error against time over the settings of one or several methods.
 
+#include "taut/report/ablation.hpp"
 #include "taut/report/cost.hpp"
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/output.hpp"
@@ -10,6 +11,8 @@
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -29,7 +32,7 @@ struct CostCommand
     std::optional<double> rest_seconds, timing_seconds, reference_steps;
     std::string ratio;
     std::vector<double> ratios;
-    bool at_rest = false, moving = false, conserved = false, json = false;
+    bool at_rest = false, moving = false, conserved = false, ablation = false, json = false;
 };
 
 CostOptions study_options(const CostCommand& command)
@@ -177,6 +180,19 @@ int conserved(const CostCommand& command, const Scene& scene, CostOptions option
     return kDone;
 }
 
+int ablation(const CostCommand& command, const Scene& scene)
+{
+    const double whole = std::ceil(scene.duration / scene.timestep - 1e-6);
+    const std::uint64_t frames = command.frames.value_or(static_cast<std::uint32_t>(std::max(whole, 1.0)));
+    const Ablation study = run_ablation(scene, open_device(command.device), frames);
+    if (!command.folder.empty())
+        write_file(command.folder / "ablation.csv", ablation_csv(study));
+    std::cout << "What each effect costs: " << study.scene << " on " << study.device.name << " ("
+              << study.device.executor << "), " << study.frames << " frames\n\n"
+              << ablation_markdown(study);
+    return kDone;
+}
+
 int cost(const CostCommand& command)
 {
     std::vector<SceneIssue> issues;
@@ -190,6 +206,8 @@ int cost(const CostCommand& command)
         return ratios(command, scene, options);
     if (command.conserved)
         return conserved(command, scene, options);
+    if (command.ablation)
+        return ablation(command, scene);
     const auto device = open_device(command.device);
     options.progress = progress.callback();
     const CostStudy study = run_cost(scene, device, options);
@@ -229,6 +247,9 @@ void add_cost(CLI::App& app, Command& chosen)
     auto* kept = command->add_flag("--conserved", options->conserved,
                                    "Instead: energy and momentum against time, of a scene that keeps them");
     kept->excludes(ratio);
+    auto* without = command->add_flag("--ablation", options->ablation,
+                                      "Instead: time, bytes and dispatches of each effect, by leaving it out");
+    without->excludes(ratio)->excludes(kept);
     command->add_option("--frames", options->frames,
                         "Moving: frames compared at most (default: the scene's)");
     command->add_option("--rest-seconds", options->rest_seconds,
