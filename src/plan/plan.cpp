@@ -1,6 +1,7 @@
 #include "taut/plan/plan.hpp"
 
 #include "taut/plan/builder.hpp"
+#include "taut/plan/effect_names.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -117,6 +118,15 @@ void record_step(PlanBuilder& builder, const std::vector<const Effect*>& rows)
 }
 
 } // namespace
+
+std::vector<std::string> effect_names(const Scene& resolved)
+{
+    std::vector<std::string> names;
+    for (const Effect* effect : wanted_effects(resolved, {}))
+        if (std::find(names.begin(), names.end(), effect->name) == names.end())
+            names.emplace_back(effect->name);
+    return names;
+}
 
 void check_timestep(double timestep, std::uint32_t substeps, double largest)
 {

@@ -1,5 +1,6 @@
 #include "taut/report/ablation.hpp"
 
+#include "taut/plan/effect_names.hpp"
 #include "taut/report/errors.hpp"
 #include "taut/report/model.hpp"
 #include "taut/runtime/base/csv.hpp"
@@ -39,9 +40,7 @@ std::vector<Run> make_runs(const Scene& scene, const std::shared_ptr<Device>& de
 {
     std::vector<Run> runs(1);
     runs[0].world = std::make_unique<World>(scene, device);
-    std::vector<std::string> names;
-    for (const EffectCost& effect : runs[0].world->plan().effects)
-        names.push_back(effect.name);
+    const std::vector<std::string> names = effect_names(scene);
     for (const std::string& missing : names)
     {
         if (missing == "motion")
