@@ -57,6 +57,13 @@ struct PbdBuffers
     std::uint32_t other = kNoBuffer; ///< the iterate that is not in the plan's `delta`
     std::uint32_t spring_count = 0, hinge_count = 0;
 };
+/// Closed surfaces whose volume is held (surface_volume.hpp); kNoBuffer and 0 where a scene has none.
+struct SurfaceBuffers
+{
+    std::uint32_t table = kNoBuffer, corners = kNoBuffer, values = kNoBuffer, gradient = kNoBuffer,
+                  partials = kNoBuffer, multiplier = kNoBuffer;
+    std::uint32_t groups = 0, surfaces = 0, vertices = 0;
+};
 struct ForceBuffers;
 struct BlockBuffers;
 
@@ -128,6 +135,7 @@ public:
     std::uint32_t pin_vertices = kNoBuffer;
     const Method& method;
     PbdBuffers pbd;
+    SurfaceBuffers surfaces;
     std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
     std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< null: nothing is constrained
     std::shared_ptr<ImplicitEuler> implicit_euler; ///< under that method

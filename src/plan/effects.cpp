@@ -9,6 +9,7 @@
 #include "taut/plan/pbd.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/solid_constraints.hpp"
+#include "taut/plan/surface_volume.hpp"
 #include "taut/plan/wind.hpp"
 #include "taut/kernels/capsule.hpp"
 #include "taut/kernels/cuboid.hpp"
@@ -341,6 +342,8 @@ constexpr Effect kEffects[] = {
     {"volume", Stage::solve, any_volume, prepare_volume, record_volume, only(MethodKind::xpbd)},
     {"neo_hookean", Stage::solve, any_solid, prepare_neo_hookean, record_neo_hookean,
      only(MethodKind::xpbd)},
+    {"surface_volume", Stage::solve, any_surface_volume, prepare_surface_volume, record_surface_volume,
+     kMassSpring},
     {"pbd_stretch", Stage::solve,
      [](const Scene& s) { return pbd_is_coloured(s) && s.method.stretch > 0 && any_stretch(s); },
      prepare_pbd_stretch, record_pbd_stretch, only(MethodKind::pbd)},

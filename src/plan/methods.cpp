@@ -7,6 +7,7 @@
 #include "taut/plan/pbd.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/stability.hpp"
+#include "taut/plan/surface.hpp"
 #include "taut/plan/vbd.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
@@ -20,15 +21,15 @@ namespace {
 
 // clang-format off
 constexpr Method kMethods[] = {
-    //                                 contacts each  keeps                                neo-
-    // kind                            iteration      guess   check                       volumes Hookean substeps
-    {MethodKind::mass_spring,          false,         false,  check_mass_spring,          false,  false,  stable_substeps},
-    {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       false,  false,  nullptr},
-    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, false,  false,  stable_substeps},
-    {MethodKind::acad,                 false,         false,  check_acad,                 false,  false,  stable_substeps},
-    {MethodKind::pbd,                  true,          false,  check_pbd,                  false,  false,  nullptr},
-    {MethodKind::xpbd,                 true,          false,  nullptr,                    true,   true,   nullptr},
-    {MethodKind::vbd,                  false,         true,   check_vbd,                  false,  false,  nullptr},
+    //                                 contacts each  keeps                                neo-     surface
+    // kind                            iteration      guess   check                       volumes Hookean volume  substeps
+    {MethodKind::mass_spring,          false,         false,  check_mass_spring,          false,  false,  true,   stable_substeps},
+    {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       false,  false,  false,  nullptr},
+    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, false,  false,  false,  stable_substeps},
+    {MethodKind::acad,                 false,         false,  check_acad,                 false,  false,  false,  stable_substeps},
+    {MethodKind::pbd,                  true,          false,  check_pbd,                  false,  false,  false,  nullptr},
+    {MethodKind::xpbd,                 true,          false,  nullptr,                    true,   true,   false,  nullptr},
+    {MethodKind::vbd,                  false,         true,   check_vbd,                  false,  false,  false,  nullptr},
 };
 // clang-format on
 
@@ -81,6 +82,17 @@ void check_solids(const Scene& scene)
                         where + "volume_stiffness is not 0, but method \"" + scene.method.type +
                             "\" does not hold the volume of tetrahedra; set it to 0, or take a method of " +
                             methods_with(&Method::volumes));
+        if (!holds_surface_volume(body))
+            continue;
+        const std::string what =
+            body.mesh.tetrahedra.empty() ? "volume_stiffness is not 0" : "volume is \"surface\"";
+        if (!method.surface_volume)
+            throw Error(ErrorCode::unsupported,
+                        where + what + ", but method \"" + scene.method.type +
+                            "\" does not hold the volume within a surface; set volume_stiffness to 0, or "
+                            "take a method of " +
+                            methods_with(&Method::surface_volume));
+        check_surface(body, where + what);
     }
 }
 

@@ -47,14 +47,15 @@ struct Method
     /// Throws Error{unsupported, bad_timestep, ...} for what the method cannot do; may be null.
     void (*check)(const Scene& resolved, const DeviceTraits&);
     bool volumes, elastic; ///< can hold volumes of tetrahedra; can move neo-Hookean ones
+    bool surface_volume;   ///< can hold the volume within a closed surface
     /// Substeps that the method takes; null: as the scene says. Throws Error{unstable_timestep}.
     Substeps (*substeps)(const Scene& resolved);
 };
 
 const Method& find_method(MethodKind kind);
 
-/// Throws Error{unsupported} naming a body whose tetrahedra the scene's method cannot move as its material
-/// says, and the methods that can.
+/// Throws Error{unsupported} naming a body whose tetrahedra the scene's method cannot move, or whose volume it
+/// cannot hold, as its material says, and the methods that can; what check_surface throws for a surface.
 void check_solids(const Scene& resolved);
 
 } // namespace taut

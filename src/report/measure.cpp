@@ -165,6 +165,10 @@ void measure_energy(const View& view, StepReport& out)
     for (const VolumeElement& e : view.model.volumes)
         if (e.compliance > 0)
             out.potential_energy += 0.5 * std::pow(volume_of(e.vertex, view.x) - e.rest_volume, 2) / e.compliance;
+    for (const SurfaceElement& e : view.model.surfaces)
+        if (e.compliance > 0)
+            out.potential_energy +=
+                0.5 * std::pow(enclosed_volume(e.triangles, view.x) - e.rest_volume, 2) / e.compliance;
     for (const SolidElement& e : view.model.solids)
         out.potential_energy += solid_energy(e, view.x);
 }

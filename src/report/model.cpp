@@ -67,6 +67,12 @@ void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first
     };
     append(volume_elements(body), model.volumes);
     append(solid_elements(body), model.solids);
+    if (!holds_surface_volume(body))
+        return;
+    model.surfaces.push_back(surface_element(body));
+    for (auto& triangle : model.surfaces.back().triangles)
+        for (std::uint32_t& v : triangle)
+            v += first;
 }
 
 /// The first pin that names a vertex holds it.
@@ -145,6 +151,12 @@ double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
     }
     for (const SolidElement& e : model.solids)
         energy += solid_energy(e, x);
+    for (const SurfaceElement& e : model.surfaces)
+    {
+        const double change = enclosed_volume(e.triangles, x) - e.rest_volume;
+        if (change != 0)
+            energy += 0.5 * change * change / e.compliance;
+    }
     return energy;
 }
 
@@ -198,6 +210,10 @@ void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::
         for (std::size_t c = 0; c < 4; ++c)
             out[e.vertex[c]] += force[c];
     }
+    for (const SurfaceElement& e : model.surfaces)
+        if (e.compliance > 0)
+            add_volume_gradient(e.triangles, x,
+                                (e.rest_volume - enclosed_volume(e.triangles, x)) / e.compliance, out);
 }
 
 double total_weight(const PhysicalModel& model)
@@ -213,7 +229,8 @@ std::size_t rigid_element_count(const PhysicalModel& model)
     const auto rigid = [](const auto& element) { return !(element.compliance > 0); };
     return static_cast<std::size_t>(std::count_if(model.springs.begin(), model.springs.end(), rigid) +
                                     std::count_if(model.hinges.begin(), model.hinges.end(), rigid) +
-                                    std::count_if(model.volumes.begin(), model.volumes.end(), rigid));
+                                    std::count_if(model.volumes.begin(), model.volumes.end(), rigid) +
+                                    std::count_if(model.surfaces.begin(), model.surfaces.end(), rigid));
 }
 
 double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x)

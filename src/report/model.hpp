@@ -5,6 +5,7 @@
 
 #include "taut/plan/material.hpp"
 #include "taut/plan/solid.hpp"
+#include "taut/plan/surface.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <cstddef>
@@ -33,6 +34,7 @@ struct PhysicalModel
     std::vector<BendElement> hinges;
     std::vector<VolumeElement> volumes;       ///< tetrahedra whose volume is held
     std::vector<SolidElement> solids;         ///< elastic tetrahedra
+    std::vector<SurfaceElement> surfaces;     ///< whose volume within is held
     std::size_t dropped_hinges = 0;           ///< without an angle at rest
     std::vector<ModelPin> pins;               ///< ascending, one a vertex
     std::vector<Collider> colliders;

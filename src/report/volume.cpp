@@ -1,14 +1,20 @@
 #include "taut/report/volume.hpp"
 
 #include "taut/plan/solid.hpp"
-
-#include <glm/geometric.hpp>
+#include "taut/plan/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace taut {
 namespace {
+
+void add_ratio(double ratio, VolumeReport& out)
+{
+    if (!out.any || std::abs(ratio - 1) > std::abs(out.ratio - 1))
+        out.ratio = ratio;
+    out.any = true;
+}
 
 /// Adds one body; `now` are its own vertices.
 void add_tetrahedra(const Mesh& mesh, std::span<const glm::dvec3> now, VolumeReport& out)
@@ -22,22 +28,14 @@ void add_tetrahedra(const Mesh& mesh, std::span<const glm::dvec3> now, VolumeRep
         out.inverted += !(volume > 0);
         out.worst_element = std::max(out.worst_element, std::abs(volume - rest) / rest);
     }
-    if (!out.any || std::abs(after / before - 1) > std::abs(out.ratio - 1))
-        out.ratio = after / before;
-    out.any = true;
+    add_ratio(after / before, out);
 }
 
 } // namespace
 
 double enclosed_volume(const Mesh& mesh, std::span<const glm::dvec3> x)
 {
-    if (mesh.triangles.empty())
-        return 0;
-    const glm::dvec3 origin = x[mesh.triangles[0][0]]; // far from zero the terms would cancel
-    double six = 0;
-    for (const auto& [a, b, c] : mesh.triangles)
-        six += glm::dot(x[a] - origin, glm::cross(x[b] - origin, x[c] - origin));
-    return six / 6;
+    return enclosed_volume(mesh.triangles, x);
 }
 
 VolumeReport measure_volume(const Scene& scene, std::span<const glm::dvec3> positions)
@@ -50,6 +48,8 @@ VolumeReport measure_volume(const Scene& scene, std::span<const glm::dvec3> posi
         const std::span<const glm::dvec3> now = positions.subspan(first, count);
         if (!body.mesh.tetrahedra.empty())
             add_tetrahedra(body.mesh, now, out);
+        else if (holds_surface_volume(body))
+            add_ratio(enclosed_volume(body.mesh, now) / enclosed_volume(body.mesh, body.mesh.positions), out);
         first += count;
     }
     return out;

@@ -16,7 +16,7 @@ struct VolumeReport
     std::uint64_t inverted = 0;   ///< tetrahedra with V <= 0
 };
 
-/// Bodies with tetrahedra. `positions`: scene-wide vertices, m.
+/// Bodies with tetrahedra, and closed cloth that holds its volume. `positions`: scene-wide vertices, m.
 VolumeReport measure_volume(const Scene& resolved, std::span<const glm::dvec3> positions);
 
 /// m^3 within a closed surface, signed: a sixth of the triple products of its triangles, about their first

@@ -143,7 +143,7 @@ void check_shape(const Shape& shape, const Checker& out)
 void check_solid(const Material& material, const Checker& out)
 {
     constexpr std::array<std::string_view, 3> models = {"neo_hookean", "neo_hookean_simple", "springs"};
-    constexpr std::array<std::string_view, 1> volumes = {"tetrahedra"};
+    constexpr std::array<std::string_view, 2> volumes = {"tetrahedra", "surface"};
     out.positive("youngs_modulus", material.youngs_modulus, "Pa");
     if (!(material.poissons_ratio > -1 && material.poissons_ratio < 0.5))
         out.error("poissons_ratio", "is " + shown(material.poissons_ratio) +
@@ -164,6 +164,10 @@ void check_material(const Material& material, bool solid, const Checker& out)
     const bool own = solid && material.volume_stiffness == -1; // the bulk modulus
     if (!own && material.volume_stiffness != std::numeric_limits<double>::infinity())
         out.not_negative("volume_stiffness", material.volume_stiffness, "Pa");
+    if (!solid && material.volume_stiffness > 0 && material.tear_strain > 0)
+        out.error("volume_stiffness", "is " + shown(material.volume_stiffness) + " Pa beside tear_strain " +
+                                          shown(material.tear_strain) +
+                                          "; torn cloth encloses nothing, so set one of them to 0");
     if (!solid && material.stretch_stiffness != std::numeric_limits<double>::infinity())
         out.not_negative("stretch_stiffness", material.stretch_stiffness, "N/m");
     out.not_negative("bending_stiffness", material.bending_stiffness, "N m");

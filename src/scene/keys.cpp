@@ -46,7 +46,7 @@ std::span<const KeySet> all_keys()
         {"chain", {"links", "length", "width"}},
         {"material",
          {"density", "stretch_stiffness", "bending_stiffness", "thickness", "stretch_damping", "strain_limit",
-          "attachment_slack", "tear_strain", "drag", "friction_drag"}},
+          "attachment_slack", "tear_strain", "drag", "friction_drag", "volume_stiffness"}},
         {"solid box", {"cells", "size", "split"}},
         {"ball", {"cells", "radius"}},
         {"solid material",

@@ -198,15 +198,15 @@ void read_material(Field field, bool solid, Material& material)
         field.read("poissons_ratio", material.poissons_ratio);
         field.read("model", material.model);
         field.read("volume", material.volume);
-        read_or_rigid(field, "volume_stiffness", "Pa", material.volume_stiffness);
-        if (field.find("volume_stiffness") && material.volume_stiffness < 0)
-            field.need("volume_stiffness").refuse("it must be 0 Pa or more, or \"rigid\"");
     }
     else
     {
         read_or_rigid(field, "stretch_stiffness", "N/m", material.stretch_stiffness);
         field.read("tear_strain", material.tear_strain);
     }
+    read_or_rigid(field, "volume_stiffness", "Pa", material.volume_stiffness);
+    if (field.find("volume_stiffness") && material.volume_stiffness < 0)
+        field.need("volume_stiffness").refuse("it must be 0 Pa or more, or \"rigid\"");
     field.read("bending_stiffness", material.bending_stiffness);
     field.read("thickness", material.thickness);
     field.read("stretch_damping", material.stretch_damping);

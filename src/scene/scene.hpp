@@ -33,6 +33,10 @@ struct Material
     double tear_strain = 0;   ///< (l - L)/L at which cloth tears, >= 0; 0 = no tearing effect
     double drag = 0;          ///< of a triangle along its normal in the wind, >= 0; 0 = no wind effect
     double friction_drag = 0; ///< the same across its normal (skin friction), >= 0
+    /// Pa: closed cloth holds the volume V that it encloses by an energy of K/2 (V - V0)^2 / V0; 0 = no
+    /// surface_volume effect, inf = rigid. Of solids: springs hold volumes so (which, `volume` says); -1 = the
+    /// bulk modulus E / (3 (1 - 2 nu)).
+    double volume_stiffness = 0;
 
     // Solids: tetrahedra. stretch_stiffness is not theirs.
     double youngs_modulus = 0;   ///< Pa, > 0 in solids
@@ -41,10 +45,8 @@ struct Material
     /// them from collapsing to a point (plan/solid.hpp); "springs": springs along the edges, and constraints of
     /// volume beside them.
     std::string model = "neo_hookean";
-    /// Pa: springs hold volumes V by an energy of K/2 (V - V0)^2 / V0; 0 = no volume effect, inf = rigid,
-    /// -1 = the bulk modulus E / (3 (1 - 2 nu)).
-    double volume_stiffness = 0;
-    std::string volume = "tetrahedra"; ///< what springs hold: the volume of each of them
+    /// What springs hold: the volume of each of the "tetrahedra", or the one within the "surface".
+    std::string volume = "tetrahedra";
 };
 
 /// Defaults of bodies with tetrahedra: soft rubber.

@@ -98,6 +98,8 @@ inline constexpr Tolerance kTolerances[] = {
      "a quotient, differences, a product; sums as dot, of up to 8 terms a lane; a quotient"},
     {"implicit_update", 2, "a product and a sum"},
     {"diagonal_inverse", 8, "a row: one quotient; a block: some 20 roundings, each times its condition"},
+    {"surface_volume_sum", 8, "edges of two differences, their cross products, up to nine terms a lane and a tree"},
+    {"surface_volume_apply", 8, "up to 8 terms of a sum in a tree, a quotient, two products"},
     {"chebyshev", 4, "five for an iterate; a sum adds up to 23 terms a lane and a tree of 7"},
     {"sphere", 4, "as plane, and a root of a quadratic for the way in"},
     {"strain_limit", 6, "as distance, without a multiplier"},
