@@ -123,7 +123,7 @@ TEST_CASE("every integrator holds the volume, in float and double", "[surface_vo
     Scene scene = dropped(200, kRigid);
     scene.method.integrator = integrator;
     scene.method.precision = precision;
-    scene.damping = 1;
+    scene.bodies[0].material.stretch_damping = 2e-3; // or explicit Euler gains energy from every spring
     World world(scene, test_device("cpu:serial"));
     const Range range = run(world, 1500);
     INFO(range.least << " to " << range.most);
