@@ -1,30 +1,46 @@
 // Vertex block descent: one invocation per vertex of one colour (no two share an element) minimises the
-// substep's energy, inertia + springs + hinges, over its own place, by one Newton step of three unknowns.
+// substep's energy, inertia + springs + hinges + tetrahedra, over its own place, by one Newton step of three
+// unknowns.
 //
 // Based on:
 //   Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024: blocks f_i and H_i, one colour at a time.
+//   Smith, de Goes, Kim. Stable Neo-Hookean Flesh Simulation. ACM TOG 37(2), 2018: tetrahedra. Their block is
+//   positive definite by itself: det F is linear in the place of one vertex.
 //   Chen, Hsieh, et al. Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for Projected Newton.
 //   SIGGRAPH 2024: where a spring is compressed, the curvature across it counts by its size.
-// Departures: that size is at most the stiffness along the spring; hinges by Gauss-Newton (outer product of
-//   the gradient). So every block is positive definite. Leaving compressed parts out (Choi, Ko 2002) lets a
+// Departures: that size is at most the stiffness along the spring; hinges and held volumes by Gauss-Newton
+//   (outer product of the gradient; of a volume that is all there is). With the logarithm mu counts at least
+//   9/16 in the block: its curvature is at most 9/8 mu |b|^2, and with half of the largest curvature in the
+//   block no step raises the energy; a collapsed tetrahedron has next to none where the step begins. So every
+//   block is positive definite. Leaving compressed parts out of springs (Choi, Ko 2002) lets a
 //   stiff sheet that is slightly compressed gain energy: steps across are then far too long
 //   (docs/methods/vbd.md). Pivots of the 3 x 3 factorisation are at least the inertia m / h^2, below which no
 //   eigenvalue of the block lies, so rounding cannot turn a step around; dampers act along the spring, on the
 //   substep's own displacement. What rounding leaves of a length or an angle at rest counts as zero: steps of
 //   one vertex after another are not opposite, and would push a free sheet along by it.
-// Bytes per vertex: 16 + 48 read, 16 written; per spring 24 + 32 (damped 48), per hinge 24 + 128 (float).
+// Bytes per vertex: 16 + 48 read, 16 written; per spring 24 + 32 (damped 48), per hinge 24 + 128,
+//   per held volume 24 + 96, per elastic tetrahedron 72 + 96 (float).
 //! variant hinges HINGES=1
 //! variant damped DAMPED=1
 //! variant hinges_damped HINGES=1 DAMPED=1
+//! variant volumes HINGES=1 VOLUMES=1
+//! variant volumes_damped HINGES=1 VOLUMES=1 DAMPED=1
+//! variant elastic HINGES=1 ELASTIC=1 DAMPED=1
 //! variant tail TAIL=1
 //! variant tail_hinges TAIL=1 HINGES=1
 //! variant tail_damped TAIL=1 DAMPED=1
 //! variant tail_hinges_damped TAIL=1 HINGES=1 DAMPED=1
+//! variant tail_volumes TAIL=1 HINGES=1 VOLUMES=1
+//! variant tail_volumes_damped TAIL=1 HINGES=1 VOLUMES=1 DAMPED=1
+//! variant tail_elastic TAIL=1 HINGES=1 ELASTIC=1 DAMPED=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/spring.glsl"
 #if HINGES
 #include "shared/hinge.glsl"
+#endif
+#if ELASTIC
+#include "shared/solid.glsl"
 #endif
 
 PARAMS
@@ -35,7 +51,7 @@ PARAMS
     float relaxation; // each step times this
 };
 
-READ(0, uint, row);        // four words a row: vertex, first spring end, first hinge corner, colour end
+READ(0, uint, row);        // four words a row, five with tetrahedra: row_word
 READ(1, Spring, end);      // a = this vertex, b = the other; those of row k end where row k + 1 begins
 READ(2, rvec4, position);  // xyz m, w = inverse mass 1/kg
 READ(3, rvec4, predicted); // xyz: inertial guess of the displacement, m; w = inertia m / h^2, kg/s^2
@@ -46,7 +62,14 @@ UPDATE(4, rvec4, delta);
 #endif
 COUNTERS(5, events);
 #if HINGES
-READ(6, BendingConstraint, corner); // a hinge of which this vertex is one corner
+// Hinges of which this vertex is one corner; behind the hinges of all rows the tetrahedra of which it is the
+// second one. A held volume has the words of a hinge: V0 for the angle. Where there are elastic tetrahedra, a
+// hinge is one with its angle and compliance for b00, b01, and a held volume one of no mu.
+#if ELASTIC
+READ(6, SolidTetrahedron, corner);
+#else
+READ(6, BendingConstraint, corner);
+#endif
 #if DAMPED
 READ(7, rvec4, low); // m: where in `delta` a vertex stood before the substep
 #endif
@@ -60,6 +83,23 @@ rvec3 from_to(uint a, uint b)
     return rvec3(position[b] - position[a]) + rvec3(delta[b] - delta[a]);
 }
 
+BendingConstraint hinge_at(uint j)
+{
+#if ELASTIC
+    SolidTetrahedron t = corner[j];
+    BendingConstraint c;
+    c.edge0 = t.a;
+    c.edge1 = t.b;
+    c.wing0 = t.c;
+    c.wing1 = t.d;
+    c.rest_angle = t.b00;
+    c.compliance = t.b01;
+    return c;
+#else
+    return corner[j];
+#endif
+}
+
 /// Whether this vertex is the first corner that moves: it counts for the hinge.
 bool counts_for(uint v, BendingConstraint c)
 {
@@ -71,6 +111,16 @@ bool counts_for(uint v, BendingConstraint c)
 }
 #endif
 
+/// The words of a row: vertex, first spring end, first hinge corner, colour end, first tetrahedron.
+uint row_word(uint k, uint word)
+{
+#if VOLUMES || ELASTIC
+    return row[5u * k + word];
+#else
+    return row[4u * k + word];
+#endif
+}
+
 /// Relative size of what rounding leaves of the length of a spring at rest: two units of the last digit.
 real last_digits()
 {
@@ -81,9 +131,17 @@ real last_digits()
 #endif
 }
 
+#if ELASTIC
+/// Whether v counts for an element before another of its vertices.
+bool leads(uint v, uint other, real inverse_mass)
+{
+    return v < other || !(inverse_mass > real(0));
+}
+#endif
+
 void solve(uint k)
 {
-    uint v = row[4u * k];
+    uint v = row_word(k, 0u);
     rvec4 x = position[v];
     rvec4 d = delta[v];
     rvec4 y = predicted[v];
@@ -96,7 +154,7 @@ void solve(uint k)
     real inverse_substep = sqrt(inertia * x.w);
     rvec3 moved = rvec3(d - low[v]);
 #endif
-    for (uint j = row[4u * k + 1u]; j < row[4u * k + 5u]; ++j)
+    for (uint j = row_word(k, 1u); j < row_word(k + 1u, 1u); ++j)
     {
         Spring s = end[j];
         rvec4 far = position[s.b];
@@ -126,9 +184,9 @@ void solve(uint k)
         }
     }
 #if HINGES
-    for (uint j = row[4u * k + 2u]; j < row[4u * k + 6u]; ++j)
+    for (uint j = row_word(k, 2u); j < row_word(k + 1u, 2u); ++j)
     {
-        BendingConstraint c = corner[j];
+        BendingConstraint c = hinge_at(j);
         HingeShape shape =
             hinge_shape(from_to(c.edge0, c.edge1), from_to(c.edge0, c.wing0), from_to(c.edge0, c.wing1));
         rvec3 g = v == c.edge0   ? shape.edge0
@@ -146,6 +204,54 @@ void solve(uint k)
             if (!shape.shaped && counts_for(v, c))
                 COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
         }
+    }
+#endif
+#if VOLUMES || ELASTIC
+    for (uint j = row_word(k, 4u); j < row_word(k + 1u, 4u); ++j)
+    {
+#if ELASTIC
+        SolidTetrahedron t = corner[j];
+        uint v0 = t.a, v2 = t.c, v3 = t.d;
+#else
+        BendingConstraint t = corner[j];
+        uint v0 = t.edge0, v2 = t.wing0, v3 = t.wing1;
+#endif
+        rvec4 p0 = position[v0];
+        rvec4 d0 = delta[v0];
+        rvec3 e1 = rvec3(x - p0) + rvec3(d - d0);
+        rvec3 e2 = rvec3(position[v2] - p0) + rvec3(delta[v2] - d0);
+        rvec3 e3 = rvec3(position[v3] - p0) + rvec3(delta[v3] - d0);
+#if ELASTIC
+        rvec3 g = cross(e2, e3) / (real(6) * t.volume); // of det F
+        Deformation shape = deformation_of(t, e1, e2, e3);
+        rvec3 pulled = gradient_b(t, shape.f0, shape.f1, shape.f2);
+        real mu = t.mu * t.volume;
+        real even_share = mu * shape.share;
+        rvec3 stiff = g * (t.lambda * t.volume);
+        // One product at a time: of sums of two chains Mesa takes factors out, and the last bit differs.
+        f -= pulled * even_share;
+        f -= stiff * (dot(e1, g) - t.rest);
+        even += mu * max(shape.share, real(0.5625)) * ((t.b00 * t.b00 + t.b01 * t.b01) + t.b02 * t.b02);
+        real beyond = shape.square + real(1);
+        rvec3 curved = pulled * ((real(2) * mu) * (t.log_term / (beyond * beyond)));
+        // Collapsed to a point: next to no force leads out of it.
+        bool lost = t.mu > real(0) && shape.square < REAL(1e-6);
+        if (report != 0u)
+        {
+            if (lost && leads(v, v0, p0.w) && leads(v, v2, position[v2].w) && leads(v, v3, position[v3].w))
+                COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+        }
+        diagonal += pulled * curved;
+        diagonal += g * stiff;
+        mixed += rvec3(pulled.x * curved.y, pulled.x * curved.z, pulled.y * curved.z);
+        mixed += rvec3(g.x * stiff.y, g.x * stiff.z, g.y * stiff.z);
+#else
+        rvec3 g = cross(e2, e3) / real(6);
+        rvec3 stiff = g / t.compliance;
+        f -= stiff * (dot(e1, g) - t.rest_angle);
+        diagonal += g * stiff;
+        mixed += rvec3(g.x * stiff.y, g.x * stiff.z, g.y * stiff.z);
+#endif
     }
 #endif
     // L D L^T of the block.
@@ -173,10 +279,10 @@ void solve(uint k)
 GROUP_KERNEL(64)
 {
     uint last = group == 0u ? first + count : first;
-    for (uint begin = first; begin < last; begin = row[4u * begin + 3u])
+    for (uint begin = first; begin < last; begin = row_word(begin, 3u))
     {
         PHASE_BEGIN
-        for (uint k = begin + lane; k < row[4u * begin + 3u]; k += 64u)
+        for (uint k = begin + lane; k < row_word(begin, 3u); k += 64u)
             solve(k);
         PHASE_END
     }

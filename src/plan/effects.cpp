@@ -315,6 +315,8 @@ bool any_solid(const Scene& scene)
 
 bool any_elements(const Scene& scene) { return any_stretch(scene) || any_bending(scene); }
 
+bool any_blocks(const Scene& scene) { return any_elements(scene) || any_volume(scene) || any_solid(scene); }
+
 constexpr MethodSet kVbd = only(MethodKind::vbd);
 constexpr MethodSet kMassSpring = only(MethodKind::mass_spring);
 constexpr MethodSet kConstraints = only(MethodKind::implicit_constraints);
@@ -335,8 +337,8 @@ constexpr Effect kEffects[] = {
      prepare_force_kick, record_force_kick, kMassSpring | kConstraints | kAcad},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
-    {"vbd_start", Stage::start, any_elements, prepare_vbd, record_vbd_start, kVbd},
-    {"vbd_solve", Stage::solve, any_elements, nullptr, record_vbd_solve, kVbd},
+    {"vbd_start", Stage::start, any_blocks, prepare_vbd, record_vbd_start, kVbd},
+    {"vbd_solve", Stage::solve, any_blocks, nullptr, record_vbd_solve, kVbd},
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance, only(MethodKind::xpbd)},
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending, only(MethodKind::xpbd)},
     {"volume", Stage::solve, any_volume, prepare_volume, record_volume, only(MethodKind::xpbd)},
@@ -365,7 +367,7 @@ constexpr Effect kEffects[] = {
     {"acad", Stage::solve, any_stretch, nullptr, record_acad_solve, kAcad},
     {"strain_limit", Stage::contact, any_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, any_attachment, prepare_attachment, record_attachment},
-    {"vbd_start", Stage::contact, any_elements, nullptr, record_vbd_mark, kVbd},
+    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_mark, kVbd},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
      prepare_plane, record_plane},
@@ -377,7 +379,7 @@ constexpr Effect kEffects[] = {
      prepare_cuboid, record_cuboid},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
     {"tearing", Stage::after, any_tearing, prepare_tearing, record_tearing},
-    {"vbd_start", Stage::after, any_elements, nullptr, record_vbd_share, kVbd},
+    {"vbd_start", Stage::after, any_blocks, nullptr, record_vbd_share, kVbd},
     {"spring_force", Stage::after, [](const Scene& s) { return any_stretch(s) && wants_forces_after(s); },
      nullptr, record_spring_force_after, kMassSpring},
     {"hinge_force", Stage::after, [](const Scene& s) { return any_bending(s) && wants_forces_after(s); },

@@ -29,7 +29,7 @@ constexpr Method kMethods[] = {
     {MethodKind::acad,                 false,         false,  check_acad,                 false,  false,  false,  stable_substeps},
     {MethodKind::pbd,                  true,          false,  check_pbd,                  false,  false,  false,  nullptr},
     {MethodKind::xpbd,                 true,          false,  nullptr,                    true,   true,   false,  nullptr},
-    {MethodKind::vbd,                  false,         true,   check_vbd,                  false,  false,  false,  nullptr},
+    {MethodKind::vbd,                  false,         true,   check_vbd,                  true,   true,   false,  nullptr},
 };
 // clang-format on
 

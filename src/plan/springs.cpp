@@ -58,9 +58,22 @@ void refuse_rigid(const Scene& scene)
             for (const std::uint32_t v : corners_of(e))
                 ++at[v];
         }
+        for (const VolumeElement& e : volume_elements(own))
+        {
+            if (!(e.compliance > 0))
+                throw Error(ErrorCode::unsupported,
+                            where + "volume_stiffness is infinite; give a finite one, or take a method with "
+                                    "constraints (xpbd)");
+            for (const std::uint32_t v : e.vertex)
+                ++at[v];
+        }
+        for (const SolidElement& e : solid_elements(own))
+            for (const std::uint32_t v : e.vertex)
+                ++at[v];
         const auto most = std::max_element(at.begin(), at.end());
         if (most != at.end() && *most > kMaxLoopTrips)
-            throw Error(ErrorCode::limit, where + std::to_string(*most) + " springs and hinges at vertex " +
+            throw Error(ErrorCode::limit, where + std::to_string(*most) +
+                                              " springs, hinges and tetrahedra at vertex " +
                                               std::to_string(most - at.begin()) + ", at most " +
                                               std::to_string(kMaxLoopTrips) + " fit one invocation");
     }

@@ -1,4 +1,5 @@
-// Vertex block descent: rows of vertices by colour, sweeps over them, the start of a substep and its history.
+// Vertex block descent of springs, hinges and tetrahedra: rows of vertices by colour, sweeps over them, the
+// start of a substep and its history.
 //
 // Based on: Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024.
 // Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a body
@@ -15,12 +16,9 @@
 #include "taut/kernels/vbd_solve.hpp"
 #include "taut/kernels/vbd_start.hpp"
 #include "taut/plan/grouping.hpp"
-#include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
+#include "taut/plan/vbd_rows.hpp"
 #include "taut/plan/vertex_colouring.hpp"
-
-#define TAUT_HOST
-#include "taut/kernels/shared/layouts.h"
 
 #include <algorithm>
 
@@ -30,24 +28,30 @@ namespace {
 constexpr std::uint32_t kPlainIterations = 3; ///< before the acceleration starts
 constexpr std::uint32_t kFewIterations = 8;   ///< fewer are not accelerated
 
-/// Springs and hinges of all bodies with those at each vertex.
-struct Elements
+/// Of a generated box's vertices, in the order of the plan; nothing for other shapes.
+std::vector<glm::uvec3> box_places(const PlanBuilder& b, std::size_t body)
 {
-    std::vector<StretchElement> springs;
-    std::vector<BendElement> hinges;
-    Incidence at_spring, at_hinge;
-};
-
-Elements elements_of(PlanBuilder& b)
-{
-    Elements out{all_springs(b), all_hinges(b), {}, {}};
-    out.at_spring = incidence_of(b.plan.vertex_count, out.springs);
-    out.at_hinge = incidence_of(b.plan.vertex_count, out.hinges);
+    const Shape& shape = b.scene.bodies[body].shape;
+    const glm::uvec3 n = shape.box_cells + 1u;
+    const std::uint32_t first = b.plan.body_start[body], end = b.plan.body_start[body + 1];
+    std::vector<glm::uvec3> out;
+    if (shape.kind != ShapeKind::box || std::uint64_t(n.x) * n.y * n.z != end - first)
+        return out;
+    for (std::uint32_t v = first; v < end; ++v)
+    {
+        const std::uint32_t own = b.plan.original[v] - first;
+        out.emplace_back(own % n.x, own / n.x % n.y, own / n.x / n.y);
+    }
     return out;
 }
 
+std::uint32_t size_of(const std::vector<std::uint32_t>& colour)
+{
+    return static_cast<std::uint32_t>(colour.size());
+}
+
 /// Plan vertices that move, colour by colour; colour k of all bodies together.
-std::vector<std::vector<std::uint32_t>> colours_of(const PlanBuilder& b, const Elements& elements)
+std::vector<std::vector<std::uint32_t>> colours_of(const PlanBuilder& b, const BlockElements& elements)
 {
     std::vector<std::vector<std::uint32_t>> out;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
@@ -66,8 +70,13 @@ std::vector<std::vector<std::uint32_t>> colours_of(const PlanBuilder& b, const E
         };
         std::for_each(elements.springs.begin(), elements.springs.end(), add);
         std::for_each(elements.hinges.begin(), elements.hinges.end(), add);
+        std::for_each(elements.volumes.begin(), elements.volumes.end(), add);
+        std::for_each(elements.solids.begin(), elements.solids.end(), add);
         graph.finish();
-        const VertexColours found = colour_vertices(graph, b.scene.bodies[body].mesh.grid_columns);
+        const std::vector<glm::uvec3> places = box_places(b, body);
+        const VertexColours found =
+            places.empty() ? colour_vertices(graph, b.scene.bodies[body].mesh.grid_columns)
+                           : colour_box(graph, places);
         out.resize(std::max<std::size_t>(out.size(), found.count));
         for (std::uint32_t v = 0; v < graph.vertex_count; ++v)
             if (found.colour[v] != kNoColour)
@@ -75,11 +84,6 @@ std::vector<std::vector<std::uint32_t>> colours_of(const PlanBuilder& b, const E
     }
     std::erase_if(out, [](const auto& colour) { return colour.empty(); });
     return out;
-}
-
-std::uint32_t size_of(const std::vector<std::uint32_t>& colour)
-{
-    return static_cast<std::uint32_t>(colour.size());
 }
 
 /// Small colours in a row share a group, as far as its loops may go. A row costs as much as its elements.
@@ -115,48 +119,10 @@ std::vector<BlockBuffers::Run> runs_of(const PlanBuilder& b,
     return runs;
 }
 
-/// Rows and their elements, in the order of the sweep.
-template <typename Real>
-void add_rows(PlanBuilder& b, BlockBuffers& f, const Elements& elements,
-              const std::vector<std::vector<std::uint32_t>>& colours)
+/// Positions that an average row reads beside its own.
+std::uint32_t near_row(const BlockBuffers& f)
 {
-    std::vector<std::uint32_t> row;
-    std::vector<layout::Spring<Real>> ends;
-    std::vector<layout::BendingConstraint<Real>> corners;
-    const auto mark = [&](std::uint32_t vertex, std::uint32_t end) {
-        row.insert(row.end(), {vertex, static_cast<std::uint32_t>(ends.size()),
-                               static_cast<std::uint32_t>(corners.size()), end});
-    };
-    std::uint32_t colour_end = 0;
-    for (const auto& colour : colours)
-    {
-        colour_end += size_of(colour);
-        for (const std::uint32_t v : colour)
-        {
-            mark(v, colour_end);
-            for (std::uint32_t k = elements.at_spring.start[v]; k < elements.at_spring.start[v + 1]; ++k)
-            {
-                const StretchElement& e = elements.springs[elements.at_spring.entries[k] / 2];
-                ends.push_back(spring_record<Real>(e));
-                if (e.a != v)
-                    std::swap(ends.back().a, ends.back().b);
-            }
-            for (std::uint32_t k = elements.at_hinge.start[v]; k < elements.at_hinge.start[v + 1]; ++k)
-            {
-                const BendElement& e = elements.hinges[elements.at_hinge.entries[k] / 4];
-                corners.push_back(bending_record<Real>(e));
-            }
-        }
-    }
-    mark(0, colour_end); // the end of the last row's elements
-    f.springs_each = static_cast<std::uint32_t>(ends.size() / std::max(f.rows, 1u) + 1);
-    f.hinges_each = static_cast<std::uint32_t>(corners.size() / std::max(f.rows, 1u) + 1);
-    if (ends.empty())
-        ends.push_back({}); // never read
-    f.row = b.add_buffer<std::uint32_t>("vbd_solve", "rows", row);
-    f.ends = b.add_buffer<layout::Spring<Real>>("vbd_solve", "spring ends", ends);
-    if (f.hinges)
-        f.corners = b.add_buffer<layout::BendingConstraint<Real>>("vbd_solve", "hinge corners", corners);
+    return f.springs_each + (f.hinges ? 4 * f.hinges_each : 0) + (f.tetrahedra() ? 3 * f.tetrahedra_each : 0);
 }
 
 bool adaptive(const PlanBuilder& b) { return b.scene.method.start == "adaptive"; }
@@ -247,8 +213,8 @@ void prepare_vbd(PlanBuilder& b)
 {
     b.blocks = std::make_shared<BlockBuffers>();
     BlockBuffers& f = *b.blocks;
-    const Elements elements = elements_of(b);
-    if (elements.springs.empty() && elements.hinges.empty())
+    const BlockElements elements = elements_of(b);
+    if (elements.empty())
         return;
     const auto colours = colours_of(b, elements);
     for (const auto& colour : colours)
@@ -256,12 +222,13 @@ void prepare_vbd(PlanBuilder& b)
     f.hinges = !elements.hinges.empty();
     f.damped = std::any_of(elements.springs.begin(), elements.springs.end(),
                            [](const StretchElement& e) { return e.damping > 0; });
+    f.volumes = !elements.volumes.empty();
+    f.elastic = !elements.solids.empty();
     std::uint32_t most = 0;
     for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
-        most = std::max(most, elements.at_spring.start[v + 1] - elements.at_spring.start[v] +
-                                  elements.at_hinge.start[v + 1] - elements.at_hinge.start[v]);
-    with_real(b.plan.precision, [&](auto zero) { add_rows<decltype(zero)>(b, f, elements, colours); });
-    f.runs = runs_of(b, colours, f.springs_each + (f.hinges ? 4 * f.hinges_each : 0), most);
+        most = std::max(most, elements.at(v));
+    add_rows(b, f, elements, colours);
+    f.runs = runs_of(b, colours, near_row(f), most);
     f.omega = chebyshev_factors(b.scene.method.spectral_radius, b.plan.iterations);
     prepare_start(b, f);
     prepare_acceleration(b, f);
@@ -303,15 +270,19 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
         return;
     if (!f.omega.empty())
         record_acceleration(b, moment.iteration);
-    const std::uint32_t near = 1 + f.springs_each + (f.hinges ? 4 * f.hinges_each : 0);
-    std::vector<Use> uses = {{f.row, 4},         {f.ends, f.springs_each}, {b.plan.position, near},
-                             {b.plan.predicted}, {b.plan.delta, near},     {b.plan.events, 0}};
-    if (f.hinges)
-        uses.push_back({f.corners, f.hinges_each});
-    if (f.damped)
-        uses.push_back({b.plan.low, 1 + f.springs_each});
-    const std::string kinds = std::string(f.hinges ? "hinges" : "") + (f.hinges && f.damped ? "_" : "") +
-                              (f.damped ? "damped" : "");
+    const std::uint32_t near = 1 + near_row(f);
+    std::vector<Use> uses = {{f.row, f.tetrahedra() ? 5u : 4u}, {f.ends, f.springs_each},
+                             {b.plan.position, near},
+                             {b.plan.predicted}, {b.plan.delta, near}, {b.plan.events, 0}};
+    if (f.corners != kNoBuffer)
+        uses.push_back(
+            {f.corners, (f.hinges ? f.hinges_each : 0) + (f.tetrahedra() ? f.tetrahedra_each : 0)});
+    const bool damped = f.damped || f.elastic; // elastic rows have one variant, with dampers
+    if (damped)
+        uses.push_back({b.plan.low, f.damped ? 1 + f.springs_each : 1});
+    std::string kinds = f.elastic ? "elastic" : f.volumes ? "volumes" : f.hinges ? "hinges" : "";
+    if (damped && !f.elastic)
+        kinds += kinds.empty() ? "damped" : "_damped";
     for (const BlockBuffers::Run& run : f.runs)
     {
         const std::string variant =

@@ -16,8 +16,11 @@ struct BlockBuffers
     };
     std::vector<Run> runs;
     std::uint32_t rows = 0;                          ///< vertices that move
-    std::uint32_t springs_each = 0, hinges_each = 0; ///< of a row on average, for the accounts
+    /// Of a row on average, for the accounts.
+    std::uint32_t springs_each = 0, hinges_each = 0, tetrahedra_each = 0;
     bool hinges = false, damped = false;
+    bool volumes = false, elastic = false; ///< held volumes, neo-Hookean tetrahedra
+    bool tetrahedra() const { return volumes || elastic; }
     std::uint32_t row = kNoBuffer, ends = kNoBuffer, corners = kNoBuffer;
     std::uint32_t share = kNoBuffer, support = kNoBuffer;                    ///< adaptive start
     std::uint32_t touched = kNoBuffer, seen = kNoBuffer, solved = kNoBuffer; ///< and with colliders

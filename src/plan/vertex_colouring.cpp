@@ -1,7 +1,7 @@
 // Based on: Welsh, Powell. An upper bound for the chromatic number of a graph. 1967 (greedy);
 //   Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024 (colours of vertices).
 // Departures: vertices of a grid try the lattices (x + p y) mod m first: 5 colours for structural, shear and
-//   bend springs, where greedy may take more.
+//   bend springs, where greedy may take more; those of generated boxes of tetrahedra have four.
 #include "taut/plan/vertex_colouring.hpp"
 
 #include <algorithm>
@@ -146,6 +146,48 @@ VertexColours colour_vertices(const VertexGraph& graph, std::uint32_t columns)
     {
         VertexColours regular = lattice(graph, columns, found.count);
         if (regular.count > 0)
+            return regular;
+    }
+    even_out(graph, found);
+    return found;
+}
+
+namespace {
+
+/// Of six tetrahedra a cell, edges go along (x, y, z) with entries of 0 and 1: 1 to 3 layers on.
+std::uint32_t six_colour(const glm::uvec3& p) { return (p.x + p.y + p.z) % 4; }
+
+/// Of five, vertices of even layers join across all faces: the parities of x and y differ. Those of odd
+/// layers have six neighbours, of three colours.
+std::uint32_t five_colour(const glm::uvec3& p)
+{
+    const std::uint32_t turn = (p.x + p.y + p.z) % 2;
+    return 2 * ((p.x + turn) % 2) + (p.y + turn) % 2;
+}
+
+bool is_colouring(const VertexGraph& graph, const std::vector<std::uint32_t>& colour)
+{
+    for (std::uint32_t v = 0; v < graph.vertex_count; ++v)
+        for (const std::uint32_t other : graph.neighbours[v])
+            if (colour[v] == colour[other])
+                return false;
+    return true;
+}
+
+} // namespace
+
+VertexColours colour_box(const VertexGraph& graph, std::span<const glm::uvec3> places)
+{
+    assert(places.size() == graph.vertex_count);
+    VertexColours found = greedy(graph);
+    for (const auto of : {six_colour, five_colour})
+    {
+        VertexColours regular;
+        regular.count = 4;
+        regular.lattice = true;
+        for (std::uint32_t v = 0; v < graph.vertex_count; ++v)
+            regular.colour.push_back(graph.free[v] ? of(places[v]) : kNoColour);
+        if (found.count >= regular.count && is_colouring(graph, regular.colour))
             return regular;
     }
     even_out(graph, found);

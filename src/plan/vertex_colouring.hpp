@@ -1,6 +1,8 @@
 #pragma once
 // Groups vertices so that the members of one group share no element: each can then be moved on its own.
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,5 +37,10 @@ struct VertexColours
 /// vertices move from large classes to small feasible ones. With `columns` > 0 the vertices are a grid, row
 /// by row, and if (x + p y) mod m is a colouring with as few colours, that is taken. Deterministic.
 VertexColours colour_vertices(const VertexGraph& graph, std::uint32_t columns = 0);
+
+/// For boxes of tetrahedra, whose vertices stand at these numbers of cells: (x + y + z) mod 4 is a colouring
+/// for six round a diagonal of each cell, and four colours do for five mirrored by turns. Where neither is
+/// one (further springs), or greedy takes fewer, greedy. Deterministic.
+VertexColours colour_box(const VertexGraph& graph, std::span<const glm::uvec3> places);
 
 } // namespace taut

@@ -2,6 +2,7 @@
 #include "support/random.hpp"
 #include "support/scenes.hpp"
 #include "taut/plan/material.hpp"
+#include "taut/plan/solid.hpp"
 #include "taut/plan/vertex_colouring.hpp"
 
 #include <algorithm>
@@ -141,5 +142,36 @@ TEST_CASE("random graphs take at most degree + 1 colours, the same ones every ti
         CHECK(valid(graph, found));
         CHECK(found.count <= degree + 1);
         CHECK(colour_vertices(graph).colour == found.colour);
+    }
+}
+
+TEST_CASE("boxes of tetrahedra take four vertex colours of equal size; further springs fall back to greedy")
+{
+    for (const bool five : {false, true})
+    {
+        const Mesh mesh = make_box({6, 7, 8}, glm::dvec3(1), five);
+        std::vector<glm::uvec3> places;
+        for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+            places.emplace_back(v % 7, v / 7 % 8, v / 56);
+        std::vector<bool> free(mesh.positions.size(), true);
+        free[5] = false;
+        VertexGraph graph(free);
+        for (const auto& t : mesh.tetrahedra)
+            graph.add(t, 4);
+        VertexGraph more = graph;
+        graph.finish();
+        const VertexColours found = colour_box(graph, places);
+        CAPTURE(five);
+        CHECK(found.count == 4);
+        CHECK(found.lattice);
+        CHECK(valid(graph, found));
+        const auto size = sizes(found);
+        CHECK(*std::max_element(size.begin(), size.end()) - *std::min_element(size.begin(), size.end()) <= 8);
+        for (std::uint32_t v = 0; v + 4 < 56; ++v) // four cells on: both colourings give the same colour
+            more.add(std::vector<std::uint32_t>{v, v + 4 * 56}, 2);
+        more.finish();
+        const VertexColours other = colour_box(more, places);
+        CHECK(!other.lattice);
+        CHECK(valid(more, other));
     }
 }
