@@ -31,7 +31,7 @@ struct RunCommand
     std::vector<std::string> settings;
     fs::path folder;
     std::optional<std::uint32_t> frames, every;
-    bool json = false, no_picture = false;
+    bool json = false, no_picture = false, sleep = false;
 };
 
 std::uint64_t frame_count(const RunCommand& options, const Scene& scene)
@@ -238,7 +238,7 @@ void draw(const RunCommand& options, const World& world, const std::shared_ptr<D
 
 RunResult simulate(const RunCommand& options, const Scene& scene, const InterruptGuard& guard)
 {
-    const std::unique_ptr<Simulation> simulation = open_simulation(options.device, scene);
+    const std::unique_ptr<Simulation> simulation = open_simulation(options.device, scene, options.sleep);
     const std::uint64_t frames = frame_count(options, scene);
     make_folder(options.folder);
     forget_older_run(options.folder);
@@ -249,6 +249,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     const auto device = world.device().shared_from_this();
     RunResult result = describe(options, world, runner);
     describe_parts(*simulation, result);
+    result.asleep = simulation->asleep();
     result.frames_wanted = frames;
     if (runner.done() < frames && sound(result.report.status))
         result.report.status = Status::interrupted;
@@ -293,6 +294,7 @@ void add_run(CLI::App& app, Command& chosen)
     command->add_option("--out", options->folder, "Folder for what is written (default: out/<scene>)");
     command->add_option("--every", options->every,
                         "Frames from one mesh file to the next, 0 = no meshes (default: 30 files a second)");
+    command->add_flag("--sleep", options->sleep, "Bodies at rest sleep and cost nothing until something moves them");
     command->add_flag("--no-picture", options->no_picture, "Draw no pictures");
     command->add_flag("--json", options->json, "Print the report as one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });

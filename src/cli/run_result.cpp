@@ -87,6 +87,8 @@ Json to_json(const RunResult& result)
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = report.active_share >= 0 ? Json(report.active_share) : Json(nullptr);
     json["torn"] = report.torn;
+    if (result.asleep)
+        json["asleep"] = *result.asleep;
     if (report.volume.any)
     {
         json["volume_ratio"] = {{"min", result.volume_min}, {"final", report.volume.ratio}};

@@ -5,6 +5,7 @@
 #include "taut/report/report.hpp"
 #include "taut/world/hybrid.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct RunResult
     std::vector<EffectTime> passes;    ///< device time of one frame by effect; empty after an interruption
     std::vector<std::string> messages; ///< what scene and plan warn of, in sentences
     std::size_t meshes = 0;            ///< files written
+    std::optional<std::size_t> asleep; ///< bodies at the end, where they may sleep
     std::vector<HybridPart> parts;     ///< of a hybrid run: what each device did
     std::vector<std::string> pictures; ///< files written, relative to the folder
 };

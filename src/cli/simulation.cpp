@@ -1,6 +1,8 @@
 #include "taut/cli/simulation.hpp"
 
 #include "taut/cli/device_option.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/world/sleep.hpp"
 
 namespace taut::cli {
 namespace {
@@ -55,6 +57,35 @@ private:
     HybridWorld hybrid_;
 };
 
+class Sleeping final : public Simulation
+{
+public:
+    Sleeping(const Scene& scene, const std::shared_ptr<Device>& device)
+        : whole_(scene, device),
+          sleep_(scene, device)
+    {}
+
+    void step() override
+    {
+        sleep_.step();
+        whole_.device().wait();
+    }
+    const Scene& scene() const override { return sleep_.scene(); }
+    double time() const override { return sleep_.time(); }
+    std::vector<glm::dvec3> positions() const override { return sleep_.positions(); }
+    Events events() const override { return sleep_.events(); }
+    std::optional<std::size_t> asleep() const override { return sleep_.asleep(); }
+    World& whole() override
+    {
+        sleep_.copy_into(whole_);
+        return whole_;
+    }
+
+private:
+    World whole_;
+    SleepWorld sleep_;
+};
+
 /// The best device that is not the native CPU.
 std::shared_ptr<Device> best_other()
 {
@@ -68,10 +99,16 @@ std::shared_ptr<Device> best_other()
 
 } // namespace
 
-std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved)
+std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved, bool sleep)
 {
     if (selector != kHybrid && !selector.starts_with(std::string(kHybrid) + ":"))
+    {
+        if (sleep)
+            return std::make_unique<Sleeping>(resolved, open_device(selector));
         return std::make_unique<OneDevice>(resolved, open_device(selector));
+    }
+    if (sleep)
+        throw Error(ErrorCode::unsupported, "--sleep and --device hybrid do not go together yet; use one device");
     const std::string other = selector == kHybrid ? "" : selector.substr(kHybrid.size() + 1);
     return std::make_unique<TwoDevices>(resolved, open_device("cpu"),
                                         other.empty() ? best_other() : open_device(other));

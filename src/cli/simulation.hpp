@@ -4,6 +4,7 @@
 #include "taut/world/hybrid.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,13 @@ public:
     /// A world in the state of the simulation, for reports and pictures. Stays the simulation's.
     virtual World& whole() = 0;
     virtual std::vector<HybridPart> parts() const { return {}; } ///< empty on one device
+    virtual std::optional<std::size_t> asleep() const { return {}; } ///< bodies, where they may sleep
 };
 
 /// `selector` as --device has it. "hybrid" is the native CPU and the best other device, "hybrid:vulkan" (or
 /// another selector) says which. Throws Error{no_device} where there is no other device, Error{unsupported}
-/// where the scene's method keeps what two worlds cannot put together.
-std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved);
+/// where the scene's method keeps what two worlds cannot put together. `sleep`: bodies at rest sleep, on one
+/// device.
+std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved, bool sleep);
 
 } // namespace taut::cli

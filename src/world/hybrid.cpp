@@ -8,23 +8,15 @@
 #include "taut/world/hybrid.hpp"
 
 #include "taut/plan/material.hpp"
+#include "taut/world/carry.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
 #include <numeric>
 
 namespace taut {
 namespace {
-
-void add(Events& sum, const Events& more)
-{
-    sum.non_finite += more.non_finite;
-    sum.speed_clamped += more.speed_clamped;
-    sum.degenerate += more.degenerate;
-    sum.conflicts += more.conflicts;
-}
 
 using Clockwork = std::chrono::steady_clock;
 
@@ -49,63 +41,6 @@ struct Side
     std::unique_ptr<World> world;
     double milliseconds = 0;
 };
-
-/// Per vertex of the whole scene what a world carries on: the arrays of WorldState.
-struct Carried
-{
-    std::array<std::vector<std::byte>, 5> arrays;
-    Clock clock;
-    std::uint64_t step = 0;
-};
-
-std::array<std::vector<std::byte>*, 5> arrays_of(WorldState& s)
-{
-    return {&s.position, &s.low, &s.velocity, &s.delta, &s.force};
-}
-
-/// Scene-wide vertex of each plan vertex of a world that has only `bodies` of the scene.
-std::vector<std::uint32_t> scene_vertices(const Plan& plan, const std::vector<std::uint32_t>& bodies,
-                                          const std::vector<std::uint32_t>& first)
-{
-    std::vector<std::uint32_t> whole;
-    for (std::size_t own = 0; own < bodies.size(); ++own)
-        for (std::uint32_t v = plan.body_start[own]; v < plan.body_start[own + 1]; ++v)
-            whole.push_back(first[bodies[own]] + (v - plan.body_start[own]));
-    std::vector<std::uint32_t> out;
-    for (const std::uint32_t v : plan.original)
-        out.push_back(whole[v]);
-    return out;
-}
-
-void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total, Carried& out)
-{
-    WorldState state = world.state();
-    const auto arrays = arrays_of(state);
-    for (std::size_t k = 0; k < arrays.size(); ++k)
-    {
-        const std::size_t stride = arrays[k]->size() / vertices.size();
-        out.arrays[k].resize(total * stride);
-        for (std::size_t v = 0; v < vertices.size() && stride > 0; ++v)
-            std::memcpy(out.arrays[k].data() + vertices[v] * stride, arrays[k]->data() + v * stride, stride);
-    }
-    out.clock = state.clock;
-    out.step = state.step;
-}
-
-void deliver(World& world, const std::vector<std::uint32_t>& vertices, const Carried& from)
-{
-    WorldState state = world.state();
-    const auto arrays = arrays_of(state);
-    for (std::size_t k = 0; k < arrays.size(); ++k)
-    {
-        const std::size_t stride = arrays[k]->size() / vertices.size();
-        for (std::size_t v = 0; v < vertices.size() && stride > 0; ++v)
-            std::memcpy(arrays[k]->data() + v * stride, from.arrays[k].data() + vertices[v] * stride, stride);
-    }
-    state.clock = from.clock;
-    state.step = from.step;
-    world.restore(state);
-}
 
 } // namespace
 
@@ -161,16 +96,11 @@ void HybridWorld::Impl::assign(const std::vector<bool>& to_first)
         side.bodies.clear();
         side.world.reset();
         side.milliseconds = 0;
-        Scene part = scene;
-        part.bodies.clear();
         for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
             if (to_first[b] == (s == 0))
-            {
                 side.bodies.push_back(b);
-                part.bodies.push_back(scene.bodies[b]);
-            }
         if (!side.bodies.empty())
-            side.world = std::make_unique<World>(part, side.device, options.world);
+            side.world = std::make_unique<World>(with_bodies(scene, side.bodies), side.device, options.world);
     }
 }
 
@@ -233,9 +163,7 @@ void HybridWorld::Impl::rebalance()
     if (now == old || predicted(now) > kWorthMoving * predicted(old))
         return;
     for (const Side& side : sides)
-    {
         add(before, side.world->events());
-    }
     const Carried state = carried();
     assign(now);
     for (Side& side : sides)
@@ -303,19 +231,6 @@ void HybridWorld::step()
 std::uint64_t HybridWorld::steps() const { return impl_->steps; }
 double HybridWorld::time() const { return impl_->any().time(); }
 const Scene& HybridWorld::scene() const { return impl_->scene; }
-
-namespace {
-
-/// What a side gives, put where its bodies stand in the scene.
-void place(std::vector<glm::dvec3>& out, const std::vector<glm::dvec3>& own, const Plan& plan,
-           const std::vector<std::uint32_t>& bodies, const std::vector<std::uint32_t>& first)
-{
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        std::copy(own.begin() + plan.body_start[b], own.begin() + plan.body_start[b + 1],
-                  out.begin() + first[bodies[b]]);
-}
-
-} // namespace
 
 std::vector<glm::dvec3> HybridWorld::positions() const
 {

@@ -1,0 +1,84 @@
+#include "taut/world/carry.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace taut {
+namespace {
+
+std::array<std::vector<std::byte>*, 5> arrays_of(WorldState& s)
+{
+    return {&s.position, &s.low, &s.velocity, &s.delta, &s.force};
+}
+
+} // namespace
+
+std::vector<std::uint32_t> scene_vertices(const Plan& plan, const std::vector<std::uint32_t>& bodies,
+                                          const std::vector<std::uint32_t>& first)
+{
+    std::vector<std::uint32_t> whole;
+    for (std::size_t own = 0; own < bodies.size(); ++own)
+        for (std::uint32_t v = plan.body_start[own]; v < plan.body_start[own + 1]; ++v)
+            whole.push_back(first[bodies[own]] + (v - plan.body_start[own]));
+    std::vector<std::uint32_t> out;
+    for (const std::uint32_t v : plan.original)
+        out.push_back(whole[v]);
+    return out;
+}
+
+void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total, Carried& out)
+{
+    WorldState state = world.state();
+    const auto arrays = arrays_of(state);
+    for (std::size_t k = 0; k < arrays.size(); ++k)
+    {
+        const std::size_t stride = vertices.empty() ? 0 : arrays[k]->size() / vertices.size();
+        out.arrays[k].resize(std::max(out.arrays[k].size(), total * stride));
+        for (std::size_t v = 0; v < vertices.size() && stride > 0; ++v)
+            std::memcpy(out.arrays[k].data() + vertices[v] * stride, arrays[k]->data() + v * stride, stride);
+    }
+    out.clock = state.clock;
+    out.step = state.step;
+}
+
+void deliver(World& world, const std::vector<std::uint32_t>& vertices, const Carried& from)
+{
+    WorldState state = world.state();
+    const auto arrays = arrays_of(state);
+    for (std::size_t k = 0; k < arrays.size(); ++k)
+    {
+        const std::size_t stride = vertices.empty() ? 0 : arrays[k]->size() / vertices.size();
+        for (std::size_t v = 0; v < vertices.size() && stride > 0; ++v)
+            std::memcpy(arrays[k]->data() + v * stride, from.arrays[k].data() + vertices[v] * stride, stride);
+    }
+    state.clock = from.clock;
+    state.step = from.step;
+    world.restore(state);
+}
+
+void place(std::vector<glm::dvec3>& out, const std::vector<glm::dvec3>& own, const Plan& plan,
+           const std::vector<std::uint32_t>& bodies, const std::vector<std::uint32_t>& first)
+{
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        std::copy(own.begin() + plan.body_start[b], own.begin() + plan.body_start[b + 1],
+                  out.begin() + first[bodies[b]]);
+}
+
+Scene with_bodies(const Scene& scene, const std::vector<std::uint32_t>& bodies)
+{
+    Scene part = scene;
+    part.bodies.clear();
+    for (const std::uint32_t b : bodies)
+        part.bodies.push_back(scene.bodies[b]);
+    return part;
+}
+
+void add(Events& sum, const Events& more)
+{
+    sum.non_finite += more.non_finite;
+    sum.speed_clamped += more.speed_clamped;
+    sum.degenerate += more.degenerate;
+    sum.conflicts += more.conflicts;
+}
+
+} // namespace taut

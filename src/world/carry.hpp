@@ -1,0 +1,39 @@
+#pragma once
+// Internal to src/world: the state of bodies carried from one world to another that has only some of them.
+
+#include "taut/world/world.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace taut {
+
+/// Per vertex of a whole scene what a world carries on: the arrays of WorldState.
+struct Carried
+{
+    std::array<std::vector<std::byte>, 5> arrays;
+    Clock clock;
+    std::uint64_t step = 0;
+};
+
+/// Scene-wide vertex of each plan vertex of a world that has only `bodies` of the scene. `first` is the
+/// scene-wide vertex of each body, and the total.
+std::vector<std::uint32_t> scene_vertices(const Plan& plan, const std::vector<std::uint32_t>& bodies,
+                                          const std::vector<std::uint32_t>& first);
+
+/// Reads a world's vertices into `out`, and its clock; `total` is the number of scene-wide vertices.
+void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total, Carried& out);
+
+/// The other way.
+void deliver(World& world, const std::vector<std::uint32_t>& vertices, const Carried& from);
+
+/// What a world of some bodies gives, put where they stand in the scene.
+void place(std::vector<glm::dvec3>& out, const std::vector<glm::dvec3>& own, const Plan& plan,
+           const std::vector<std::uint32_t>& bodies, const std::vector<std::uint32_t>& first);
+
+/// The scene with only some of its bodies.
+Scene with_bodies(const Scene& scene, const std::vector<std::uint32_t>& bodies);
+
+void add(Events& sum, const Events& more);
+
+} // namespace taut
