@@ -10,8 +10,8 @@ struct SleepOptions
     WorldOptions world;
     /// A body is quiet below this share of sqrt(g D), its own size D and gravity g (9.81 m/s^2 without any).
     double quiet_speed = 1e-3;
-    std::uint64_t look_every = 10; ///< steps between two looks at speeds, >= 1
-    std::uint32_t quiet_looks = 3; ///< in a row, before a body falls asleep
+    std::uint64_t look_every = 15; ///< steps between two looks at speeds, >= 1
+    std::uint32_t quiet_looks = 2; ///< in a row, before a body falls asleep
 };
 
 /// Steps a scene without the bodies that rest. Bodies do not touch each other, so the others move bit for bit as they
