@@ -9,12 +9,13 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 # install_prefix compiles each alone.
 set(taut_public_headers
     scene/scene.hpp scene/settings.hpp scene/mesh.hpp
-    plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp
+    plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/solid.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp
     linear/device_matrix.hpp linear/stencil.hpp linear/preconditioner.hpp linear/aggregation.hpp linear/multigrid.hpp
     linear/cg.hpp linear/small.hpp linear/solve.hpp
-    world/world.hpp world/hybrid.hpp
-    report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp report/svg_plot.hpp)
+    world/world.hpp world/hybrid.hpp world/sleep.hpp
+    report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp
+    report/volume.hpp report/ablation.hpp report/svg_plot.hpp)
 foreach(header IN LISTS taut_public_headers)
     cmake_path(GET header PARENT_PATH room)
     install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/${room})
