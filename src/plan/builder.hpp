@@ -52,10 +52,12 @@ struct Use
 /// Buffers of the Jacobi schemes of PBD, kNoBuffer where a scene has no use for them (pbd.hpp).
 struct PbdBuffers
 {
-    std::uint32_t springs = kNoBuffer, springs_at = kNoBuffer, spring_slots = kNoBuffer;
-    std::uint32_t hinges = kNoBuffer, hinges_at = kNoBuffer, hinge_slots = kNoBuffer;
+    std::uint32_t springs = kNoBuffer, hinges = kNoBuffer, volumes = kNoBuffer;
+    std::uint32_t spring_slots = kNoBuffer, hinge_slots = kNoBuffer, volume_slots = kNoBuffer;
+    std::uint32_t at = kNoBuffer; ///< lists of the constraints at each vertex, one after another
+    std::uint32_t hinges_at = 0, volumes_at = 0; ///< where theirs begin; that of springs is the first
     std::uint32_t other = kNoBuffer; ///< the iterate that is not in the plan's `delta`
-    std::uint32_t spring_count = 0, hinge_count = 0;
+    std::uint32_t spring_count = 0, hinge_count = 0, volume_count = 0;
 };
 /// Closed surfaces whose volume is held (surface_volume.hpp); kNoBuffer and 0 where a scene has none.
 struct SurfaceBuffers

@@ -352,10 +352,14 @@ constexpr Effect kEffects[] = {
     {"pbd_bend", Stage::solve,
      [](const Scene& s) { return pbd_is_coloured(s) && s.method.bend > 0 && any_bending(s); },
      prepare_pbd_bend, record_pbd_bend, only(MethodKind::pbd)},
+    {"pbd_volume", Stage::solve,
+     [](const Scene& s) { return pbd_is_coloured(s) && s.method.volume > 0 && any_volume(s); },
+     prepare_pbd_volume, record_pbd_volume, only(MethodKind::pbd)},
     {"pbd_jacobi", Stage::solve,
      [](const Scene& s) {
          return !pbd_is_coloured(s) && ((s.method.stretch > 0 && any_stretch(s)) ||
-                                        (s.method.bend > 0 && any_bending(s)));
+                                        (s.method.bend > 0 && any_bending(s)) ||
+                                        (s.method.volume > 0 && any_volume(s)));
      },
      prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
     {"implicit_constraints", Stage::solve, any_stretch, prepare_implicit_constraints,

@@ -27,7 +27,7 @@ constexpr Method kMethods[] = {
     {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       false,  false,  false,  nullptr},
     {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, false,  false,  false,  stable_substeps},
     {MethodKind::acad,                 false,         false,  check_acad,                 false,  false,  false,  stable_substeps},
-    {MethodKind::pbd,                  true,          false,  check_pbd,                  false,  false,  false,  nullptr},
+    {MethodKind::pbd,                  true,          false,  check_pbd,                  true,   false,  false,  nullptr},
     {MethodKind::xpbd,                 true,          false,  nullptr,                    true,   true,   false,  nullptr},
     {MethodKind::vbd,                  false,         true,   check_vbd,                  true,   true,   false,  nullptr},
 };

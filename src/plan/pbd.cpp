@@ -9,10 +9,9 @@
 
 #include "taut/plan/pbd.hpp"
 
-#include "taut/plan/constraints.hpp"
-#include "taut/plan/grouping.hpp"
+#include "taut/plan/coloured_set.hpp"
 #include "taut/plan/records.hpp"
-#include "taut/plan/springs.hpp"
+#include "taut/plan/solid_constraints.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/kernels/pbd_average.hpp"
@@ -20,6 +19,7 @@
 #include "taut/kernels/pbd_hub.hpp"
 #include "taut/kernels/pbd_node.hpp"
 #include "taut/kernels/pbd_stretch.hpp"
+#include "taut/kernels/pbd_volume.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -37,8 +37,8 @@ constexpr std::string_view kJacobi = "pbd_jacobi";
 
 /// Passes of one sweep over the colours of a set. `Params` is {first, count, share, report}.
 template <typename Params>
-void record_colours(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_each, double stiffness,
-                    const Moment& moment)
+void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_each, double stiffness,
+                  const Moment& moment)
 {
     const ConstraintSet* set = find_set(b.plan, kind);
     if (set == nullptr)
@@ -78,57 +78,99 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
     }
 }
 
-/// Offsets of each vertex into the list itself, then its entries.
-std::vector<std::uint32_t> as_one_list(const Incidence& at)
+/// What the Jacobi schemes solve.
+struct JacobiElements
 {
-    const auto first = static_cast<std::uint32_t>(at.start.size());
-    std::vector<std::uint32_t> words;
-    words.reserve(at.start.size() + at.entries.size());
+    std::vector<StretchElement> springs;
+    std::vector<BendElement> hinges;
+    std::vector<VolumeElement> volumes;
+};
+
+JacobiElements jacobi_elements(PlanBuilder& b)
+{
+    const MethodSettings& m = b.scene.method;
+    JacobiElements out;
+    if (m.stretch > 0)
+        out.springs = all_springs(b);
+    if (m.bend > 0)
+        out.hinges = all_hinges(b);
+    for (std::size_t body = 0; m.volume > 0 && body < b.scene.bodies.size(); ++body)
+        for (const VolumeElement& e : acting_volumes(b, body))
+            out.volumes.push_back(e);
+    return out;
+}
+
+/// Adds, for each vertex, where its entries begin in the list, then the entries. Returns where that begins.
+std::uint32_t append_list(std::vector<std::uint32_t>& list, const Incidence& at)
+{
+    const auto begin = static_cast<std::uint32_t>(list.size());
+    const auto first = begin + static_cast<std::uint32_t>(at.start.size());
     for (const std::uint32_t start : at.start)
-        words.push_back(first + start);
-    words.insert(words.end(), at.entries.begin(), at.entries.end());
-    return words;
+        list.push_back(first + start);
+    list.insert(list.end(), at.entries.begin(), at.entries.end());
+    return begin;
 }
 
 /// A vertex goes through its constraints in one invocation.
-void check_degree(const PlanBuilder& b, const Incidence& springs, const Incidence& hinges)
+void check_degree(const PlanBuilder& b, std::span<const Incidence> lists)
 {
     for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
     {
-        const std::uint32_t degree =
-            springs.start[v + 1] - springs.start[v] + hinges.start[v + 1] - hinges.start[v];
+        std::uint32_t degree = 0;
+        for (const Incidence& at : lists)
+            degree += at.start[v + 1] - at.start[v];
         if (degree > kMaxLoopTrips)
             throw Error(ErrorCode::limit, "a vertex has " + std::to_string(degree) +
-                                              " springs and hinges; the Jacobi schemes of pbd take at most " +
+                                              " springs, hinges and tetrahedra; the Jacobi schemes of pbd "
+                                              "take at most " +
                                               std::to_string(kMaxLoopTrips) +
                                               "; use method.scheme \"coloured\"");
     }
 }
 
-void add_jacobi_records(PlanBuilder& b, const std::vector<StretchElement>& springs,
-                        const std::vector<BendElement>& hinges)
+/// What stands at each vertex, in one buffer: springs, then hinges and tetrahedra where there are any.
+void add_incidence(PlanBuilder& b, const JacobiElements& of)
+{
+    const std::uint32_t n = b.plan.vertex_count;
+    const Incidence lists[] = {incidence_of(n, of.springs), incidence_of(n, of.hinges),
+                               incidence_of(n, of.volumes)};
+    check_degree(b, lists);
+    std::vector<std::uint32_t> words;
+    append_list(words, lists[0]);
+    if (!of.hinges.empty())
+        b.pbd.hinges_at = append_list(words, lists[1]);
+    if (!of.volumes.empty())
+        b.pbd.volumes_at = append_list(words, lists[2]);
+    b.pbd.at = b.add_buffer<std::uint32_t>(kJacobi, "constraints at a vertex", words);
+}
+
+void add_jacobi_records(PlanBuilder& b, const JacobiElements& of)
 {
     with_real(b.plan.precision, [&](auto zero) {
         using Real = decltype(zero);
-        auto stretch = records_of(springs, distance_record<Real>);
+        auto stretch = records_of(of.springs, distance_record<Real>);
         stretch.resize(std::max<std::size_t>(stretch.size(), 1)); // hinges alone: no buffer is empty
         b.pbd.springs = b.add_buffer<layout::DistanceConstraint<Real>>(kJacobi, "springs", stretch);
-        const auto bend = records_of(hinges, bending_record<Real>);
+        const auto bend = records_of(of.hinges, bending_record<Real>);
         if (!bend.empty())
             b.pbd.hinges = b.add_buffer<layout::BendingConstraint<Real>>(kJacobi, "hinges", bend);
+        const auto volume = records_of(of.volumes, volume_record<Real>);
+        if (!volume.empty())
+            b.pbd.volumes = b.add_buffer<layout::VolumeConstraint<Real>>(kJacobi, "tetrahedra", volume);
     });
 }
 
 struct Shares
 {
-    float stretch, bend;
+    float stretch, bend, volume;
 };
 
 Shares shares_of(const PlanBuilder& b)
 {
     const MethodSettings& m = b.scene.method;
     return {static_cast<float>(pbd_share(m.stretch, b.plan.iterations)),
-            static_cast<float>(pbd_share(m.bend, b.plan.iterations))};
+            static_cast<float>(pbd_share(m.bend, b.plan.iterations)),
+            static_cast<float>(pbd_share(m.volume, b.plan.iterations))};
 }
 
 void record_slots(PlanBuilder& b, const Shares& shares, std::uint32_t report)
@@ -138,12 +180,33 @@ void record_slots(PlanBuilder& b, const Shares& shares, std::uint32_t report)
     b.dispatch(kJacobi, "pbd_stretch", "slots", springs,
                kernels::pbd_stretch::Params{0, b.pbd.spring_count, shares.stretch, report},
                b.pbd.spring_count);
-    if (b.pbd.hinges == kNoBuffer)
-        return;
-    const Use hinges[] = {{b.pbd.hinges}, {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.events, 0},
-                          {b.pbd.hinge_slots, 4}};
-    b.dispatch(kJacobi, "pbd_bend", "slots", hinges,
-               kernels::pbd_bend::Params{0, b.pbd.hinge_count, shares.bend, report}, b.pbd.hinge_count);
+    if (b.pbd.hinges != kNoBuffer)
+    {
+        const Use hinges[] = {{b.pbd.hinges}, {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.events, 0},
+                              {b.pbd.hinge_slots, 4}};
+        b.dispatch(kJacobi, "pbd_bend", "slots", hinges,
+                   kernels::pbd_bend::Params{0, b.pbd.hinge_count, shares.bend, report}, b.pbd.hinge_count);
+    }
+    if (b.pbd.volumes != kNoBuffer)
+    {
+        const Use volumes[] = {{b.pbd.volumes}, {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.events, 0},
+                               {b.pbd.volume_slots, 4}};
+        b.dispatch(kJacobi, "pbd_volume", "slots", volumes,
+                   kernels::pbd_volume::Params{0, b.pbd.volume_count, shares.volume, report},
+                   b.pbd.volume_count);
+    }
+}
+
+/// The variant of pbd_node and pbd_average for what a scene has.
+std::string jacobi_variant(const PbdBuffers& pbd, bool chebyshev)
+{
+    std::string variant;
+    for (const auto& [used, word] : {std::pair{pbd.hinges != kNoBuffer, "hinges"},
+                                     std::pair{pbd.volumes != kNoBuffer, "volumes"},
+                                     std::pair{chebyshev, "chebyshev"}})
+        if (used)
+            variant += (variant.empty() ? "" : "_") + std::string(word);
+    return variant;
 }
 
 } // namespace
@@ -199,47 +262,53 @@ void prepare_pbd_stretch(PlanBuilder& b)
     prepare_springs(b, {"pbd_stretch", false, ColouringOptions{}.hub_degree});
 }
 
-
 void prepare_pbd_bend(PlanBuilder& b) { prepare_hinges(b, {"pbd_bend"}); }
+
+void prepare_pbd_volume(PlanBuilder& b)
+{
+    prepare_set(
+        b, {"pbd_volume"}, 1, [&](std::size_t body) { return acting_volumes(b, body); },
+        [](auto zero, const VolumeElement& e) { return volume_record<decltype(zero)>(e); });
+}
 
 void record_pbd_stretch(PlanBuilder& b, const Moment& moment)
 {
-    record_colours<kernels::pbd_stretch::Params>(b, "pbd_stretch", 2, b.scene.method.stretch, moment);
+    record_sweep<kernels::pbd_stretch::Params>(b, "pbd_stretch", 2, b.scene.method.stretch, moment);
     if (const ConstraintSet* set = find_set(b.plan, "pbd_stretch"))
         record_hubs(b, *set, moment);
 }
 
 void record_pbd_bend(PlanBuilder& b, const Moment& moment)
 {
-    record_colours<kernels::pbd_bend::Params>(b, "pbd_bend", 4, b.scene.method.bend, moment);
+    record_sweep<kernels::pbd_bend::Params>(b, "pbd_bend", 4, b.scene.method.bend, moment);
+}
+
+void record_pbd_volume(PlanBuilder& b, const Moment& moment)
+{
+    record_sweep<kernels::pbd_volume::Params>(b, "pbd_volume", 4, b.scene.method.volume, moment);
 }
 
 void prepare_pbd_jacobi(PlanBuilder& b)
 {
-    const MethodSettings& m = b.scene.method;
-    const auto springs = m.stretch > 0 ? all_springs(b) : std::vector<StretchElement>{};
-    const auto hinges = m.bend > 0 ? all_hinges(b) : std::vector<BendElement>{};
-    if (springs.empty() && hinges.empty())
+    const JacobiElements of = jacobi_elements(b);
+    if (of.springs.empty() && of.hinges.empty() && of.volumes.empty())
         return;
-    const std::uint32_t n = b.plan.vertex_count;
-    const Incidence at_springs = incidence_of(n, springs);
-    const Incidence at_hinges = incidence_of(n, hinges);
-    check_degree(b, at_springs, at_hinges);
-    b.pbd.spring_count = static_cast<std::uint32_t>(springs.size());
-    b.pbd.hinge_count = static_cast<std::uint32_t>(hinges.size());
-    add_jacobi_records(b, springs, hinges);
-    b.pbd.springs_at =
-        b.add_buffer<std::uint32_t>(kJacobi, "springs at a vertex", as_one_list(at_springs));
-    if (!hinges.empty())
-        b.pbd.hinges_at = b.add_buffer<std::uint32_t>(kJacobi, "hinges at a vertex", as_one_list(at_hinges));
+    b.pbd.spring_count = static_cast<std::uint32_t>(of.springs.size());
+    b.pbd.hinge_count = static_cast<std::uint32_t>(of.hinges.size());
+    b.pbd.volume_count = static_cast<std::uint32_t>(of.volumes.size());
+    add_incidence(b, of);
+    add_jacobi_records(b, of);
     const std::uint64_t vector = 4 * b.real_size();
-    b.pbd.other = b.add_buffer(kJacobi, "other iterate", n * vector);
-    if (m.scheme != "constraint_centric")
+    b.pbd.other = b.add_buffer(kJacobi, "other iterate", b.plan.vertex_count * vector);
+    if (b.scene.method.scheme != "constraint_centric")
         return;
     b.pbd.spring_slots =
-        b.add_buffer(kJacobi, "corrections of springs", std::max<std::uint64_t>(springs.size(), 1) * vector);
-    if (!hinges.empty())
-        b.pbd.hinge_slots = b.add_buffer(kJacobi, "corrections of hinges", 4 * hinges.size() * vector);
+        b.add_buffer(kJacobi, "corrections of springs", std::max<std::uint64_t>(of.springs.size(), 1) * vector);
+    if (!of.hinges.empty())
+        b.pbd.hinge_slots = b.add_buffer(kJacobi, "corrections of hinges", 4 * of.hinges.size() * vector);
+    if (!of.volumes.empty())
+        b.pbd.volume_slots =
+            b.add_buffer(kJacobi, "corrections of tetrahedra", 4 * of.volumes.size() * vector);
 }
 
 void record_pbd_jacobi(PlanBuilder& b, const Moment& moment)
@@ -247,30 +316,37 @@ void record_pbd_jacobi(PlanBuilder& b, const Moment& moment)
     if (b.pbd.other == kNoBuffer)
         return;
     const MethodSettings& m = b.scene.method;
-    const bool hinges = b.pbd.hinges != kNoBuffer;
+    const PbdBuffers& p = b.pbd;
+    const bool hinges = p.hinges != kNoBuffer, volumes = p.volumes != kNoBuffer;
     const double weight = chebyshev_weight(m.spectral_radius, moment.iteration);
-    const std::string_view variant = weight != 1 ? (hinges ? "hinges_chebyshev" : "chebyshev")
-                                                 : (hinges ? "hinges" : "");
+    const std::string variant = jacobi_variant(p, weight != 1);
     const auto relaxation = static_cast<float>(m.relaxation), omega = static_cast<float>(weight);
     const std::uint32_t n = b.plan.vertex_count, report = moment.last;
+    const std::uint32_t listed = 8 + (hinges ? 16 : 0) + (volumes ? 16 : 0);
     const Shares shares = shares_of(b);
-    std::vector<Use> uses = {{b.plan.position}, {b.plan.delta}, {b.pbd.other}};
+    std::vector<Use> uses = {{b.plan.position}, {b.plan.delta}, {p.other}};
+    const auto add = [&](std::uint32_t of_springs, std::uint32_t of_hinges, std::uint32_t of_volumes) {
+        uses.insert(uses.end(), {{of_springs, 8}, {p.at, listed}});
+        if (volumes)
+            uses.push_back({of_volumes, 16});
+        if (hinges)
+            uses.push_back({of_hinges, 16});
+    };
     if (m.scheme == "constraint_centric")
     {
         record_slots(b, shares, report);
-        uses.insert(uses.end(), {{b.pbd.spring_slots, 8}, {b.pbd.springs_at, 8}});
-        if (hinges)
-            uses.insert(uses.end(), {{b.pbd.hinge_slots, 16}, {b.pbd.hinges_at, 16}});
+        add(p.spring_slots, p.hinge_slots, p.volume_slots);
         b.dispatch(kJacobi, "pbd_average", variant, uses,
-                   kernels::pbd_average::Params{n, relaxation, omega}, n);
+                   kernels::pbd_average::Params{n, relaxation, omega, p.hinges_at, p.volumes_at}, n);
     }
     else
     {
-        uses.insert(uses.end(), {{b.plan.events, 0}, {b.pbd.springs, 8}, {b.pbd.springs_at, 8}});
-        if (hinges)
-            uses.insert(uses.end(), {{b.pbd.hinges, 16}, {b.pbd.hinges_at, 16}});
+        uses.push_back({b.plan.events, 0});
+        add(p.springs, p.hinges, p.volumes);
         b.dispatch(kJacobi, "pbd_node", variant, uses,
-                   kernels::pbd_node::Params{n, shares.stretch, shares.bend, relaxation, omega, report}, n);
+                   kernels::pbd_node::Params{n, shares.stretch, shares.bend, shares.volume, relaxation, omega,
+                                             report, p.hinges_at, p.volumes_at},
+                   n);
     }
     std::swap(b.plan.delta, b.pbd.other);
 }

@@ -18,14 +18,16 @@ double pbd_share(double stiffness, std::uint32_t iterations);
 /// Chebyshev's weight of an iteration (counted from 0); 1 = none. Wang 2015; four plain iterations first.
 double chebyshev_weight(double spectral_radius, std::uint32_t iteration);
 
-// Gauss-Seidel by colours: "pbd_stretch" and "pbd_bend".
+// Gauss-Seidel by colours: "pbd_stretch", "pbd_bend" and "pbd_volume".
 void prepare_pbd_stretch(PlanBuilder& builder);
 void prepare_pbd_bend(PlanBuilder& builder);
+void prepare_pbd_volume(PlanBuilder& builder);
 void record_pbd_stretch(PlanBuilder& builder, const Moment& moment);
 void record_pbd_bend(PlanBuilder& builder, const Moment& moment);
+void record_pbd_volume(PlanBuilder& builder, const Moment& moment);
 
-// Averaged Jacobi over springs and hinges together, "pbd_jacobi": vertices gather, or constraints write
-// slots.
+// Averaged Jacobi over springs, hinges and tetrahedra together, "pbd_jacobi": vertices gather, or constraints
+// write slots.
 void prepare_pbd_jacobi(PlanBuilder& builder);
 void record_pbd_jacobi(PlanBuilder& builder, const Moment& moment);
 

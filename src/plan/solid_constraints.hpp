@@ -1,5 +1,5 @@
 #pragma once
-// Internal to src/plan: tetrahedra of all bodies as coloured constraints of XPBD.
+// Internal to src/plan: tetrahedra of all bodies, and as coloured constraints of XPBD.
 
 #include "taut/plan/builder.hpp"
 #include "taut/plan/solid.hpp"

@@ -58,6 +58,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"pbd_stretch", 6, "as distance"},
     {"pbd_hub", 6, "as hub"},
     {"pbd_bend", 8, "as bending"},
+    {"pbd_volume", 8, "as volume"},
     {"pbd_node", 8, "as bending, a sum over the constraints of a vertex, a quotient, two products and sums"},
     {"pbd_average", 4, "a sum over the constraints of a vertex, a quotient, two products and sums"},
     {"plane", 3, "two dot products, a push, a slide and its removal, for each collider in turn"},

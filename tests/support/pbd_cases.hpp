@@ -1,9 +1,10 @@
 #pragma once
-// What the tests of the kernels of position-based dynamics share: random springs and hinges, among them such
-// without a direction, and the correction that each asks for, in fp64.
+// What the tests of the kernels of position-based dynamics share: random springs, hinges and tetrahedra, among
+// them such without a direction, and the correction that each asks for, in fp64.
 
 #include "support/colours.hpp"
 #include "support/hinges.hpp"
+#include "support/tetrahedra.hpp"
 
 namespace taut::conformance {
 
@@ -11,15 +12,18 @@ template <typename Real>
 using Stretch = layout::DistanceConstraint<Real>;
 template <typename Real>
 using Bend = layout::BendingConstraint<Real>;
+template <typename Real>
+using Volume = layout::VolumeConstraint<Real>;
 
-/// Vertices, springs and hinges; a spring or hinge of a colour shares no vertex with another of it.
+/// Vertices and constraints; no two of one kind and colour share a vertex.
 template <typename Real>
 struct PbdInput
 {
     std::vector<glm::vec<4, Real>> position, delta, before; ///< before: the Jacobi iterate two back
     std::vector<Stretch<Real>> spring;
     std::vector<Bend<Real>> hinge;
-    std::vector<std::uint32_t> spring_colours = {0}, hinge_colours = {0};
+    std::vector<Volume<Real>> tetrahedron;
+    std::vector<std::uint32_t> spring_colours = {0}, hinge_colours = {0}, volume_colours = {0};
 };
 
 /// What a constraint asks of its vertices per inverse mass, and how large the terms were that made it.
@@ -94,6 +98,49 @@ Request request(const State& s, const Bend<Real>& c, float share)
     return out;
 }
 
+/// C = V - V0: each corner goes -share * C * w g / (sum of w |g|^2), but none further than the longest edge from
+/// the first corner.
+template <typename Real>
+Request request(const State& s, const Volume<Real>& c, float share)
+{
+    Request out;
+    out.vertex = {c.a, c.b, c.c, c.d};
+    out.vertices = 4;
+    TetrahedronCorners x;
+    double masses = 0, size = 0, inherited = 0, reach = 0;
+    for (std::size_t v = 0; v < 4; ++v)
+    {
+        x[v] = s.at(out.vertex[v]);
+        masses += s.position[out.vertex[v]].w;
+        reach = std::max(reach, glm::length(x[v] - x[0]));
+        size = std::max(size, glm::length(x[v] - x[0]) + glm::length(glm::dvec3(s.delta[out.vertex[v]])));
+        inherited += s.delta_scale[out.vertex[v]];
+    }
+    const std::array<glm::dvec3, 4> g = volume_slopes(x);
+    double weight = 0, fastest = 0, unsure = 0;
+    const double turn = size * (size + inherited); // roundings of corners go into products of two edges
+    for (std::size_t v = 0; v < 4; ++v)
+    {
+        const double w = s.position[out.vertex[v]].w, slope = glm::length(g[v]);
+        weight += w * slope * slope;
+        unsure += 2 * w * slope * turn;
+        fastest = std::max(fastest, w * slope);
+    }
+    out.degenerate = weight == 0 && masses > 0;
+    if (weight == 0)
+        return out;
+    const double k = static_cast<double>(share), rest = static_cast<double>(c.rest_volume);
+    const double wanted = (rest - triple(x) / 6) * k / weight;
+    const double scale = std::clamp(wanted, -reach / fastest, reach / fastest);
+    const double unsure_scale = (turn * size + rest) * k / weight + std::abs(scale) * (1 + unsure / weight);
+    for (std::size_t v = 0; v < 4; ++v)
+    {
+        out.push[v] = g[v] * scale;
+        out.size[v] = glm::length(g[v]) * unsure_scale + std::abs(scale) * turn;
+    }
+    return out;
+}
+
 template <typename Real>
 State pbd_state(const PbdInput<Real>& in, bool report)
 {
@@ -152,6 +199,30 @@ void add_hinge_colour(PbdInput<Real>& in, Random& random, std::uint32_t count)
     in.hinge_colours.push_back(static_cast<std::uint32_t>(in.hinge.size()));
 }
 
+/// Adds `count` tetrahedra with vertices of their own, moved from rest by a third of an edge.
+template <typename Real>
+void add_volume_colour(PbdInput<Real>& in, Random& random, std::uint32_t count)
+{
+    const auto base = static_cast<std::uint32_t>(in.position.size());
+    const auto order = random.shuffled(4 * count);
+    in.position.resize(base + 4 * count);
+    const auto more = random.vec4s<Real>(4 * count, 1e-2, 0, 1e-3);
+    in.delta.insert(in.delta.end(), more.begin(), more.end());
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        const TetrahedronCorners rest = random_tetrahedron(random);
+        const std::uint32_t* at = &order[4 * i];
+        for (std::uint32_t v = 0; v < 4; ++v)
+        {
+            const glm::dvec3 by(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+            in.position[base + at[v]] = with_weight(rest[v] + 0.2 * by, random.inverse_mass<Real>());
+        }
+        in.tetrahedron.push_back({base + at[0], base + at[1], base + at[2], base + at[3],
+                                  static_cast<Real>(triple(rest) / 6), random.uniform<Real>(0, 1)});
+    }
+    in.volume_colours.push_back(static_cast<std::uint32_t>(in.tetrahedron.size()));
+}
+
 template <typename Real>
 PbdInput<Real> pbd_vertices(Random& random, std::uint32_t count)
 {
@@ -204,6 +275,41 @@ void plant_hinges(PbdInput<Real>& in, std::uint32_t first, std::uint32_t count)
             in.delta[vertex[v]] = glm::vec<4, Real>(Real(0));
         }
         c.rest_angle = static_cast<Real>(specials[i].rest);
+    }
+}
+
+/// Flat, inverted, collapsed and held tetrahedra from `first` on, where there is room for them.
+template <typename Real>
+void plant_volumes(PbdInput<Real>& in, std::uint32_t first, std::uint32_t count)
+{
+    const TetrahedronCorners upright = {glm::dvec3(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    TetrahedronCorners flat = upright, inverted = upright, line = upright, thin = upright;
+    flat[3] = {0.5, 0.5, 0};
+    inverted[3] = {0, 0, -1.5};
+    line[2] = {2, 0, 0};
+    line[3] = {3, 0, 0};
+    thin[2] = {0, 0.0078125, 0};
+    thin[3] = {0.5, 0, 0.0078125};
+    const TetrahedronCorners point = {glm::dvec3(1), glm::dvec3(1), glm::dvec3(1), glm::dvec3(1)};
+    const struct { TetrahedronCorners x; std::array<double, 4> w; } kSpecial[] = {
+        {flat, {1, 1, 1, 1}},     // has gradients
+        {inverted, {1, 2, 3, 4}}, // turned back through flat
+        {line, {1, 1, 1, 1}},     // no gradient: counted
+        {line, {0, 0, 0, 0}},     // held besides: not counted
+        {point, {1, 1, 1, 1}},    // counted
+        {thin, {1, 1, 1, 1}},     // would fly 25 m: goes as far as its longest edge
+        {thin, {0, 0, 1e6, 1}},
+        {upright, {0, 0, 0, 0}},
+        {upright, {0, 0, 0, 1e6}}};
+    for (std::uint32_t i = 0; i < std::size(kSpecial) && std::size(kSpecial) <= count; ++i)
+    {
+        const Volume<Real>& c = in.tetrahedron[first + i];
+        const std::uint32_t vertex[4] = {c.a, c.b, c.c, c.d};
+        for (std::size_t v = 0; v < 4; ++v)
+        {
+            in.position[vertex[v]] = with_weight(kSpecial[i].x[v], static_cast<Real>(kSpecial[i].w[v]));
+            in.delta[vertex[v]] = glm::vec<4, Real>(Real(0));
+        }
     }
 }
 
@@ -267,10 +373,38 @@ void check_pbd_colours(KernelTable info, const PbdInput<Real>& in, const std::ve
     check_on_every_device(c);
 }
 
-/// Where the constraints of each vertex stand: offsets, then entries (element * corners + corner).
+/// Which constraints a Jacobi iteration has besides springs, and the shares of each kind.
+struct JacobiCase
+{
+    bool hinges = false, volumes = false, chebyshev = false;
+    float stretch = 0.75f, bend = 0.3f, volume = 0.6f;
+
+    std::string variant() const
+    {
+        std::string out = hinges ? "hinges" : "";
+        if (volumes)
+            out += out.empty() ? "volumes" : "_volumes";
+        if (chebyshev)
+            out += out.empty() ? "chebyshev" : "_chebyshev";
+        return out;
+    }
+};
+
+/// Every combination.
+inline JacobiCase jacobi_case()
+{
+    JacobiCase of;
+    of.hinges = GENERATE(false, true);
+    of.volumes = GENERATE(false, true);
+    of.chebyshev = GENERATE(false, true);
+    return of;
+}
+
+/// Where the constraints of each vertex stand, appended to `words`: offsets into them, then entries
+/// (element * corners + corner). Returns where the offsets begin.
 template <typename Element>
-std::vector<std::uint32_t> at_vertices(const std::vector<Element>& elements, std::size_t vertices,
-                                       std::size_t corners)
+std::uint32_t add_at_vertices(std::vector<std::uint32_t>& words, const std::vector<Element>& elements,
+                              std::size_t vertices, std::size_t corners)
 {
     std::vector<std::vector<std::uint32_t>> lists(vertices);
     for (std::uint32_t k = 0; k < elements.size(); ++k)
@@ -280,8 +414,8 @@ std::vector<std::uint32_t> at_vertices(const std::vector<Element>& elements, std
         for (std::uint32_t corner = 0; corner < corners; ++corner)
             lists[ids[corner]].push_back(static_cast<std::uint32_t>(corners * k + corner));
     }
-    std::vector<std::uint32_t> words;
-    auto next = static_cast<std::uint32_t>(vertices + 1);
+    const auto begin = static_cast<std::uint32_t>(words.size());
+    auto next = static_cast<std::uint32_t>(begin + vertices + 1);
     for (const auto& list : lists)
     {
         words.push_back(next);
@@ -290,7 +424,24 @@ std::vector<std::uint32_t> at_vertices(const std::vector<Element>& elements, std
     words.push_back(next);
     for (const auto& list : lists)
         words.insert(words.end(), list.begin(), list.end());
-    return words;
+    return begin;
+}
+
+/// The lists of all kinds, as pbd_node and pbd_average read them.
+struct AtVertices
+{
+    std::vector<std::uint32_t> words;
+    std::uint32_t hinges = 0, volumes = 0;
+};
+
+template <typename Real>
+AtVertices at_vertices(const PbdInput<Real>& in)
+{
+    AtVertices out;
+    add_at_vertices(out.words, in.spring, in.position.size(), 2);
+    out.hinges = add_at_vertices(out.words, in.hinge, in.position.size(), 4);
+    out.volumes = add_at_vertices(out.words, in.tetrahedron, in.position.size(), 4);
+    return out;
 }
 
 /// What one Jacobi iteration gives: the average of the requests times `relaxation`, and Chebyshev's step if
@@ -301,8 +452,7 @@ struct JacobiReference
     Field next;
     Events events = {};
 
-    JacobiReference(const PbdInput<Real>& in, bool hinges, float stretch, float bend, float relaxation,
-                    float omega, bool report)
+    JacobiReference(const PbdInput<Real>& in, const JacobiCase& of, float relaxation, float omega, bool report)
     {
         State s = pbd_state(in, report);
         const std::size_t n = in.position.size();
@@ -318,10 +468,13 @@ struct JacobiReference
             }
         };
         for (const auto& c : in.spring)
-            add(request(s, c, stretch));
-        if (hinges)
+            add(request(s, c, of.stretch));
+        if (of.hinges)
             for (const auto& c : in.hinge)
-                add(request(s, c, bend));
+                add(request(s, c, of.bend));
+        if (of.volumes)
+            for (const auto& c : in.tetrahedron)
+                add(request(s, c, of.volume));
         for (std::size_t v = 0; v < n; ++v)
         {
             const double w = s.position[v].w, o = static_cast<double>(omega);
@@ -340,30 +493,38 @@ struct JacobiReference
     }
 };
 
-/// Springs and hinges in several colours, so that vertices have several of each, and special ones.
+/// Springs, hinges and tetrahedra in several colours, so that vertices have several of each, and special ones.
 template <typename Real>
 PbdInput<Real> jacobi_input(std::uint32_t count, std::uint64_t seed)
 {
     Random random(seed);
     PbdInput<Real> in;
-    add_hinge_colour(in, random, std::max(count / 4, 1u));
+    add_hinge_colour(in, random, std::max(count / 8, 1u));
     plant_hinges(in, 0, static_cast<std::uint32_t>(in.hinge.size()));
-    const auto free = static_cast<std::uint32_t>(in.position.size());
+    const auto special = static_cast<std::uint32_t>(special_hinges().size());
+    for (std::uint32_t k = special, n = static_cast<std::uint32_t>(in.hinge.size()); k < n; ++k)
+    {
+        Bend<Real> c = in.hinge[k]; // turned: its two wings exchanged for its edge, and as a tetrahedron
+        in.tetrahedron.push_back({c.edge0, c.edge1, c.wing0, c.wing1, Real(0.0625), Real(0)});
+        std::swap(c.edge0, c.wing0);
+        c.rest_angle = Real(0.1);
+        in.hinge.push_back(c);
+    }
+    const auto first = static_cast<std::uint32_t>(in.tetrahedron.size());
+    add_volume_colour(in, random, std::max(count / 8, 1u));
+    plant_volumes(in, first, static_cast<std::uint32_t>(in.tetrahedron.size()) - first);
+    for (std::uint32_t k = first, n = static_cast<std::uint32_t>(in.tetrahedron.size()); k < n; ++k)
+    {
+        Volume<Real> c = in.tetrahedron[k]; // once more, inverted
+        std::swap(c.c, c.d);
+        in.tetrahedron.push_back(c);
+    }
     while (in.position.size() < count) // alone, held or not
     {
         in.position.push_back(random.vec4<Real>(1, random.inverse_mass<Real>()));
         in.delta.push_back(random.vec4<Real>(1e-2, Real(1e-3)));
     }
-    const auto planted = static_cast<std::uint32_t>(special_hinges().size() * 4);
-    if (free > 2 * planted) // turned: every hinge with its two wings exchanged for its edge
-        for (std::size_t k = special_hinges().size(), n = in.hinge.size(); k < n; ++k)
-        {
-            Bend<Real> c = in.hinge[k];
-            std::swap(c.edge0, c.wing0);
-            c.rest_angle = Real(0.1);
-            in.hinge.push_back(c);
-        }
-    for (int colour = 0; colour < 3 && in.position.size() > 1; ++colour)
+    for (int colour = 0; colour < 3; ++colour)
         add_spring_colour(in, random, static_cast<std::uint32_t>(in.position.size() / 2));
     in.before = random.vec4s<Real>(in.position.size(), 1e-2, 0, 0);
     return in;
@@ -372,20 +533,14 @@ PbdInput<Real> jacobi_input(std::uint32_t count, std::uint64_t seed)
 template <typename Real>
 Buffers jacobi_buffers(const PbdInput<Real>& in)
 {
-    const std::size_t n = in.position.size();
     return {{"position", bytes_of(in.position)},
             {"delta", bytes_of(in.delta)},
             {"next", bytes_of(in.before)},
             {"events", no_events()},
+            {"at", bytes_of(at_vertices(in).words)},
             {"spring", bytes_of(in.spring)},
-            {"spring_at", bytes_of(at_vertices(in.spring, n, 2))},
             {"hinge", bytes_of(in.hinge)},
-            {"hinge_at", bytes_of(at_vertices(in.hinge, n, 4))}};
-}
-
-inline std::string jacobi_variant(bool hinges, bool chebyshev)
-{
-    return hinges ? (chebyshev ? "hinges_chebyshev" : "hinges") : (chebyshev ? "chebyshev" : "");
+            {"tetrahedron", bytes_of(in.tetrahedron)}};
 }
 
 } // namespace taut::conformance

@@ -15,6 +15,14 @@ inline double triple(const TetrahedronCorners& x)
     return glm::dot(glm::cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]);
 }
 
+/// How the volume changes with each corner, m^2.
+inline std::array<glm::dvec3, 4> volume_slopes(const TetrahedronCorners& x)
+{
+    const glm::dvec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+    const glm::dvec3 ga = glm::cross(b, c) / 6.0, gb = glm::cross(c, a) / 6.0, gc = glm::cross(a, b) / 6.0;
+    return {-(ga + gb + gc), ga, gb, gc};
+}
+
 /// Smallest height over largest edge.
 inline double thinness(const TetrahedronCorners& x)
 {

@@ -161,6 +161,100 @@ TEST_CASE("PBD without stiffness has no pass and no buffer for constraints", "[p
     }
 }
 
+namespace {
+
+/// A block of tetrahedra of springs and volumes.
+Scene soft_block(const char* scheme, std::uint32_t substeps, std::uint32_t iterations, double bending = 0)
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {3, 3, 3};
+    body.material = solid_material();
+    body.material.model = "springs";
+    body.material.bending_stiffness = bending;
+    scene.bodies = {body};
+    scene.method.type = "pbd";
+    scene.method.scheme = scheme;
+    scene.method.substeps = substeps;
+    scene.method.iterations = iterations;
+    return resolve(scene);
+}
+
+bool names_volume(const Plan& plan)
+{
+    const auto named = [](const std::string& text) {
+        return text.find("volume") != std::string::npos || text.find("tetrahedra") != std::string::npos;
+    };
+    for (const EffectCost& effect : plan.effects)
+        if (named(effect.name))
+            return true;
+    for (const PlanBuffer& buffer : plan.buffers)
+        if (named(buffer.name) || named(buffer.effect))
+            return true;
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("coloured PBD of a solid has a pass a colour of its tetrahedra and iteration, and each of them once",
+          "[pbd]")
+{
+    const Scene scene = soft_block("coloured", 2, 3);
+    const Plan plan = wide_plan(scene);
+    const auto colours = plan.colour_counts();
+    CHECK(plan.constraint_counts().at("pbd_volume") == scene.bodies[0].mesh.tetrahedra.size());
+    CHECK(plan.passes.size() == 2 * (2 + 3 * (colours.at("pbd_stretch") + colours.at("pbd_volume"))));
+    CHECK(find_hazards(plan.passes, plan.barrier_before).empty());
+    for (const ConstraintSet& set : plan.constraints)
+        CHECK(set.multipliers == kNoBuffer);
+}
+
+TEST_CASE("Jacobi of a solid has one pass an iteration, or one a kind of constraint and one to average", "[pbd]")
+{
+    for (const double bending : {0.0, 1e-4})
+        for (const std::uint32_t iterations : {1u, 5u})
+        {
+            const Plan node = wide_plan(soft_block("node_centric", 3, iterations, bending));
+            CHECK(node.passes.size() == 3 * (2 + iterations));
+            const Plan slots = wide_plan(soft_block("constraint_centric", 3, iterations, bending));
+            CHECK(slots.passes.size() == 3 * (2 + iterations * (bending > 0 ? 4 : 3)));
+            CHECK(find_hazards(node.passes, node.barrier_before).empty());
+            CHECK(find_hazards(slots.passes, slots.barrier_before).empty());
+        }
+}
+
+TEST_CASE("PBD has nothing of volumes where none are held", "[pbd]")
+{
+    for (const char* scheme : {"coloured", "node_centric", "constraint_centric"})
+    {
+        CHECK_FALSE(names_volume(wide_plan(pbd(8, scheme, 1, 4, true)))); // cloth
+        Scene scene = soft_block(scheme, 1, 4, 1e-4);
+        CHECK(names_volume(wide_plan(scene)));
+        scene.method.volume = 0;
+        const Plan by_method = wide_plan(scene);
+        CHECK_FALSE(names_volume(by_method));
+        scene.method.volume = 1;
+        scene.bodies[0].material.volume_stiffness = 0;
+        const Plan by_material = wide_plan(scene);
+        CHECK_FALSE(names_volume(by_material));
+        CHECK(by_method.passes.size() == by_material.passes.size());
+    }
+}
+
+TEST_CASE("volumes alone are solved without springs", "[pbd]")
+{
+    for (const char* scheme : {"coloured", "node_centric", "constraint_centric"})
+    {
+        Scene scene = soft_block(scheme, 1, 4);
+        scene.method.stretch = 0;
+        const Plan plan = wide_plan(scene);
+        CHECK(names_volume(plan));
+        CHECK(plan.passes.size() > 2);
+        CHECK(plan.constraint_counts().count("pbd_stretch") == 0);
+    }
+}
+
 TEST_CASE("the iterations of a step together make the stiffness, whatever their number", "[pbd]")
 {
     for (const double k : {0.0, 0.01, 0.5, 0.99, 1.0})
