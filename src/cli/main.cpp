@@ -36,6 +36,7 @@ cli::Command parse(int argc, char** argv, int& status)
     cli::add_tune(app, chosen);
     cli::add_check(app, chosen);
     cli::add_solve(app, chosen);
+    cli::add_tetrahedralise(app, chosen);
     cli::add_devices(app, chosen);
     try
     {
