@@ -6,6 +6,8 @@
 #include "taut/kernels/constraint_matrix.hpp"
 #include "taut/kernels/constraint_product.hpp"
 #include "taut/kernels/constraint_spread.hpp"
+#include "taut/kernels/volume_product.hpp"
+#include "taut/kernels/volume_spread.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
@@ -34,7 +36,15 @@ ConstraintOperator::ConstraintOperator(PlanBuilder& b, const ConstraintRows& row
         list_ = b.on_paper(rows.list);
         place_ = b.on_paper(rows.place);
     }
-    for (const BufferPtr& read : {records_, start_, incident_, direction_, position_, list_, place_})
+    if (rows.volumes.count > 0)
+    {
+        tetrahedra_ = b.on_paper(rows.volumes.records);
+        volume_start_ = b.on_paper(rows.volumes.start);
+        volume_incident_ = b.on_paper(rows.volumes.incident);
+        gradient_ = b.on_paper(rows.volumes.gradient);
+    }
+    for (const BufferPtr& read : {records_, start_, incident_, direction_, position_, list_, place_, tetrahedra_,
+                                  volume_start_, volume_incident_, gradient_})
         bytes_ += read ? read->bytes() : 0;
 }
 
@@ -43,11 +53,25 @@ void ConstraintOperator::record_spread(Recorder& recorder, const linear::Gate& g
     // Rows in use have twice as many vertices at most, so that their groups suffice for these too.
     const std::uint32_t chunk = list_ ? 2 * linear::make_grid(rows_.count, gate.groups).chunk
                                       : linear::make_grid(vertices_, gate.groups).chunk;
-    std::vector<Binding> bindings = {start_, incident_, direction_, std::move(x), position_, spread_};
+    std::vector<Binding> bindings = {start_, incident_, direction_, x, position_, spread_};
     if (list_)
         bindings.insert(bindings.end(), {list_, place_});
     launch(recorder, gate, kernels::constraint_spread::info(list_ ? "listed" : "", precision_),
            std::move(bindings), kernels::constraint_spread::Params{vertices_, chunk}, kLabel);
+    if (tetrahedra_)
+        launch(recorder, gate, kernels::volume_spread::info("", precision_),
+               {volume_start_, volume_incident_, gradient_, std::move(x), position_, spread_},
+               kernels::volume_spread::Params{vertices_, chunk, rows_.count}, kLabel);
+}
+
+void ConstraintOperator::record_volumes(Recorder& recorder, const linear::Gate& gate, std::string_view variant,
+                                        std::vector<Binding> bindings) const
+{
+    if (!tetrahedra_)
+        return;
+    const linear::Grid grid = linear::make_grid(rows_.volumes.count, gate.groups);
+    launch(recorder, gate, kernels::volume_product::info(variant, precision_), std::move(bindings),
+           kernels::volume_product::Params{grid.count, grid.chunk, rows_.count, gate.groups}, kLabel);
 }
 
 void ConstraintOperator::record_product(Recorder& recorder, const linear::Gate& gate, Binding x, Binding y,
@@ -55,13 +79,18 @@ void ConstraintOperator::record_product(Recorder& recorder, const linear::Gate& 
 {
     record_spread(recorder, gate, x);
     const linear::Grid grid = linear::make_grid(rows_.count, gate.groups);
-    std::vector<Binding> bindings = {records_, direction_, spread_, std::move(x), std::move(y)};
+    std::vector<Binding> bindings = {records_, direction_, spread_, x, y};
+    std::vector<Binding> volumes = {tetrahedra_, gradient_, spread_, std::move(x), std::move(y)};
     const bool dot = partials.buffer != nullptr;
     if (dot)
-        bindings.push_back(std::move(partials));
+    {
+        bindings.push_back(partials);
+        volumes.push_back(std::move(partials));
+    }
     launch(recorder, gate, kernels::constraint_product::info(dot ? "dot" : "", precision_),
            std::move(bindings), kernels::constraint_product::Params{grid.count, grid.chunk, gate.groups},
            kLabel);
+    record_volumes(recorder, gate, dot ? "dot" : "", std::move(volumes));
 }
 
 void ConstraintOperator::record_residual(Recorder& recorder, const linear::Gate& gate, Binding x, Binding b,
@@ -70,8 +99,10 @@ void ConstraintOperator::record_residual(Recorder& recorder, const linear::Gate&
     record_spread(recorder, gate, x);
     const linear::Grid grid = linear::make_grid(rows_.count, gate.groups);
     launch(recorder, gate, kernels::constraint_product::info("residual", precision_),
-           {records_, direction_, spread_, std::move(x), std::move(r), std::move(b)},
+           {records_, direction_, spread_, x, r, b},
            kernels::constraint_product::Params{grid.count, grid.chunk, gate.groups}, kLabel);
+    record_volumes(recorder, gate, "residual",
+                   {tetrahedra_, gradient_, spread_, std::move(x), std::move(r), std::move(b)});
 }
 
 linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, const Incidence& at,

@@ -7,10 +7,20 @@
 
 namespace taut {
 
+/// Rows of tetrahedra behind those of springs; count 0: none.
+struct VolumeRows
+{
+    std::uint32_t count = 0;
+    std::uint32_t records = kNoBuffer;  ///< layout::VolumeConstraint<real> a row
+    std::uint32_t start = kNoBuffer;    ///< tetrahedra at each vertex, as in springs.hpp
+    std::uint32_t incident = kNoBuffer;
+    std::uint32_t gradient = kNoBuffer; ///< 3 rvec4 a row
+};
+
 /// Where the rows of a system lie, numbers of plan buffers.
 struct ConstraintRows
 {
-    std::uint32_t count = 0;             ///< most rows there may be
+    std::uint32_t count = 0;             ///< most rows of springs there may be
     std::uint32_t records = kNoBuffer;   ///< layout::Spring<real> a row; stiffness 0 = rigid
     std::uint32_t start = kNoBuffer;     ///< springs at each vertex, as in springs.hpp
     std::uint32_t incident = kNoBuffer;
@@ -19,15 +29,17 @@ struct ConstraintRows
     // Only where rows are a changing part of the springs (acad):
     std::uint32_t list = kNoBuffer;  ///< how many vertices have rows, then these
     std::uint32_t place = kNoBuffer; ///< row of each spring
+    VolumeRows volumes;
+    std::uint32_t all() const { return count + volumes.count; }
 };
 
-/// y = J (W (J^T x)) + compliance x by two gathering passes.
+/// y = J (W (J^T x)) + compliance x by two gathering passes, and two more where there are tetrahedra.
 class ConstraintOperator final : public linear::Operator
 {
 public:
     ConstraintOperator(PlanBuilder& builder, const ConstraintRows& rows);
 
-    std::uint32_t rows() const override { return rows_.count; }
+    std::uint32_t rows() const override { return rows_.all(); }
     Precision precision() const override { return precision_; }
     std::uint64_t bytes() const override { return bytes_; }
     void record_product(Recorder&, const linear::Gate&, Binding x, Binding y,
@@ -36,12 +48,15 @@ public:
 
 private:
     void record_spread(Recorder&, const linear::Gate&, Binding x) const;
+    void record_volumes(Recorder&, const linear::Gate&, std::string_view variant,
+                        std::vector<Binding> bindings) const;
 
     ConstraintRows rows_;
     Precision precision_;
     std::uint32_t vertices_;
     std::uint64_t bytes_ = 0;
     BufferPtr records_, start_, incident_, direction_, position_, spread_, list_, place_;
+    BufferPtr tetrahedra_, volume_start_, volume_incident_, gradient_; ///< null: no tetrahedra
 };
 
 /// The pattern of A, and what never changes of its values: sum of s_r s_s w_k over the vertices that two

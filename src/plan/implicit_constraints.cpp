@@ -6,6 +6,8 @@
 //   Enforcement. ICRA 2005: C + J dx = 0 at the end of the step, (J W J^T) lambda = C / h^2 + ...
 //   Goldenthal, Harmon, Fattal, Bercovier, Grinspun. Efficient Simulation of Inextensible Cloth. SIGGRAPH
 //   2007: the further solves (fast projection).
+//   Va, Choi, Hong. Real-time Volume Preserving Constraints for Volumetric Model on GPU. CMC 73(1), 2022: a row
+//   a tetrahedron beside those of its edges.
 // Departures: it corrects the displacement that the frame of a substep has guessed, which is the same
 //   (L = h^2 lambda); compliance and damper of a spring stay on the diagonal; the first solve starts from the
 //   multipliers of the last substep.
@@ -15,14 +17,19 @@
 #include "taut/kernels/constraint_rows.hpp"
 #include "taut/kernels/constraint_spread.hpp"
 #include "taut/kernels/constraint_total.hpp"
+#include "taut/kernels/volume_rows.hpp"
+#include "taut/kernels/volume_spread.hpp"
 #include "taut/plan/methods.hpp"
 #include "taut/plan/records.hpp"
+#include "taut/plan/solid_constraints.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +50,67 @@ Real stiffness_of(double compliance)
 
 std::uint32_t groups_of(const PlanBuilder& b, const ImplicitConstraints& c)
 {
-    return linear::group_count_for(c.rows.count, b.paper()->info());
+    return linear::group_count_for(c.rows.all(), b.paper()->info());
+}
+
+/// Places at rest by plan vertex.
+std::vector<glm::dvec3> rest_of(const PlanBuilder& b)
+{
+    std::vector<glm::dvec3> out(b.plan.vertex_count);
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (std::uint32_t v = 0; v < b.scene.bodies[body].mesh.positions.size(); ++v)
+            out[b.vertex(body, v)] = b.scene.bodies[body].mesh.positions[v];
+    return out;
+}
+
+/// Sum of w |g|^2 of a tetrahedron, m^4/kg: its diagonal without compliance.
+double weight_of(const PlanBuilder& b, const VolumeElement& e, std::span<const glm::dvec3> x)
+{
+    const auto gradient = volume_gradient(e.vertex, x);
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        sum += b.inverse_mass[e.vertex[k]] * glm::dot(gradient[k], gradient[k]);
+    return sum;
+}
+
+/// Every tetrahedron of a body has some compliance: with the rows of its edges it has more rows than freedom.
+std::vector<VolumeElement> volumes_of_all(const PlanBuilder& b)
+{
+    const double h = b.plan.timestep / b.plan.substeps;
+    const std::vector<glm::dvec3> rest = rest_of(b);
+    std::vector<VolumeElement> out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (VolumeElement e : acting_volumes(b, body))
+        {
+            e.compliance = std::max(e.compliance, kRegularisation * h * h * weight_of(b, e, rest));
+            out.push_back(e);
+        }
+    return out;
+}
+
+void add_volume_buffers(PlanBuilder& b, ImplicitConstraints& c)
+{
+    VolumeRows& v = c.rows.volumes;
+    const Incidence at = incidence_of(b.plan.vertex_count, c.volumes);
+    check_row_trips(b, at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
+    with_real(b.plan.precision, [&](auto zero) {
+        using Real = decltype(zero);
+        v.records = b.add_buffer<layout::VolumeConstraint<Real>>(kEffect, "rows of tetrahedra",
+                                                                 records_of(c.volumes, volume_record<Real>));
+    });
+    v.start = b.add_buffer<std::uint32_t>(kEffect, "tetrahedra at a vertex, start", at.start);
+    v.incident = b.add_buffer<std::uint32_t>(kEffect, "tetrahedra at a vertex", at.entries);
+    v.gradient = b.add_buffer(kEffect, "gradients of tetrahedra", std::uint64_t(v.count) * 12 * b.real_size());
 }
 
 void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
 {
     c.at = incidence_of(b.plan.vertex_count, c.elements);
     c.rows.count = static_cast<std::uint32_t>(c.elements.size());
+    c.volumes = volumes_of_all(b);
+    c.rows.volumes.count = static_cast<std::uint32_t>(c.volumes.size());
+    if (!c.volumes.empty())
+        add_volume_buffers(b, c);
     check_row_trips(b, c.at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
     const std::uint64_t vec = 4 * b.real_size();
     c.compliances = row_compliances(b, c.elements);
@@ -59,7 +120,7 @@ void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
     c.rows.direction = b.add_buffer(kEffect, "row directions", c.rows.count * vec);
     c.rows.spread = b.add_buffer(kEffect, "moves of vertices", b.plan.vertex_count * vec);
     if (b.plan.iterations > 1)
-        c.multiplier = b.add_buffer(kEffect, "multipliers of the substep", c.rows.count * b.real_size());
+        c.multiplier = b.add_buffer(kEffect, "multipliers of the substep", c.rows.all() * b.real_size());
 }
 
 BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
@@ -69,6 +130,11 @@ BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
         for (std::size_t k = 0; k < c.elements.size(); ++k)
             values.push_back(
                 static_cast<decltype(zero)>(inverse_diagonal(b, c.elements[k], c.compliances[k])));
+        const double h = b.plan.timestep / b.plan.substeps;
+        const std::vector<glm::dvec3> rest = rest_of(b);
+        for (const VolumeElement& e : c.volumes)
+            values.push_back(static_cast<decltype(zero)>(
+                std::clamp(1 / (weight_of(b, e, rest) + std::min(e.compliance / (h * h), 1e30)), 1e-30, 1e30)));
         const BufferPtr buffer =
             b.paper()->make_buffer(values.size() * sizeof(zero), "constraint inverse", BufferUse::device);
         b.paper()->write(buffer, 0, std::as_bytes(std::span(values)));
@@ -113,6 +179,12 @@ void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
                                 " is rigid, but method.constrained leaves it a spring; give it a finite "
                                 "stiffness, or take method.constrained \"all\"");
         }
+        if (holds_volumes(scene.bodies[body]) && scene.method.linear_operator != "matrix_free")
+            throw Error(ErrorCode::unsupported,
+                        where + ".material holds volumes of tetrahedra, but method.linear_operator is \"" +
+                            scene.method.linear_operator +
+                            "\", and only \"matrix_free\" has rows of tetrahedra; take that, or set "
+                            "volume_stiffness to 0");
         // With stiff constraints hinges gain energy (hard case F17).
         if (scene.bodies[body].material.bending_stiffness > 0 && !scene.bodies[body].mesh.triangles.empty())
             throw Error(ErrorCode::unsupported,
@@ -217,17 +289,35 @@ void prepare_implicit_constraints(PlanBuilder& b)
     b.implicit_constraints = std::move(c);
 }
 
+namespace {
+
+void record_volume_rows(PlanBuilder& b, const ImplicitConstraints& c, const Moment& moment)
+{
+    const VolumeRows& v = c.rows.volumes;
+    const linear::Grid grid = linear::make_grid(v.count, groups_of(b, c));
+    std::vector<Use> uses = {{v.records},           {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.step_values, 0},
+                             {b.plan.events, 0}, {v.gradient, 3},      {c.solve->b()}};
+    const bool kept = c.multiplier != kNoBuffer;
+    if (kept)
+        uses.push_back({c.multiplier});
+    b.dispatch(kEffect, "volume_rows", kept ? "kept" : "", uses,
+               kernels::volume_rows::Params{v.count, grid.chunk, c.rows.count, moment.iteration > 0, moment.last},
+               groups_of(b, c), v.count);
+}
+
+} // namespace
+
 void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
 {
     if (!b.implicit_constraints)
         return;
     ImplicitConstraints& c = *b.implicit_constraints;
-    const std::uint32_t groups = groups_of(b, c), count = c.rows.count;
+    const std::uint32_t groups = groups_of(b, c), count = c.rows.count, all = c.rows.all();
     if (c.multiplier != kNoBuffer)
     {
         const Use uses[] = {{c.solve->x()}, {c.multiplier}, {c.solve->state(), 0}};
         b.dispatch(kEffect, "constraint_total", "", uses,
-                   kernels::constraint_total::Params{count, moment.iteration == 0}, count);
+                   kernels::constraint_total::Params{all, moment.iteration == 0}, all);
     }
     std::vector<Use> uses = {{c.rows.records},        {b.plan.position, 2}, {b.plan.delta, 2},
                              {b.plan.step_values, 0}, {b.plan.events, 0},   {c.rows.direction},
@@ -238,6 +328,8 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
     b.dispatch(kEffect, "constraint_rows", c.multiplier != kNoBuffer ? "kept" : "", uses,
                kernels::constraint_rows::Params{count, chunk, moment.iteration > 0, moment.last}, groups,
                count);
+    if (!c.volumes.empty())
+        record_volume_rows(b, c, moment);
     if (c.matrix)
         c.matrix->record(b);
     c.solve->record(b);
@@ -246,6 +338,13 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
                          {b.plan.position}, {b.plan.delta},        {c.solve->state(), 0}};
     b.dispatch(kEffect, "constraint_spread", "apply", moved,
                kernels::constraint_spread::Params{grid.count, grid.chunk}, groups, grid.count);
+    if (c.volumes.empty())
+        return;
+    const VolumeRows& v = c.rows.volumes;
+    const Use also[] = {{v.start},         {v.incident, 24}, {v.gradient, 24}, {c.solve->x(), 24},
+                        {b.plan.position}, {b.plan.delta},   {c.solve->state(), 0}};
+    b.dispatch(kEffect, "volume_spread", "apply", also,
+               kernels::volume_spread::Params{grid.count, grid.chunk, count}, groups, grid.count);
 }
 
 } // namespace taut

@@ -13,6 +13,7 @@ struct ImplicitConstraints
 {
     std::vector<StretchElement> elements; ///< the constrained springs, in plan vertices
     std::vector<double> compliances;      ///< m/N, of each as a row
+    std::vector<VolumeElement> volumes;   ///< held tetrahedra, likewise; compliance as a row
     Incidence at;
     ConstraintRows rows;
     std::uint32_t multiplier = kNoBuffer; ///< real a row; with more than one solve a substep
