@@ -32,8 +32,8 @@ UPDATE(2, rvec4, next); // before: the iterate before `delta`
 WRITE(2, rvec4, next);
 #endif
 READ(3, rvec4, spring_correction); // displacement of end a per inverse mass, kg m
-// Of vertex v: at[j] = 2 * spring + end, for j from at[v] up to at[v + 1]; from at[hinges_at + v] on the same,
-// 4 * hinge + corner, and from at[volumes_at + v] on 4 * tetrahedron + corner.
+// Of vertex v: at[j] = 2 * spring + end, for j from at[v] up to at[v + 1]; from at[hinges_at + v] on the
+// same, 4 * hinge + corner, and from at[volumes_at + v] on 4 * tetrahedron + corner.
 READ(4, uint, at);
 #if VOLUMES
 READ(5, rvec4, volume_correction);

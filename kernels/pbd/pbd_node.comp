@@ -40,8 +40,8 @@ WRITE(2, rvec4, next);
 #endif
 COUNTERS(3, events);
 READ(4, DistanceConstraint, spring);
-// Of vertex v: at[j] = 2 * spring + end, for j from at[v] up to at[v + 1]; from at[hinges_at + v] on the same,
-// 4 * hinge + corner, and from at[volumes_at + v] on 4 * tetrahedron + corner.
+// Of vertex v: at[j] = 2 * spring + end, for j from at[v] up to at[v + 1]; from at[hinges_at + v] on the
+// same, 4 * hinge + corner, and from at[volumes_at + v] on 4 * tetrahedron + corner.
 READ(5, uint, at);
 #if VOLUMES
 READ(6, VolumeConstraint, tetrahedron);

@@ -1,4 +1,4 @@
-// PBD volume of a tetrahedron. Coloured: one invocation per tetrahedron of one colour (no two share a vertex).
+// PBD volume of a tetrahedron. Coloured: one invocation per tetrahedron of a colour (no two share a vertex).
 // Variant `slots`: one invocation per tetrahedron of all, which writes what it wants for pbd_average.
 //
 // Based on: Va, Choi, Hong. Efficient Simulation of Volumetric Deformable Objects in Unity3D: GPU-Accelerated

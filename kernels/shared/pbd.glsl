@@ -6,8 +6,8 @@
 //   Va, Choi, Hong. Efficient Simulation of Volumetric Deformable Objects in Unity3D: GPU-Accelerated
 //   Position-Based Dynamics. Electronics 12(10), 2023: the volume of each tetrahedron.
 // Departures: `share` is the part of a correction that one iteration makes, 1 - (1 - k)^(1/n); the angle of a
-//   hinge comes from shared/hinge.glsl, not from acos; places are differences plus displacements; no corner of
-//   a tetrahedron goes further at once than its longest edge from the first corner.
+//   hinge comes from shared/hinge.glsl, not from acos; places are differences plus displacements; no corner
+//   of a tetrahedron goes further at once than its longest edge from the first corner.
 #ifndef TAUT_SHARED_PBD_GLSL
 #define TAUT_SHARED_PBD_GLSL
 
@@ -66,8 +66,8 @@ struct VolumePush
     bool usable;
 };
 
-/// A nearly collapsed tetrahedron has hardly a gradient and would be thrown far beyond the body: its corners go
-/// no further than `reach`, so that it grows back over several iterations.
+/// A nearly collapsed tetrahedron has hardly a gradient and would be thrown far beyond the body: its corners
+/// go no further than its longest edge, so that it grows back over several iterations.
 VolumePush volume_push(VolumeConstraint c, rvec4 p0, rvec4 p1, rvec4 p2, rvec4 p3,
                        rvec4 d0, rvec4 d1, rvec4 d2, rvec4 d3, real share)
 {

@@ -303,7 +303,7 @@ void prepare_pbd_jacobi(PlanBuilder& b)
     if (b.scene.method.scheme != "constraint_centric")
         return;
     b.pbd.spring_slots =
-        b.add_buffer(kJacobi, "corrections of springs", std::max<std::uint64_t>(of.springs.size(), 1) * vector);
+        b.add_buffer(kJacobi, "corrections of springs", std::max<std::size_t>(of.springs.size(), 1) * vector);
     if (!of.hinges.empty())
         b.pbd.hinge_slots = b.add_buffer(kJacobi, "corrections of hinges", 4 * of.hinges.size() * vector);
     if (!of.volumes.empty())

@@ -4,7 +4,7 @@
 #include "taut/kernels/pbd_stretch.hpp"
 #include "taut/kernels/pbd_volume.hpp"
 
-#include "support/pbd_cases.hpp"
+#include "support/pbd_jacobi.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
@@ -14,7 +14,8 @@ namespace {
 
 /// Iteration by slots: kernels that write them, their lists and where the slots are read.
 template <typename Real>
-Buffers slots_then_average(Device& device, const PbdInput<Real>& in, const JacobiCase& of, const Launch& average)
+Buffers slots_then_average(Device& device, const PbdInput<Real>& in, const JacobiCase& of,
+                           const Launch& average)
 {
     const Precision precision = precision_of<Real>();
     Buffers all = jacobi_buffers(in);
@@ -79,7 +80,8 @@ TEMPLATE_TEST_CASE("slots are averaged at each vertex in fixed order", "", float
     for (std::size_t k = 0; k < in.hinge.size() && of.hinges; ++k)
         add_four(k, {in.hinge[k].edge0, in.hinge[k].edge1, in.hinge[k].wing0, in.hinge[k].wing1}, bends);
     for (std::size_t k = 0; k < in.tetrahedron.size() && of.volumes; ++k)
-        add_four(k, {in.tetrahedron[k].a, in.tetrahedron[k].b, in.tetrahedron[k].c, in.tetrahedron[k].d}, volumes);
+        add_four(k, {in.tetrahedron[k].a, in.tetrahedron[k].b, in.tetrahedron[k].c, in.tetrahedron[k].d},
+                 volumes);
     Case c;
     c.precision = precision_of<Real>();
     c.in = jacobi_buffers(in);
@@ -129,7 +131,8 @@ TEMPLATE_TEST_CASE("node-centric and constraint-centric Jacobi agree bit for bit
                                                                 relaxation, omega, 1, at.hinges, at.volumes},
                                       vertices);
         const auto average = make_launch(kernels::pbd_average::info(of.variant(), precision_of<Real>()),
-                                         Params{vertices, relaxation, omega, at.hinges, at.volumes}, vertices);
+                                         Params{vertices, relaxation, omega, at.hinges, at.volumes},
+                                         vertices);
         const Buffers a = run(*device, {node}, jacobi_buffers(in));
         const Buffers b = slots_then_average(*device, in, of, average);
         CHECK((a.at("next") == b.at("next")));

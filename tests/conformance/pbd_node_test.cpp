@@ -1,6 +1,6 @@
 #include "taut/kernels/pbd_node.hpp"
 
-#include "support/pbd_cases.hpp"
+#include "support/pbd_jacobi.hpp"
 
 using namespace taut;
 using namespace taut::conformance;

@@ -6,8 +6,8 @@ using namespace taut;
 using namespace taut::conformance;
 using kernels::pbd_volume::Params;
 
-TEMPLATE_TEST_CASE("a PBD tetrahedron moves its corners by its share of the volume that is missing", "", float,
-                   double)
+TEMPLATE_TEST_CASE("a PBD tetrahedron moves its corners by its share of the volume that is missing", "",
+                   float, double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 127u, 128u, 129u, 1000u);

@@ -53,7 +53,8 @@ inline TetrahedronCorners random_tetrahedron(Random& random)
 /// Adds a colour of `count` tetrahedra with vertices of their own; `make(corners, rest)` gives the record
 /// from vertex numbers and rest shape, `multipliers` numbers each.
 template <typename Input, typename Make>
-void add_tetrahedra(Input& in, Random& random, std::uint32_t count, std::uint32_t multipliers, const Make& make)
+void add_tetrahedra(Input& in, Random& random, std::uint32_t count, std::uint32_t multipliers,
+                    const Make& make)
 {
     using Real = typename decltype(in.position)::value_type::value_type;
     const auto base = static_cast<std::uint32_t>(in.position.size());

@@ -197,7 +197,7 @@ bool names_volume(const Plan& plan)
 
 } // namespace
 
-TEST_CASE("coloured PBD of a solid has a pass a colour of its tetrahedra and iteration, and each of them once",
+TEST_CASE("coloured PBD of a solid has a pass a colour of its tetrahedra and iteration, each of them once",
           "[pbd]")
 {
     const Scene scene = soft_block("coloured", 2, 3);
@@ -210,7 +210,8 @@ TEST_CASE("coloured PBD of a solid has a pass a colour of its tetrahedra and ite
         CHECK(set.multipliers == kNoBuffer);
 }
 
-TEST_CASE("Jacobi of a solid has one pass an iteration, or one a kind of constraint and one to average", "[pbd]")
+TEST_CASE("Jacobi of a solid has one pass an iteration, or one a kind of constraint and one to average",
+          "[pbd]")
 {
     for (const double bending : {0.0, 1e-4})
         for (const std::uint32_t iterations : {1u, 5u})
