@@ -8,9 +8,9 @@
 //     Enforcement. ICRA 2005: (J W J^T) lambda = C / h^2 + J (v / h + W F), one row: C = V - V0, J = g.
 //   Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016: the compliance.
 // Departures: corrects the displacement that forces and velocities have led to, which is the same with
-//   L = h^2 lambda: L = (C + g . moved) / (sum w |g|^2 + alpha / h^2), moved -= L w g. Further iterations start
-//   from the new places, where the rest of a compliant constraint is C - alpha / h^2 L (KEPT). A surface
-//   without a gradient is left alone and counted.
+//   L = h^2 lambda: L = (C + g . moved) / (sum w |g|^2 + alpha / h^2), moved -= L w g. Further iterations
+//   start from the new places, where the rest of a compliant constraint is C - alpha / h^2 L (KEPT).
+//   A surface without a gradient is left alone and counted.
 // Bytes per vertex: 4 + 16 + 16 read, 16 written; per group of its surface 12 (float).
 //! variant kept KEPT=1
 #include "shared/portable.glsl"

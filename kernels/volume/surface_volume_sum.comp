@@ -4,9 +4,9 @@
 // Based on:
 //   Va, Choi, Hong. Real-time Surface-based Volume Constraints on Mass-Spring Model in Unity3D. IEEE Access
 //     11, 2023: the volume by the divergence theorem, V = 1/6 sum a . (b x c), dV/da = 1/6 sum b x c.
-// Departures: V is homogeneous of degree 3, so that 3 V = sum g . x and triangles need no pass of their own; a
-//   vertex sees its triangles from its own place, and places and moves count from the surface's first vertex:
-//   on a closed surface the sums are the same, and float keeps its digits far from the origin.
+// Departures: V is homogeneous of degree 3, so that 3 V = sum g . x and triangles need no pass of their own;
+//   a vertex sees its triangles from its own place, and places and moves count from the surface's first
+//   vertex: on a closed surface the sums are the same, and float keeps its digits far from the origin.
 // Bytes per vertex: 8 + 80 read, 16 written; per corner of a triangle 8 + 64 (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"

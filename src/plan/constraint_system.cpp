@@ -43,8 +43,8 @@ ConstraintOperator::ConstraintOperator(PlanBuilder& b, const ConstraintRows& row
         volume_incident_ = b.on_paper(rows.volumes.incident);
         gradient_ = b.on_paper(rows.volumes.gradient);
     }
-    for (const BufferPtr& read : {records_, start_, incident_, direction_, position_, list_, place_, tetrahedra_,
-                                  volume_start_, volume_incident_, gradient_})
+    for (const BufferPtr& read : {records_, start_, incident_, direction_, position_, list_, place_,
+                                  tetrahedra_, volume_start_, volume_incident_, gradient_})
         bytes_ += read ? read->bytes() : 0;
 }
 
@@ -64,8 +64,8 @@ void ConstraintOperator::record_spread(Recorder& recorder, const linear::Gate& g
                kernels::volume_spread::Params{vertices_, chunk, rows_.count}, kLabel);
 }
 
-void ConstraintOperator::record_volumes(Recorder& recorder, const linear::Gate& gate, std::string_view variant,
-                                        std::vector<Binding> bindings) const
+void ConstraintOperator::record_volumes(Recorder& recorder, const linear::Gate& gate,
+                                        std::string_view variant, std::vector<Binding> bindings) const
 {
     if (!tetrahedra_)
         return;

@@ -6,8 +6,8 @@
 //   Enforcement. ICRA 2005: C + J dx = 0 at the end of the step, (J W J^T) lambda = C / h^2 + ...
 //   Goldenthal, Harmon, Fattal, Bercovier, Grinspun. Efficient Simulation of Inextensible Cloth. SIGGRAPH
 //   2007: the further solves (fast projection).
-//   Va, Choi, Hong. Real-time Volume Preserving Constraints for Volumetric Model on GPU. CMC 73(1), 2022: a row
-//   a tetrahedron beside those of its edges.
+//   Va, Choi, Hong. Real-time Volume Preserving Constraints for Volumetric Model on GPU. CMC 73(1), 2022: a
+//   row a tetrahedron beside those of its edges.
 // Departures: it corrects the displacement that the frame of a substep has guessed, which is the same
 //   (L = h^2 lambda); compliance and damper of a spring stay on the diagonal; the first solve starts from the
 //   multipliers of the last substep.
@@ -100,7 +100,8 @@ void add_volume_buffers(PlanBuilder& b, ImplicitConstraints& c)
     });
     v.start = b.add_buffer<std::uint32_t>(kEffect, "tetrahedra at a vertex, start", at.start);
     v.incident = b.add_buffer<std::uint32_t>(kEffect, "tetrahedra at a vertex", at.entries);
-    v.gradient = b.add_buffer(kEffect, "gradients of tetrahedra", std::uint64_t(v.count) * 12 * b.real_size());
+    v.gradient =
+        b.add_buffer(kEffect, "gradients of tetrahedra", std::uint64_t(v.count) * 12 * b.real_size());
 }
 
 void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
@@ -133,8 +134,8 @@ BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
         const double h = b.plan.timestep / b.plan.substeps;
         const std::vector<glm::dvec3> rest = rest_of(b);
         for (const VolumeElement& e : c.volumes)
-            values.push_back(static_cast<decltype(zero)>(
-                std::clamp(1 / (weight_of(b, e, rest) + std::min(e.compliance / (h * h), 1e30)), 1e-30, 1e30)));
+            values.push_back(static_cast<decltype(zero)>(std::clamp(
+                1 / (weight_of(b, e, rest) + std::min(e.compliance / (h * h), 1e30)), 1e-30, 1e30)));
         const BufferPtr buffer =
             b.paper()->make_buffer(values.size() * sizeof(zero), "constraint inverse", BufferUse::device);
         b.paper()->write(buffer, 0, std::as_bytes(std::span(values)));
@@ -295,14 +296,16 @@ void record_volume_rows(PlanBuilder& b, const ImplicitConstraints& c, const Mome
 {
     const VolumeRows& v = c.rows.volumes;
     const linear::Grid grid = linear::make_grid(v.count, groups_of(b, c));
-    std::vector<Use> uses = {{v.records},           {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.step_values, 0},
-                             {b.plan.events, 0}, {v.gradient, 3},      {c.solve->b()}};
+    std::vector<Use> uses = {
+        {v.records},        {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.step_values, 0},
+        {b.plan.events, 0}, {v.gradient, 3},      {c.solve->b()}};
     const bool kept = c.multiplier != kNoBuffer;
     if (kept)
         uses.push_back({c.multiplier});
-    b.dispatch(kEffect, "volume_rows", kept ? "kept" : "", uses,
-               kernels::volume_rows::Params{v.count, grid.chunk, c.rows.count, moment.iteration > 0, moment.last},
-               groups_of(b, c), v.count);
+    b.dispatch(
+        kEffect, "volume_rows", kept ? "kept" : "", uses,
+        kernels::volume_rows::Params{v.count, grid.chunk, c.rows.count, moment.iteration > 0, moment.last},
+        groups_of(b, c), v.count);
 }
 
 } // namespace
@@ -341,7 +344,7 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
     if (c.volumes.empty())
         return;
     const VolumeRows& v = c.rows.volumes;
-    const Use also[] = {{v.start},         {v.incident, 24}, {v.gradient, 24}, {c.solve->x(), 24},
+    const Use also[] = {{v.start},         {v.incident, 24}, {v.gradient, 24},     {c.solve->x(), 24},
                         {b.plan.position}, {b.plan.delta},   {c.solve->state(), 0}};
     b.dispatch(kEffect, "volume_spread", "apply", also,
                kernels::volume_spread::Params{grid.count, grid.chunk, count}, groups, grid.count);

@@ -31,7 +31,8 @@ void check_surface(const Body& body, const std::string& where);
 
 /// m^3, signed: a sixth of the triple products of the triangles, about their first corner (far from the
 /// origin the terms would cancel).
-double enclosed_volume(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const glm::dvec3> x);
+double enclosed_volume(std::span<const std::array<std::uint32_t, 3>> triangles,
+                       std::span<const glm::dvec3> x);
 /// m^2: how that changes with each vertex; `out` has the size of x and is added to, times `factor`.
 void add_volume_gradient(std::span<const std::array<std::uint32_t, 3>> triangles,
                          std::span<const glm::dvec3> x, double factor, std::span<glm::dvec3> out);

@@ -50,10 +50,11 @@ void check_trips(const PlanBuilder& b, std::size_t body, const Incidence& at, st
 {
     for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
         if (std::uint64_t(at.start[v + 1] - at.start[v]) * (chunk / TAUT_LINEAR_GROUP) > kMaxLoopTrips)
-            throw Error(ErrorCode::limit, "bodies[" + std::to_string(body) + "]: " +
-                                              std::to_string(at.start[v + 1] - at.start[v]) +
-                                              " triangles meet at one vertex, too many for one invocation to "
-                                              "gather; set volume_stiffness to 0, or take a finer mesh there");
+            throw Error(ErrorCode::limit,
+                        "bodies[" + std::to_string(body) +
+                            "]: " + std::to_string(at.start[v + 1] - at.start[v]) +
+                            " triangles meet at one vertex, too many for one invocation to "
+                            "gather; set volume_stiffness to 0, or take a finer mesh there");
 }
 
 void add_surface(const PlanBuilder& b, std::size_t body, Tables& out)
@@ -157,13 +158,18 @@ void record_surface_volume(PlanBuilder& b, const Moment& moment)
     if (s.groups == 0)
         return;
     const auto each = static_cast<std::uint32_t>(b.plan.buffers[s.corners].bytes / 4 / s.vertices + 1);
-    const Use sums[] = {{s.table, 2},           {s.corners, each},          {b.plan.position, 1 + each},
-                        {b.plan.low, 1 + each}, {b.plan.delta, 1 + each}, {s.gradient},
+    const Use sums[] = {{s.table, 2},
+                        {s.corners, each},
+                        {b.plan.position, 1 + each},
+                        {b.plan.low, 1 + each},
+                        {b.plan.delta, 1 + each},
+                        {s.gradient},
                         {s.partials}};
     b.dispatch(kEffect, "surface_volume_sum", "", sums,
                kernels::surface_volume_sum::Params{s.groups, moment.iteration > 0}, s.groups, s.vertices);
-    std::vector<Use> moved = {{s.table, 2},   {s.values},     {s.gradient}, {s.partials}, {b.plan.step_values, 0},
-                              {b.plan.delta}, {b.plan.events, 0}};
+    std::vector<Use> moved = {
+        {s.table, 2},   {s.values},        {s.gradient}, {s.partials}, {b.plan.step_values, 0},
+        {b.plan.delta}, {b.plan.events, 0}};
     const bool kept = s.multiplier != kNoBuffer;
     if (kept)
         moved.push_back({s.multiplier});

@@ -72,8 +72,8 @@ std::vector<double> expect_sums(Case& c, const SurfaceNet<Real>& net, bool furth
             const std::uint32_t v = net.list[2 * e];
             const Between g = reference.gradient(e), x = reference.between(origin, v);
             const glm::dvec3 moved = reference.moved(v) - reference.moved(origin);
-            const double w = net.position[v].w, moves = glm::length(reference.moved(v)) +
-                                                        glm::length(reference.moved(origin));
+            const double w = net.position[v].w,
+                         moves = glm::length(reference.moved(v)) + glm::length(reference.moved(origin));
             for (int axis = 0; axis < 3; ++axis)
                 c.expected["gradient"].add(g.value[axis], g.scale);
             c.expected["gradient"].add(w, 0);

@@ -99,7 +99,7 @@ inline constexpr Tolerance kTolerances[] = {
      "a quotient, differences, a product; sums as dot, of up to 8 terms a lane; a quotient"},
     {"implicit_update", 2, "a product and a sum"},
     {"diagonal_inverse", 8, "a row: one quotient; a block: some 20 roundings, each times its condition"},
-    {"surface_volume_sum", 8, "edges of two differences, their cross products, up to nine terms a lane and a tree"},
+    {"surface_volume_sum", 8, "edges of two differences, their cross products, nine terms a lane, a tree"},
     {"surface_volume_apply", 8, "up to 8 terms of a sum in a tree, a quotient, two products"},
     {"volume_rows", 8, "edges of differences, products of two and three of them, up to five terms"},
     {"volume_spread", 8, "as constraint_spread; corner 0 takes the sum of three gradients"},

@@ -28,9 +28,10 @@ TEMPLATE_TEST_CASE("volume_product is what the moves of all corners do to each v
             {"y", bytes_of(std::vector<Real>(net.x.size(), Real(7)))},
             {"partials", bytes_of(std::vector<Real>(dealt.groups, Real(7)))},
             {"b", bytes_of(b)}};
-    c.launches = {make_launch(
-        kernels::volume_product::info(variant, c.precision),
-        kernels::volume_product::Params{dealt.count, dealt.chunk(), net.first, dealt.groups}, dealt.dispatched())};
+    c.launches = {
+        make_launch(kernels::volume_product::info(variant, c.precision),
+                    kernels::volume_product::Params{dealt.count, dealt.chunk(), net.first, dealt.groups},
+                    dealt.dispatched())};
     GroupSums sums(dealt);
     for (std::uint32_t k = 0; k < net.first; ++k)
         c.expected["y"].add(7, 0);

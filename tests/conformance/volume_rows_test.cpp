@@ -53,8 +53,8 @@ void expect_row(Case& c, const VolumeNet<Real>& net, std::uint32_t r, bool furth
 
 } // namespace
 
-TEMPLATE_TEST_CASE("volume_rows is the gradient of each volume and what a step leaves of its change", "", float,
-                   double)
+TEMPLATE_TEST_CASE("volume_rows is the gradient of each volume and what a step leaves of its change", "",
+                   float, double)
 {
     using Real = TestType;
     using Vec = glm::vec<4, Real>;
@@ -82,7 +82,9 @@ TEMPLATE_TEST_CASE("volume_rows is the gradient of each volume and what a step l
             return glm::dvec3(net.position[v]) + (further ? glm::dvec3(net.delta[v]) : glm::dvec3(0));
         };
         const glm::dvec3 a = at(t.b) - at(t.a), b = at(t.c) - at(t.a), d = at(t.d) - at(t.a);
-        empty += glm::length(glm::cross(a, b)) + glm::length(glm::cross(b, d)) + glm::length(glm::cross(d, a)) == 0;
+        empty +=
+            glm::length(glm::cross(a, b)) + glm::length(glm::cross(b, d)) + glm::length(glm::cross(d, a)) ==
+            0;
     }
     Case c;
     c.precision = precision_of<Real>();
@@ -94,9 +96,10 @@ TEMPLATE_TEST_CASE("volume_rows is the gradient of each volume and what a step l
             {"gradient", bytes_of(std::vector<Vec>(3 * net.rows(), Vec(7)))},
             {"b", bytes_of(std::vector<Real>(net.x.size(), Real(7)))},
             {"multiplier", bytes_of(net.x)}};
-    c.launches = {make_launch(
-        kernels::volume_rows::info(kept ? "kept" : "", c.precision),
-        kernels::volume_rows::Params{dealt.count, dealt.chunk(), net.first, further, report}, dealt.dispatched())};
+    c.launches = {
+        make_launch(kernels::volume_rows::info(kept ? "kept" : "", c.precision),
+                    kernels::volume_rows::Params{dealt.count, dealt.chunk(), net.first, further, report},
+                    dealt.dispatched())};
     for (std::uint32_t k = 0; k < net.first; ++k)
         c.expected["b"].add(7, 0);
     for (std::uint32_t r = 0; r < dealt.count; ++r)

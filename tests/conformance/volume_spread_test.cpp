@@ -12,7 +12,8 @@ TEMPLATE_TEST_CASE("volume_spread adds what the rows of tetrahedra move each ver
     if (dealt.count > 1000)
         return;
     const bool apply = GENERATE(false, true);
-    const std::uint32_t status = GENERATE(std::uint32_t(TAUT_CG_CONVERGED), std::uint32_t(TAUT_CG_ZERO_RIGHT_HAND_SIDE));
+    const std::uint32_t status =
+        GENERATE(std::uint32_t(TAUT_CG_CONVERGED), std::uint32_t(TAUT_CG_ZERO_RIGHT_HAND_SIDE));
     CAPTURE(dealt.count, dealt.groups, apply, status);
     Random random(80 + dealt.count);
     const VolumeNet<Real> net = random_volume_net<Real>(random, 2 * dealt.count);

@@ -72,7 +72,8 @@ double largest_distance(const World& a, const World& b)
 
 } // namespace
 
-TEST_CASE("a box dropped on the floor keeps 98.7 % of its volume, which its springs alone do not", "[volume_rows]")
+TEST_CASE("a box dropped on the floor keeps 98.7 % of its volume, which its springs alone do not",
+          "[volume_rows]")
 {
     const Scene held = dropped(4);
     Scene free = held;
@@ -81,7 +82,8 @@ TEST_CASE("a box dropped on the floor keeps 98.7 % of its volume, which its spri
     CHECK(least_volume(free, 200) < 0.95);
 }
 
-TEST_CASE("one tetrahedron of six rigid edges moves the same with and without its volume (F04)", "[volume_rows]")
+TEST_CASE("one tetrahedron of six rigid edges moves the same with and without its volume (F04)",
+          "[volume_rows]")
 {
     const std::string precision = GENERATE("float", "double");
     CAPTURE(precision);
@@ -130,7 +132,8 @@ TEST_CASE("executors agree on rows of tetrahedra, with compliance and further so
         World world(scene, test_device(selector));
         for (int k = 0; k < 10; ++k)
             world.step();
-        CHECK(largest_distance(world, reference) < (test_device(selector)->info().hardware_gpu ? 1e-3 : 1e-12));
+        CHECK(largest_distance(world, reference) <
+              (test_device(selector)->info().hardware_gpu ? 1e-3 : 1e-12));
         CHECK(test_device(selector)->counters().validation_messages == 0);
     }
 }

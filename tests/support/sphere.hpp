@@ -51,13 +51,15 @@ inline Scene ball_of_springs(int n, double radius, double stiffness, double volu
     body.mesh = sphere_mesh(n, radius);
     body.material.stretch_stiffness = 0;
     body.material.volume_stiffness = volume_stiffness;
-    body.vertex_masses.assign(body.mesh.positions.size(), 1.0 / static_cast<double>(body.mesh.positions.size()));
+    body.vertex_masses.assign(body.mesh.positions.size(),
+                              1.0 / static_cast<double>(body.mesh.positions.size()));
     for (const auto& t : body.mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k)
             if (t[k] < t[(k + 1) % 3])
-                body.springs.push_back({t[k], t[(k + 1) % 3],
-                                        glm::distance(body.mesh.positions[t[k]], body.mesh.positions[t[(k + 1) % 3]]),
-                                        1 / stiffness});
+                body.springs.push_back(
+                    {t[k], t[(k + 1) % 3],
+                     glm::distance(body.mesh.positions[t[k]], body.mesh.positions[t[(k + 1) % 3]]),
+                     1 / stiffness});
     Scene scene;
     scene.timestep = 1e-3;
     scene.method.type = "mass_spring";

@@ -111,7 +111,8 @@ TEST_CASE("methods that do not hold volumes of surfaces say which do")
         Scene scene = ball();
         scene.method.type = method;
         CHECK_THROWS_WITH(make_plan(scene), Contains("bodies[0].material.volume_stiffness is not 0") &&
-                                                Contains("\"" + method + "\"") && Contains("\"mass_spring\""));
+                                                Contains("\"" + method + "\"") &&
+                                                Contains("\"mass_spring\""));
     }
     Scene solid;
     solid.bodies.resize(1);
