@@ -4,6 +4,7 @@
 // Based on:
 //   Baraff, Witkin. Large Steps in Cloth Simulation. SIGGRAPH 1998.
 //   Choi, Ko. Stable but Responsive Cloth. SIGGRAPH 2002.
+//   Smith, de Goes, Kim. Stable Neo-Hookean Flesh Simulation. ACM TOG 37(2), 2018.
 //   Martin, Thomaszewski, Grinspun, Gross. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2.
 // Departures: unknowns are displacements; the solver starts at the best share of the inertial guess, so that
 //   free fall is exact with any number of iterations; what nothing holds keeps its momentum; vertices without
@@ -14,8 +15,9 @@
 
 #include "taut/plan/implicit_product.hpp"
 #include "taut/plan/implicit_table.hpp"
-#include "taut/plan/solve.hpp"
 #include "taut/plan/records.hpp"
+#include "taut/plan/solid_constraints.hpp"
+#include "taut/plan/solve.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
 
@@ -25,12 +27,15 @@
 #include "taut/kernels/implicit_hinges.hpp"
 #include "taut/kernels/implicit_matrix.hpp"
 #include "taut/kernels/implicit_momentum.hpp"
+#include "taut/kernels/implicit_solid_blocks.hpp"
+#include "taut/kernels/implicit_solids.hpp"
 #include "taut/kernels/implicit_start.hpp"
 #include "taut/kernels/implicit_trial.hpp"
 #include "taut/kernels/implicit_update.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
+#include "taut/kernels/shared/solid_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,6 +49,7 @@ struct ImplicitEuler
 {
     std::uint32_t springs = kNoBuffer, spring_table = kNoBuffer, spring_count = 0;
     std::uint32_t hinges = kNoBuffer, hinge_table = kNoBuffer, hinge_count = 0;
+    std::uint32_t solids = kNoBuffer, solid_table = kNoBuffer, solid_state = kNoBuffer, solid_count = 0;
     std::uint32_t held = kNoBuffer, values = kNoBuffer;
     std::uint32_t part_start = kNoBuffer, part_members = kNoBuffer, part_count = 0;
     bool damped = false;
@@ -52,7 +58,10 @@ struct ImplicitEuler
     std::optional<PlanSolve> solve;
     BufferPtr product, products, curvatures; ///< of the inertial guess
     BufferPtr trials;                        ///< partial sums of the line search
-    std::uint32_t parts() const { return 1u + (spring_count > 0 ? 1u : 0u) + (hinge_count > 0 ? 1u : 0u); }
+    std::uint32_t parts() const
+    {
+        return 1u + (spring_count > 0 ? 1u : 0u) + (hinge_count > 0 ? 1u : 0u) + (solid_count > 0 ? 1u : 0u);
+    }
 };
 
 namespace {
@@ -61,14 +70,15 @@ struct Elements
 {
     std::vector<StretchElement> springs;
     std::vector<BendElement> hinges;
-    Corners spring_ends{2, {}}, hinge_corners{4, {}};
+    std::vector<SolidElement> solids;
+    AllCorners corners;
 };
 
 Elements acting_elements(PlanBuilder& b)
 {
-    Elements out{all_springs(b), all_hinges(b)};
-    out.spring_ends.vertices = corners_of(out.springs);
-    out.hinge_corners.vertices = corners_of(out.hinges);
+    Elements out{all_springs(b), all_hinges(b), all_solids(b), {}};
+    out.corners = {Corners{2, corners_of(out.springs)}, Corners{4, corners_of(out.hinges)},
+                   Corners{4, corners_of(out.solids)}};
     return out;
 }
 
@@ -85,10 +95,15 @@ void add_records(PlanBuilder& b, ImplicitEuler& m, const Elements& elements)
     if (springs.empty())
         springs.push_back({}); // a binding has bytes; no entry of the table leads here
     m.springs = b.add_buffer<layout::Spring<Real>>(kName, "springs", springs);
-    if (elements.hinges.empty())
+    if (!elements.hinges.empty())
+        m.hinges = b.add_buffer<layout::BendingConstraint<Real>>(
+            kName, "hinges", records_of(elements.hinges, bending_record<Real>));
+    if (elements.solids.empty())
         return;
-    m.hinges = b.add_buffer<layout::BendingConstraint<Real>>(
-        kName, "hinges", records_of(elements.hinges, bending_record<Real>));
+    m.solids = b.add_buffer<layout::SolidTetrahedron<Real>>(kName, "tetrahedra",
+                                                            records_of(elements.solids, solid_record<Real>));
+    m.solid_state =
+        b.add_buffer(kName, "state of tetrahedra", elements.solids.size() * TAUT_SOLID_STATE * sizeof(Real));
 }
 
 void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std::uint32_t arity,
@@ -111,13 +126,11 @@ void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std
 void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, const std::vector<bool>& solved)
 {
     const bool assembled = b.scene.method.linear_operator == "assembled";
-    const linear::SparseMatrix pattern =
-        implicit_pattern(solved, elements.spring_ends, elements.hinge_corners, assembled);
+    const linear::SparseMatrix pattern = implicit_pattern(solved, elements.corners, assembled);
     const linear::UploadOptions options{linear::Format::bcsr3, b.plan.precision, false, 0, false, true};
     const auto matrix = linear::DeviceMatrix::upload(b.paper(), pattern, options);
     const std::vector<std::uint32_t> slots = matrix->slots(pattern);
-    const ImplicitTables tables =
-        implicit_tables(solved, elements.spring_ends, elements.hinge_corners, pattern, slots);
+    const ImplicitTables tables = implicit_tables(solved, elements.corners, pattern, slots);
     check_trips(b, tables.springs, 2, "springs");
     m.values = b.adopt(kName, matrix->values());
     m.spring_table = b.add_buffer<std::uint32_t>(kName, "springs at a vertex", tables.springs);
@@ -125,6 +138,11 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
     {
         check_trips(b, tables.hinges, 4, "hinges");
         m.hinge_table = b.add_buffer<std::uint32_t>(kName, "hinges at a vertex", tables.hinges);
+    }
+    if (m.solid_count > 0)
+    {
+        check_trips(b, tables.solids, 4, "tetrahedra");
+        m.solid_table = b.add_buffer<std::uint32_t>(kName, "tetrahedra at a vertex", tables.solids);
     }
     std::vector<std::uint32_t> marks;
     for (const bool moves : solved)
@@ -145,11 +163,20 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
                            b.on_paper(m.springs),
                            b.on_paper(m.spring_table),
                            nullptr,
+                           nullptr,
+                           nullptr,
+                           nullptr,
                            nullptr};
         if (m.hinge_count > 0)
         {
             at.hinges = b.on_paper(m.hinges);
             at.hinge_table = b.on_paper(m.hinge_table);
+        }
+        if (m.solid_count > 0)
+        {
+            at.solids = b.on_paper(m.solids);
+            at.solid_state = b.on_paper(m.solid_state);
+            at.solid_table = b.on_paper(m.solid_table);
         }
         system = std::make_shared<ImplicitProduct>(std::move(at));
     }
@@ -189,12 +216,24 @@ void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
                            {b.plan.step_values, 0}, {m.values, 9},  {b.plan.events, 0}};
     b.dispatch(kName, "implicit_matrix", "", springs, kernels::implicit_matrix::Params{n, report, m.scale},
                n);
-    if (m.hinge_count == 0)
+    if (m.hinge_count > 0)
+    {
+        const Use hinges[] = {{b.plan.position},       {b.plan.delta},    {m.hinges},    {m.hinge_table, 2},
+                              {b.plan.step_values, 0}, {m.solve->b(), 3}, {m.values, 9}, {b.plan.events, 0}};
+        b.dispatch(kName, "implicit_hinges", "", hinges,
+                   kernels::implicit_hinges::Params{n, report, m.scale, m.lift}, n);
+    }
+    if (m.solid_count == 0)
         return;
-    const Use hinges[] = {{b.plan.position},       {b.plan.delta},    {m.hinges},    {m.hinge_table, 2},
-                          {b.plan.step_values, 0}, {m.solve->b(), 3}, {m.values, 9}, {b.plan.events, 0}};
-    b.dispatch(kName, "implicit_hinges", "", hinges,
-               kernels::implicit_hinges::Params{n, report, m.scale, m.lift}, n);
+    const Use state[] = {{b.plan.position, 4}, {b.plan.delta, 4},
+                         {m.solids},           {b.plan.step_values, 0},
+                         {m.solid_state, TAUT_SOLID_STATE}};
+    b.dispatch(kName, "implicit_solids", "", state,
+               kernels::implicit_solids::Params{m.solid_count, m.scale}, m.solid_count);
+    const Use blocks[] = {{m.solids, 4}, {m.solid_state, 4 * TAUT_SOLID_STATE},
+                          {m.solid_table, 2}, {m.solve->b(), 3}, {m.values, 9}};
+    b.dispatch(kName, "implicit_solid_blocks", "", blocks,
+               kernels::implicit_solid_blocks::Params{n, m.lift}, n);
 }
 
 /// The solver's start: the inertial guess, as far as it helps.
@@ -247,6 +286,8 @@ void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
         add("springs", m.spring_count, {b.on_paper(m.springs), step_values, b.on_paper(b.plan.low)});
     if (m.hinge_count > 0)
         add("hinges", m.hinge_count, {b.on_paper(m.hinges), step_values});
+    if (m.solid_count > 0)
+        add("solids", m.solid_count, {b.on_paper(m.solids), step_values});
 }
 
 void record_update(PlanBuilder& b, const ImplicitEuler& m)
@@ -287,14 +328,15 @@ void check_implicit_euler(const Scene& resolved, const DeviceTraits&)
         for (const BendElement& e : bend_elements(resolved.bodies[body]))
             if (!(e.compliance > 0))
                 refuse(body, "hinges", "material.bending_stiffness");
+        if (holds_volumes(resolved.bodies[body]) && std::isinf(bulk_modulus(resolved.bodies[body].material)))
+            refuse(body, "volumes", "material.volume_stiffness");
     }
 }
 
 void prepare_implicit_euler(PlanBuilder& b)
 {
     const Elements elements = acting_elements(b);
-    const std::vector<bool> solved =
-        solved_vertices(b.inverse_mass, elements.spring_ends, elements.hinge_corners);
+    const std::vector<bool> solved = solved_vertices(b.inverse_mass, elements.corners);
     double heaviest = 0;
     for (std::size_t v = 0; v < solved.size(); ++v)
         if (solved[v])
@@ -307,12 +349,13 @@ void prepare_implicit_euler(PlanBuilder& b)
     m.lift = power_below(b.plan.timestep / b.plan.substeps);
     m.spring_count = static_cast<std::uint32_t>(elements.springs.size());
     m.hinge_count = static_cast<std::uint32_t>(elements.hinges.size());
+    m.solid_count = static_cast<std::uint32_t>(elements.solids.size());
     m.damped = std::any_of(elements.springs.begin(), elements.springs.end(),
                            [](const StretchElement& e) { return e.damping > 0; });
     with_real(b.plan.precision, [&](auto zero) { add_records<decltype(zero)>(b, m, elements); });
     add_system(b, m, elements, solved);
     add_vectors(b, m);
-    const FreeParts parts = free_parts(b.inverse_mass, elements.spring_ends, elements.hinge_corners);
+    const FreeParts parts = free_parts(b.inverse_mass, elements.corners);
     m.part_count = static_cast<std::uint32_t>(parts.start.size() - 1);
     if (m.part_count == 0)
         return;

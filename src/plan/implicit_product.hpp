@@ -5,7 +5,7 @@
 
 namespace taut {
 
-/// Buffers on paper; without springs or hinges their records are null.
+/// Buffers on paper; without hinges or tetrahedra theirs are null.
 struct ImplicitBuffers
 {
     std::uint32_t vertices = 0;
@@ -14,9 +14,11 @@ struct ImplicitBuffers
     BufferPtr position, delta, step_values;
     BufferPtr springs, spring_table; ///< always; a table without entries for the mass alone
     BufferPtr hinges, hinge_table;   ///< null: none
+    BufferPtr solids, solid_state, solid_table; ///< likewise
 };
 
-/// (M + h^2 K + h D) x by gathering, with springs and hinges formed again from the places of their corners.
+/// (M + h^2 K + h D) x by gathering, with springs and hinges formed again from the places of their
+/// corners, and tetrahedra from what implicit_solids left.
 class ImplicitProduct final : public linear::Operator
 {
 public:
@@ -34,6 +36,8 @@ private:
     void record_springs(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
                         Binding last) const;
     void record_hinges(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
+                       Binding last) const;
+    void record_solids(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
                        Binding last) const;
     ImplicitBuffers at_;
 };

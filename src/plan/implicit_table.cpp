@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kFirst = 0x80000000u;
 constexpr std::uint32_t kNowhere = 0xffffffffu;
 
-/// Words of an entry: the element, and a place for each other corner (springs) or each corner (hinges).
+/// Words of an entry: the element, and a place for each other corner (springs) or each corner (the others).
 std::uint32_t entry_words(std::uint32_t arity) { return arity == 2 ? 2 : arity + 1; }
 
 void add_neighbours(std::vector<std::vector<std::uint32_t>>& of, const std::vector<bool>& solved,
@@ -95,24 +95,23 @@ std::vector<std::uint32_t> table_of(const std::vector<bool>& solved, const Corne
 
 } // namespace
 
-std::vector<bool> solved_vertices(std::span<const double> inverse_mass, const Corners& springs,
-                                  const Corners& hinges)
+std::vector<bool> solved_vertices(std::span<const double> inverse_mass, const AllCorners& elements)
 {
     std::vector<bool> solved(inverse_mass.size(), false);
-    for (const Corners* elements : {&springs, &hinges})
-        for (const std::uint32_t v : elements->vertices)
+    for (const Corners& kind : elements)
+        for (const std::uint32_t v : kind.vertices)
             solved[v] = inverse_mass[v] > 0;
     return solved;
 }
 
-linear::SparseMatrix implicit_pattern(const std::vector<bool>& solved, const Corners& springs,
-                                      const Corners& hinges, bool beside)
+linear::SparseMatrix implicit_pattern(const std::vector<bool>& solved, const AllCorners& elements,
+                                      bool beside)
 {
     const auto count = static_cast<std::uint32_t>(solved.size());
     std::vector<std::vector<std::uint32_t>> neighbours(count);
     if (beside)
-        for (const Corners* elements : {&springs, &hinges})
-            add_neighbours(neighbours, solved, *elements);
+        for (const Corners& kind : elements)
+            add_neighbours(neighbours, solved, kind);
     linear::SparseMatrix out;
     out.rows = out.columns = 3 * count;
     for (std::uint32_t v = 0; v < count; ++v)
@@ -136,17 +135,18 @@ linear::SparseMatrix implicit_pattern(const std::vector<bool>& solved, const Cor
     return out;
 }
 
-ImplicitTables implicit_tables(const std::vector<bool>& solved, const Corners& springs, const Corners& hinges,
+ImplicitTables implicit_tables(const std::vector<bool>& solved, const AllCorners& elements,
                                const linear::SparseMatrix& pattern, std::span<const std::uint32_t> slots)
 {
     Places places(pattern, slots);
     ImplicitTables out;
-    out.springs = table_of(solved, springs, places);
-    out.hinges = table_of(solved, hinges, places);
+    out.springs = table_of(solved, elements[0], places);
+    out.hinges = table_of(solved, elements[1], places);
+    out.solids = table_of(solved, elements[2], places);
     return out;
 }
 
-FreeParts free_parts(std::span<const double> inverse_mass, const Corners& springs, const Corners& hinges)
+FreeParts free_parts(std::span<const double> inverse_mass, const AllCorners& elements)
 {
     const auto count = static_cast<std::uint32_t>(inverse_mass.size());
     std::vector<std::uint32_t> root(count);
@@ -158,11 +158,11 @@ FreeParts free_parts(std::span<const double> inverse_mass, const Corners& spring
         return v;
     };
     std::vector<std::uint32_t> parts_at(count, 0); // vertices of the part of a root; 0: not to be listed
-    for (const Corners* elements : {&springs, &hinges})
-        for (std::size_t k = 0; k < elements->vertices.size(); ++k)
+    for (const Corners& kind : elements)
+        for (std::size_t k = 0; k < kind.vertices.size(); ++k)
         {
-            const std::uint32_t one = find(elements->vertices[k - k % elements->arity]);
-            const std::uint32_t other = find(elements->vertices[k]);
+            const std::uint32_t one = find(kind.vertices[k - k % kind.arity]);
+            const std::uint32_t other = find(kind.vertices[k]);
             root[std::max(one, other)] = std::min(one, other); // the first vertex of a part is its root
         }
     std::vector<bool> held(count, false);

@@ -3,6 +3,7 @@
 
 #include "taut/linear/sparse.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,22 +17,24 @@ struct Corners
     std::vector<std::uint32_t> vertices;
 };
 
+/// All that acts, kind by kind: springs, hinges, tetrahedra.
+using AllCorners = std::array<Corners, 3>;
+
 /// Vertices that have mass and an element. All others keep the displacement that they are given.
-std::vector<bool> solved_vertices(std::span<const double> inverse_mass, const Corners& springs,
-                                  const Corners& hinges);
+std::vector<bool> solved_vertices(std::span<const double> inverse_mass, const AllCorners& elements);
 
 /// Three rows a vertex in whole 3 x 3 blocks: the diagonal of every vertex, and with `beside` the blocks of
 /// vertices that are solved for and share an element. Values are those of the unit matrix.
-linear::SparseMatrix implicit_pattern(const std::vector<bool>& solved, const Corners& springs,
-                                      const Corners& hinges, bool beside);
+linear::SparseMatrix implicit_pattern(const std::vector<bool>& solved, const AllCorners& elements,
+                                      bool beside);
 
 /// The tables of kernels/shared/implicit_table.glsl, springs first, which are the first to write a block.
 /// `slots`: DeviceMatrix::slots of the pattern in bcsr3.
 struct ImplicitTables
 {
-    std::vector<std::uint32_t> springs, hinges;
+    std::vector<std::uint32_t> springs, hinges, solids;
 };
-ImplicitTables implicit_tables(const std::vector<bool>& solved, const Corners& springs, const Corners& hinges,
+ImplicitTables implicit_tables(const std::vector<bool>& solved, const AllCorners& elements,
                                const linear::SparseMatrix& pattern, std::span<const std::uint32_t> slots);
 
 /// Vertices of the parts that elements hold together and that no held vertex is in, part by part.
@@ -40,7 +43,7 @@ struct FreeParts
     std::vector<std::uint32_t> start = {0}; ///< parts + 1
     std::vector<std::uint32_t> member;
 };
-FreeParts free_parts(std::span<const double> inverse_mass, const Corners& springs, const Corners& hinges);
+FreeParts free_parts(std::span<const double> inverse_mass, const AllCorners& elements);
 
 /// Most loop trips of a lane that takes every 128th vertex of a chunk and all the entries of each; and of
 /// kernels with an invocation a vertex.

@@ -79,6 +79,24 @@ std::vector<SolidElement> solid_elements(const Body& body)
     return out;
 }
 
+std::vector<SolidElement> volume_solids(const Body& body)
+{
+    std::vector<SolidElement> out;
+    if (!holds_volumes(body))
+        return out;
+    SolidElement element;
+    element.lambda = bulk_modulus(body.material);
+    element.log = 0;
+    for (const auto& t : body.mesh.tetrahedra)
+    {
+        element.vertex = t;
+        element.inverse_rest = glm::inverse(edges(t, body.mesh.positions));
+        element.rest_volume = six_volumes(body.mesh.positions, t) / 6;
+        out.push_back(element);
+    }
+    return out;
+}
+
 double volume_of(const std::array<std::uint32_t, 4>& v, std::span<const glm::dvec3> x)
 {
     return glm::determinant(edges(v, x)) / 6;

@@ -48,6 +48,10 @@ bool holds_volumes(const Body& body);
 std::vector<SolidElement> solid_elements(const Body& body);
 bool is_elastic(const Body& body);
 
+/// The same energies as volume_elements, as elements without shear stiffness: lambda/2 (J - 1)^2 per volume.
+/// Infinite lambda = rigid.
+std::vector<SolidElement> volume_solids(const Body& body);
+
 /// Pa: the modulus by which a body holds volumes; infinite = rigid, 0 = not at all.
 double bulk_modulus(const Material& material);
 

@@ -36,6 +36,16 @@ std::vector<SolidElement> acting_solids(const PlanBuilder& b, std::size_t body)
     return acting(b, body, solid_elements(b.scene.bodies[body]));
 }
 
+std::vector<SolidElement> all_solids(const PlanBuilder& b)
+{
+    std::vector<SolidElement> out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        for (auto of : {solid_elements, volume_solids})
+            for (SolidElement& e : acting(b, body, of(b.scene.bodies[body])))
+                out.push_back(e);
+    return out;
+}
+
 void prepare_volume(PlanBuilder& b)
 {
     prepare_set(

@@ -1,6 +1,6 @@
 #include "taut/kernels/implicit_trial.hpp"
 
-#include "support/implicit_net.hpp"
+#include "support/solid_net.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
@@ -72,19 +72,60 @@ Rise hinge(const Net<Real>& net, const layout::BendingConstraint<Real>& c, const
     return {factor * turn * (off + turn / 2), factor * 8 * now.shape * later.shape};
 }
 
+using Long33 = glm::mat<3, 3, long double>;
+
+long double shape_of(const Long33& f)
+{
+    return glm::dot(f[0], f[0]) + glm::dot(f[1], f[1]) + glm::dot(f[2], f[2]);
+}
+
+/// The energy itself, before and after, in long double. steps: of the corners.
+template <typename Real>
+Rise solid(const SolidNet<Real>& in, std::size_t k, const std::array<Long3, 4>& steps)
+{
+    const auto& t = in.solids[k];
+    const auto v = in.corners(k);
+    Long33 now(0), way(0);
+    const Long33 b(inverse_rest(t));
+    double size = 0, moved = 0;
+    for (int e = 0; e < 3; ++e)
+    {
+        const auto far = v[static_cast<std::size_t>(e) + 1];
+        now[e] = (Long3(in.net.position[far]) - Long3(in.net.position[v[0]])) +
+                 (Long3(in.net.delta[far]) - Long3(in.net.delta[v[0]]));
+        way[e] = steps[static_cast<std::size_t>(e) + 1] - steps[0];
+        const double row = glm::length(row_of(t, static_cast<std::size_t>(e) + 1));
+        size += glm::length(in.net.between(v[0], far)) * in.net.reach(v[0], far) * row;
+        moved += double(glm::length(steps[static_cast<std::size_t>(e) + 1]) + glm::length(steps[0])) * row;
+    }
+    const Long33 f = now * b, after = (now + way) * b;
+    const long double mu = t.mu, lambda = t.lambda, rest = t.rest, log = t.log_term;
+    const long double shape = shape_of(f), later = shape_of(after);
+    const long double volume = glm::determinant(f), then = glm::determinant(after);
+    long double rise = mu / 2 * (later - shape) + lambda / 2 * (then - volume) * (then + volume - 2 * rest);
+    rise -= log * mu / 2 * std::log1p((later - shape) / (shape + 1));
+    const long double units = in.net.h() * in.net.h() * double(t.volume);
+    const double both = size + moved, cubes = both * both * both + double(rest);
+    return {units * rise, double(units) * moved * (double(mu) * both + double(lambda) * cubes * both * both)};
+}
+
 } // namespace
 
 TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the potential", "", float, double)
 {
     using Real = TestType;
-    const std::string variant = GENERATE("", "springs", "hinges");
+    const std::string variant = GENERATE("", "springs", "hinges", "solids");
     const std::uint32_t trials = GENERATE(1u, 5u, 17u);
     for (const std::uint32_t count : {4u, 63u, 65u, 129u, 300u})
     {
-        const Net<Real> net = random_net<Real>(count, 970 + count);
+        const SolidNet<Real> in = random_solids<Real>(count, count, 970 + count);
+        Net<Real> net = random_net<Real>(count, 970 + count);
+        if (variant == "solids")
+            net = in.net;
         Dealt dealt;
         dealt.count = static_cast<std::uint32_t>(variant == "springs"  ? net.springs.size()
                                                  : variant == "hinges" ? net.hinges.size()
+                                                 : variant == "solids" ? in.solids.size()
                                                                        : count);
         dealt.groups = dealt.count > 200 ? 3 : 1;
         dealt.spare = 1;
@@ -97,6 +138,7 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
         Case c;
         c.precision = precision_of<Real>();
         c.in = net.buffers();
+        c.in["solid"] = bytes_of(in.solids);
         c.in["x"] = bytes_of(x);
         c.in["partials"] = bytes_of(std::vector<Real>(trials * parts * dealt.groups, Real(7)));
         const kernels::implicit_trial::Params params{dealt.count, dealt.chunk(), dealt.groups, trials,
@@ -123,6 +165,13 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
                     for (std::size_t v = 0; v < 4; ++v)
                         steps[v] = step(corners_of(net.hinges[k])[v], share);
                     rise = hinge(net, net.hinges[k], steps);
+                }
+                else if (variant == "solids")
+                {
+                    std::array<Long3, 4> steps;
+                    for (std::size_t v = 0; v < 4; ++v)
+                        steps[v] = step(in.corners(k)[v], share);
+                    rise = solid(in, k, steps);
                 }
                 else
                     rise = inertia(net, k, step(k, share));
