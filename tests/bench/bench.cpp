@@ -1,4 +1,4 @@
-// taut_bench [distance] [recording] [cloth] [opencloth] [FILE.csv]: prints the tables of docs/bench.md that
+// taut_bench [distance] [recording] [cloth] [opencloth] [solid] [FILE.csv]: prints the tables of docs/bench.md that
 // are named, or all, and, if asked, writes them as CSV.
 // Exit status 1 and one sentence when a rival computes something else, or the file cannot be written.
 
@@ -22,7 +22,8 @@ constexpr struct
 } kTables[] = {{"distance", bench::distance_rows},
                {"recording", bench::recording_rows},
                {"cloth", bench::cloth_rows},
-               {"opencloth", bench::opencloth_rows}};
+               {"opencloth", bench::opencloth_rows},
+               {"solid", bench::solid_rows}};
 
 void print(const std::vector<bench::Row>& rows)
 {

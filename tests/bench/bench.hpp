@@ -57,5 +57,6 @@ std::vector<Row> distance_rows();
 std::vector<Row> recording_rows();
 std::vector<Row> cloth_rows();     ///< whole steps against a plain coloured OpenMP program
 std::vector<Row> opencloth_rows(); ///< opencloth's position-based scene against a plain serial loop
+std::vector<Row> solid_rows();     ///< a box of tetrahedra against a plain coloured OpenMP program
 
 } // namespace bench

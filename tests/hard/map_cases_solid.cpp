@@ -95,7 +95,8 @@ void add_materials(std::vector<MapCase>& out)
                    [](const Journey& j) {
                        return first_of(above("movement", largest_distance(j.start, j.world.positions()), 1e-4),
                                        above("volume", std::abs(j.last.volume.ratio - 1), 1e-4));
-                   }});
+                   },
+                   only(MethodKind::vbd)}); // it rounds at every vertex, and keeps the sum
     out.push_back({"A14", "solid with nu 0.4999, hung by a face",
                    [] {
                        Body body = block(3, 1e5, 0.4999);
