@@ -38,9 +38,8 @@ constexpr int kNotStarted = 127;
 }
 
 /// Waits for the child; the first interrupt is passed on to it.
-int wait_for(pid_t child, bool& interrupted)
+int wait_for(pid_t child, const InterruptGuard& guard, bool& interrupted)
 {
-    const InterruptGuard guard;
     int status = 0;
     pid_t ended = 0;
     for (; ended == 0; ended = waitpid(child, &status, WNOHANG))
@@ -101,13 +100,14 @@ ProcessEnd run_process(const fs::path& program, const std::vector<std::string>& 
     for (std::string& word : text)
         words.push_back(word.data());
     words.push_back(nullptr);
+    const InterruptGuard guard; // before there is a child that an early interrupt would leave behind
     const pid_t child = fork();
     if (child < 0)
         throw Error(ErrorCode::io, "cannot start " + program.string() + ": " + std::strerror(errno));
     if (child == 0)
         become(text[0].c_str(), words.data(), folder.c_str());
     ProcessEnd end;
-    const int status = wait_for(child, end.interrupted);
+    const int status = wait_for(child, guard, end.interrupted);
     if (WIFSIGNALED(status))
         end.failure = "signal " + std::to_string(WTERMSIG(status));
     else if (WEXITSTATUS(status) == kNotStarted)

@@ -3,6 +3,7 @@
 #include "cli/program.hpp"
 #include "support/catch.hpp"
 
+#include <csignal>
 #include <cstdlib>
 
 using Catch::Matchers::Contains;
@@ -155,6 +156,20 @@ TEST_CASE("what a mesher made is refused with 1 when it is not sound, and nothin
     failed(shop, run(script({{"surface.1.node", kNode}, {"surface.1.ele", "1 4 0\n1 1 2 3 4\n"}}, "exit 0")),
            1, "has no volume");
     CHECK(shop.folder.list("").size() == 6); // bin, the cube, two streams, tmp, words.txt
+}
+
+TEST_CASE("an interrupt ends the mesher too")
+{
+    const Workshop shop;
+    shop.install("tetgen", script({}, "exec /bin/sleep 600"));
+    const std::string cube = shop.folder.file("cube.obj", kCube);
+    bool sent = false;
+    const Result result = shop.folder.taut({"tetrahedralise", cube}, [&](int process) {
+        // The script runs once its words are there, and the program waits for it then.
+        if (!sent && !program::read(shop.folder / "words.txt").empty())
+            sent = kill(process, SIGTERM) == 0;
+    });
+    failed(shop, result, 1, "taut: interrupted; nothing was written.");
 }
 
 TEST_CASE("tetrahedralise says what to install, and which surfaces and names it takes")
