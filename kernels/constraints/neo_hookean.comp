@@ -91,7 +91,8 @@ void project(ELEMENT k)
     pull_h += before.y;
 #endif
     // The push is W (r u + h v): (rr + |F|^2 / grip_d + along^2 / grip_h) u - along / grip_h v =
-    // (along pull_h) / grip_h - pull_d / grip_d and (hh + 1 / grip_h) v - along / grip_h u = -pull_h / grip_h.
+    // (along pull_h) / grip_h - pull_d / grip_d and
+    // (hh + 1 / grip_h) v - along / grip_h u = -pull_h / grip_h.
     real shape = f.square + grip_d * rr;
     real bulk = real(1) + grip_h * hh;
     real determinant = bulk * shape + (along * along) * (grip_d * hh);

@@ -1,7 +1,7 @@
 // By how much a Newton step, whole and halved again and again, would raise the incremental potential
 // 1/2 |displacement - guess|_M^2 + h^2 (energy of springs, hinges and tetrahedra): partial sums for every
-// trial, of vertices (no variant), springs, hinges, tetrahedra. Differences are formed element by element, so that they are not
-// lost in the potential itself.
+// trial, of vertices (no variant), springs, hinges, tetrahedra. Differences are formed element by element,
+// so that they are not lost in the potential itself.
 //
 // Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2.
 // Departures: a damper counts with the direction that its spring has before the step.

@@ -247,8 +247,9 @@ void add_cost(CLI::App& app, Command& chosen)
     auto* kept = command->add_flag("--conserved", options->conserved,
                                    "Instead: energy and momentum against time, of a scene that keeps them");
     kept->excludes(ratio);
-    auto* without = command->add_flag("--ablation", options->ablation,
-                                      "Instead: time, bytes and dispatches of each effect, by leaving it out");
+    auto* without =
+        command->add_flag("--ablation", options->ablation,
+                          "Instead: time, bytes and dispatches of each effect, by leaving it out");
     without->excludes(ratio)->excludes(kept);
     command->add_option("--frames", options->frames,
                         "Moving: frames compared at most (default: the scene's)");

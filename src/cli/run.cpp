@@ -114,7 +114,8 @@ private:
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         ++done_;
         if (has_volume_)
-            volume_min_ = std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).ratio);
+            volume_min_ =
+                std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).ratio);
         finite_ = simulation_.events().non_finite == 0;
     }
 
@@ -294,7 +295,8 @@ void add_run(CLI::App& app, Command& chosen)
     command->add_option("--out", options->folder, "Folder for what is written (default: out/<scene>)");
     command->add_option("--every", options->every,
                         "Frames from one mesh file to the next, 0 = no meshes (default: 30 files a second)");
-    command->add_flag("--sleep", options->sleep, "Bodies at rest sleep and cost nothing until something moves them");
+    command->add_flag("--sleep", options->sleep,
+                      "Bodies at rest sleep and cost nothing until something moves them");
     command->add_flag("--no-picture", options->no_picture, "Draw no pictures");
     command->add_flag("--json", options->json, "Print the report as one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return run(*options); }; });

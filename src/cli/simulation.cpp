@@ -108,7 +108,8 @@ std::unique_ptr<Simulation> open_simulation(const std::string& selector, const S
         return std::make_unique<OneDevice>(resolved, open_device(selector));
     }
     if (sleep)
-        throw Error(ErrorCode::unsupported, "--sleep and --device hybrid do not go together yet; use one device");
+        throw Error(ErrorCode::unsupported,
+                    "--sleep and --device hybrid do not go together yet; use one device");
     const std::string other = selector == kHybrid ? "" : selector.substr(kHybrid.size() + 1);
     return std::make_unique<TwoDevices>(resolved, open_device("cpu"),
                                         other.empty() ? best_other() : open_device(other));

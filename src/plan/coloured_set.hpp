@@ -11,8 +11,8 @@ namespace taut {
 /// conflict like others: kernels write all ends of a constraint.
 ConstraintGraph body_graph(const PlanBuilder& builder, std::size_t body, std::uint32_t stride);
 
-/// Adds multipliers (`each` reals a constraint, where options.multipliers and the plan want them) and the table
-/// of grouped colours, and puts the set into the plan.
+/// Adds multipliers (`each` reals a constraint, where options.multipliers and the plan want them) and the
+/// table of grouped colours, and puts the set into the plan.
 void add_set(PlanBuilder& builder, ConstraintSet& set, std::vector<std::uint32_t> table,
              const SetOptions& options, std::uint32_t each = 1);
 

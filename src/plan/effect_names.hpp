@@ -8,8 +8,8 @@
 
 namespace taut {
 
-/// Names of the rows of the table of effects that a resolved scene calls for under its method, in the order of a
-/// step, each once.
+/// Names of the rows of the table of effects that a resolved scene calls for under its method, in the order
+/// of a step, each once.
 std::vector<std::string> effect_names(const Scene& resolved);
 
 } // namespace taut

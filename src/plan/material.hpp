@@ -30,15 +30,17 @@ struct BendElement
 };
 
 /// kg per vertex of a resolved body, all > 0: a quarter of every tetrahedron at it; of bodies without
-/// tetrahedra a third of every triangle at it, half of every link at it (a strip of link_width). A vertex that gets nothing this way has the mean of the others; a body in
-/// which no vertex gets anything (a free particle) has density * shape.length * shape.width at each.
-/// Body::vertex_masses, when given, stands instead.
+/// tetrahedra a third of every triangle at it, half of every link at it (a strip of link_width). A vertex
+/// that gets nothing this way has the mean of the others; a body in which no vertex gets anything (a free
+/// particle) has density * shape.length * shape.width at each. Body::vertex_masses, when given, stands
+/// instead.
 std::vector<double> vertex_masses(const Body& body);
 
 /// Springs of a resolved body: mesh edges by (a, b), then links, then Body::springs, each in its order.
 /// Of a solid with the model "springs": all edges of its tetrahedra, of a material with the modulus E.
-/// Of others empty of mesh edges and links when stretch_stiffness is 0 or the grid has a network; rigid (compliance 0)
-/// when it is inf. Edges beside no area carry no load and are left out; edges of zero length stay, rigid.
+/// Of others empty of mesh edges and links when stretch_stiffness is 0 or the grid has a network; rigid
+/// (compliance 0) when it is inf. Edges beside no area carry no load and are left out; edges of zero length
+/// stay, rigid.
 std::vector<StretchElement> stretch_elements(const Body& body);
 /// Whether there may be any.
 bool has_springs(const Body& body);

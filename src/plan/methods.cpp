@@ -19,19 +19,18 @@
 namespace taut {
 namespace {
 
-// clang-format off
 constexpr Method kMethods[] = {
-    //                                 contacts each  keeps                                neo-     surface
-    // kind                            iteration      guess   check                       volumes Hookean volume  substeps
-    {MethodKind::mass_spring,          false,         false,  check_mass_spring,          false,  false,  true,   stable_substeps},
-    {MethodKind::implicit_euler,       false,         true,   check_implicit_euler,       true,   true,   false,  nullptr},
-    {MethodKind::implicit_constraints, false,         false,  check_implicit_constraints, true,   false,  false,  stable_substeps},
-    {MethodKind::acad,                 false,         false,  check_acad,                 false,  false,  false,  stable_substeps},
-    {MethodKind::pbd,                  true,          false,  check_pbd,                  true,   false,  false,  nullptr},
-    {MethodKind::xpbd,                 true,          false,  nullptr,                    true,   true,   false,  nullptr},
-    {MethodKind::vbd,                  false,         true,   check_vbd,                  true,   true,   false,  nullptr},
+    // contacts each iteration, keeps the guess, check, holds volumes, has neo-Hookean, holds the surface's
+    // volume, substeps
+    {MethodKind::mass_spring, false, false, check_mass_spring, false, false, true, stable_substeps},
+    {MethodKind::implicit_euler, false, true, check_implicit_euler, true, true, false, nullptr},
+    {MethodKind::implicit_constraints, false, false, check_implicit_constraints, true, false, false,
+     stable_substeps},
+    {MethodKind::acad, false, false, check_acad, false, false, false, stable_substeps},
+    {MethodKind::pbd, true, false, check_pbd, true, false, false, nullptr},
+    {MethodKind::xpbd, true, false, nullptr, true, true, false, nullptr},
+    {MethodKind::vbd, false, true, check_vbd, true, true, false, nullptr},
 };
-// clang-format on
 
 } // namespace
 

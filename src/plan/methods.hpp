@@ -54,8 +54,8 @@ struct Method
 
 const Method& find_method(MethodKind kind);
 
-/// Throws Error{unsupported} naming a body whose tetrahedra the scene's method cannot move, or whose volume it
-/// cannot hold, as its material says, and the methods that can; what check_surface throws for a surface.
+/// Throws Error{unsupported} naming a body whose tetrahedra the scene's method cannot move, or whose volume
+/// it cannot hold, as its material says, and the methods that can; what check_surface throws for a surface.
 void check_solids(const Scene& resolved);
 
 } // namespace taut

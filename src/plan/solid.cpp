@@ -102,7 +102,8 @@ double volume_of(const std::array<std::uint32_t, 4>& v, std::span<const glm::dve
     return glm::determinant(edges(v, x)) / 6;
 }
 
-std::array<glm::dvec3, 4> volume_gradient(const std::array<std::uint32_t, 4>& v, std::span<const glm::dvec3> x)
+std::array<glm::dvec3, 4> volume_gradient(const std::array<std::uint32_t, 4>& v,
+                                          std::span<const glm::dvec3> x)
 {
     const glm::dmat3 g = cofactor(edges(v, x));
     return {-(g[0] + g[1] + g[2]) / 6.0, g[0] / 6.0, g[1] / 6.0, g[2] / 6.0};

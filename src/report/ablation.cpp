@@ -87,8 +87,8 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-const std::vector<std::string> kHead = {"without",    "ms a step",         "its cost ms",        "its dispatches",
-                                        "its bytes",  "its bytes a step",  "difference e_L %",   "refused"};
+const std::vector<std::string> kHead = {"without",   "ms a step",        "its cost ms",      "its dispatches",
+                                        "its bytes", "its bytes a step", "difference e_L %", "refused"};
 
 std::vector<std::string> cells(const AblationRow& row)
 {

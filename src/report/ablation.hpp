@@ -19,8 +19,8 @@ struct AblationRow
     std::int64_t dispatches = 0;  ///< a step, of the whole scene less this
     std::int64_t bytes = 0;       ///< allocated, likewise
     std::int64_t bytes_moved = 0; ///< a step, likewise; an upper bound
-    double difference = 0;        ///< e_L of the last frame from that of the whole scene: what the effect does
-    std::string refusal;          ///< why the scene cannot be without it; the rest is then 0
+    double difference = 0; ///< e_L of the last frame from that of the whole scene: what the effect does
+    std::string refusal;   ///< why the scene cannot be without it; the rest is then 0
 };
 
 struct Ablation
@@ -31,8 +31,8 @@ struct Ablation
     std::vector<AblationRow> rows; ///< the whole scene first, then one an effect in the order of a step
 };
 
-/// Runs the scene and its variants step by step in turns, so that a disturbance meets all of them. "motion" stays:
-/// nothing moves without it. Throws what World throws for the whole scene.
+/// Runs the scene and its variants step by step in turns, so that a disturbance meets all of them. "motion"
+/// stays: nothing moves without it. Throws what World throws for the whole scene.
 Ablation run_ablation(const Scene& resolved, std::shared_ptr<Device> device, std::uint64_t frames);
 
 std::string ablation_markdown(const Ablation& ablation);

@@ -31,9 +31,6 @@ std::string unmodelled(const Scene& scene)
     add(any([](const Material& m) { return m.strain_limit > 0; }), "limits of strain");
     add(any([](const Material& m) { return m.attachment_slack >= 0; }), "attachments");
     add(any([](const Material& m) { return m.tear_strain > 0; }), "tearing");
-    add(std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                    [](const Body& body) { return !body.mesh.tetrahedra.empty(); }),
-        "tetrahedra");
     return out;
 }
 
@@ -143,7 +140,10 @@ CostReference reference_at_rest(const Question& q)
 CostReference reference_of_motion(const Question& q)
 {
     const std::size_t frames = wanted_frames(q.scene, q.options);
-    if (const std::string refusal = unmodelled(q.scene); !refusal.empty())
+    std::string refusal = unmodelled(q.scene);
+    if (refusal.empty() && !(q.model.solids.empty() && q.model.volumes.empty()))
+        refusal = "it has no bound on the step that tetrahedra allow";
+    if (!refusal.empty())
         return self_motion(q, frames, {"R3: " + refusal});
     std::string stop;
     DynamicReference found = small_steps(q, frames, stop);

@@ -164,7 +164,8 @@ void measure_energy(const View& view, StepReport& out)
                 c.compliance;
     for (const VolumeElement& e : view.model.volumes)
         if (e.compliance > 0)
-            out.potential_energy += 0.5 * std::pow(volume_of(e.vertex, view.x) - e.rest_volume, 2) / e.compliance;
+            out.potential_energy +=
+                0.5 * std::pow(volume_of(e.vertex, view.x) - e.rest_volume, 2) / e.compliance;
     for (const SurfaceElement& e : view.model.surfaces)
         if (e.compliance > 0)
             out.potential_energy +=
@@ -342,12 +343,6 @@ bool exaggerates(const MethodSettings& method)
     return method.type == "pbd" && (method.relaxation > 1 || method.spectral_radius > 0);
 }
 
-void count(Warning warning, std::uint64_t times, std::map<std::string, std::uint64_t>& warnings)
-{
-    if (times > 0)
-        warnings[std::string(to_string(warning))] += times;
-}
-
 void judge(const View& view, StepReport& out)
 {
     const Events events = view.world.events();
@@ -372,27 +367,6 @@ void judge(const View& view, StepReport& out)
 }
 
 } // namespace
-
-std::string_view to_string(Warning warning)
-{
-    switch (warning)
-    {
-    case Warning::degenerate: return "degenerate";
-    case Warning::speed_clamp: return "speed_clamp";
-    case Warning::conflict: return "conflict";
-    case Warning::precision: return "precision";
-    case Warning::iteration_limit: return "iteration_limit";
-    case Warning::solve_failed: return "solve_failed";
-    }
-    return "unknown";
-}
-
-void add_warnings(const Events& events, std::map<std::string, std::uint64_t>& warnings)
-{
-    count(Warning::degenerate, events.degenerate, warnings);
-    count(Warning::speed_clamp, events.speed_clamped, warnings);
-    count(Warning::conflict, events.conflicts, warnings);
-}
 
 StepReport measure(const World& world)
 {

@@ -263,6 +263,12 @@ bool all_held(const PhysicalModel& model)
     for (const BendElement& h : model.hinges)
         for (std::uint32_t v : {h.edge1, h.wing0, h.wing1})
             parent[root(v)] = root(h.edge0);
+    for (const VolumeElement& e : model.volumes)
+        for (const std::uint32_t v : e.vertex)
+            parent[root(v)] = root(e.vertex[0]);
+    for (const SolidElement& e : model.solids)
+        for (const std::uint32_t v : e.vertex)
+            parent[root(v)] = root(e.vertex[0]);
     std::vector<bool> held(parent.size(), false);
     for (const ModelPin& pin : model.pins)
         held[root(pin.vertex)] = true;

@@ -1,13 +1,75 @@
 // Based on: Choi, Ko, Stable but Responsive Cloth, 2002 (the part of a compressed spring's Hessian that the
-//   projection drops); Griewank, Walther, Evaluating Derivatives, 2008 (dual numbers for the hinges).
-// Departures: a projected hinge keeps only the outer product of its gradient.
+//   projection drops); Griewank, Walther, Evaluating Derivatives, 2008 (dual numbers for the hinges); Smith,
+//   de Goes, Kim, Stable Neo-Hookean Flesh Simulation, 2018 (energy and derivative of the tetrahedra).
+// Departures: a projected hinge keeps only the outer product of its gradient; a projected tetrahedron has the
+//   eigenvalues of its 9 x 9 matrix that are negative set to zero.
 #include "taut/report/static_energy.hpp"
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 
 namespace taut::reference {
 namespace {
+
+using Real33 = Eigen::Matrix<Real, 3, 3>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+Eigen::Matrix<Real, 3, 1> column(const Vec<Real>& a) { return {a.x, a.y, a.z}; }
+
+Real33 cofactor(const Real33& f)
+{
+    Real33 out;
+    out << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
+    return out;
+}
+
+Real33 inverse_rest(const SolidElement& e)
+{
+    Real33 out;
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            out(r, c) = e.inverse_rest[c][r];
+    return out;
+}
+
+Real33 deformation(const SolidElement& e, const State& x)
+{
+    Real33 edges;
+    for (int c = 0; c < 3; ++c)
+        edges.col(c) = column(x[e.vertex[static_cast<std::size_t>(c) + 1]] - x[e.vertex[0]]);
+    return edges * inverse_rest(e);
+}
+
+Real33 stress(const SolidElement& e, const Real33& f)
+{
+    const Real share = 1 - static_cast<Real>(e.log) / (f.squaredNorm() + 1);
+    return static_cast<Real>(e.mu) * share * f +
+           static_cast<Real>(e.lambda) * (f.determinant() - static_cast<Real>(e.rest)) * cofactor(f);
+}
+
+/// dP/dF by columns of F. The cofactor is quadratic in F, so half a central difference with a step of 1 is
+/// its derivative.
+Matrix9 stress_derivative(const SolidElement& e, const Real33& at)
+{
+    const Eigen::Matrix3d f = at.cast<double>();
+    const auto flat = [](const Real33& m) {
+        const Eigen::Matrix3d narrow = m.cast<double>();
+        return Eigen::Matrix<double, 9, 1>(Eigen::Map<const Eigen::Matrix<double, 9, 1>>(narrow.data()));
+    };
+    const Eigen::Matrix<double, 9, 1> g = flat(cofactor(at)), own = flat(at);
+    const double grown = f.squaredNorm() + 1, push = e.lambda * (f.determinant() - e.rest);
+    Matrix9 out = Matrix9::Identity() * (e.mu * (1 - e.log / grown));
+    out += 2 * e.mu * e.log / (grown * grown) * own * own.transpose() + e.lambda * g * g.transpose();
+    for (int k = 0; k < 9; ++k)
+    {
+        Real33 unit = Real33::Zero();
+        unit(k % 3, k / 3) = 1;
+        out.col(k) += push / 2 * (flat(cofactor(at + unit)) - flat(cofactor(at - unit)));
+    }
+    return out;
+}
 
 Vec<double> narrow(const Vec<Real>& a)
 {
@@ -81,9 +143,53 @@ Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
     return out / h.compliance;
 }
 
+/// By the chain rule from dP/dF to the corners.
+Matrix12 solid_block(const SolidElement& e, const State& x, Curvature curvature)
+{
+    Matrix9 k = stress_derivative(e, deformation(e, x));
+    if (curvature == Curvature::projected)
+    {
+        const Eigen::SelfAdjointEigenSolver<Matrix9> solver(0.5 * (k + k.transpose()));
+        const Eigen::Matrix<double, 9, 1> kept = solver.eigenvalues().cwiseMax(0);
+        k = solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
+    }
+    const Eigen::Matrix3d b = inverse_rest(e).cast<double>();
+    Eigen::Matrix<double, 9, 12> chain = Eigen::Matrix<double, 9, 12>::Zero(); // dF by the corners
+    for (int c = 0; c < 3; ++c)
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            chain.block<3, 3>(3 * c, 3 * corner + 3) = b(corner, c) * Eigen::Matrix3d::Identity();
+            chain.block<3, 3>(3 * c, 0) -= b(corner, c) * Eigen::Matrix3d::Identity();
+        }
+    return e.rest_volume * chain.transpose() * k * chain;
+}
+
+/// Volumes beside springs as elements without shear stiffness: the same energy, V0 K/2 (J - 1)^2. F is of the
+/// unit tetrahedron, so that no rest shape is needed: V = det(edges) / 6.
+SolidElement volume_solid(const VolumeElement& v)
+{
+    SolidElement out;
+    out.vertex = v.vertex;
+    const double size = std::cbrt(6 * v.rest_volume);
+    out.inverse_rest = glm::dmat3(1 / size);
+    out.rest_volume = v.rest_volume;
+    out.lambda = v.rest_volume / v.compliance;
+    out.log = 0;
+    return out;
+}
+
+std::vector<SolidElement> all_solids(const PhysicalModel& model)
+{
+    std::vector<SolidElement> out = model.solids;
+    for (const VolumeElement& v : model.volumes)
+        out.push_back(volume_solid(v));
+    return out;
+}
+
 } // namespace
 
-StaticEnergy::StaticEnergy(const PhysicalModel& model) : model_(model), unknown_(model.mass.size(), -1)
+StaticEnergy::StaticEnergy(const PhysicalModel& model)
+    : model_(model), solids_(all_solids(model)), unknown_(model.mass.size(), -1)
 {
     for (std::size_t i = 0; i < unknown_.size(); ++i)
         if (!model.pinned[i])
@@ -109,6 +215,15 @@ Real StaticEnergy::value(const State& x) const
         const auto hinge = hinge_angle<Real>({x[h.edge0], x[h.edge1], x[h.wing0], x[h.wing1]});
         const Real angle = hinge.valid ? angle_difference(hinge.angle, h.rest_angle) : 0;
         sum += angle * angle / (2 * static_cast<Real>(h.compliance));
+    }
+    for (const SolidElement& e : solids_)
+    {
+        const Real33 f = deformation(e, x);
+        const Real square = f.squaredNorm(), volume = f.determinant() - static_cast<Real>(e.rest);
+        const Real shape = square - 3 - static_cast<Real>(e.log) * std::log((square + 1) / 4);
+        const Real at_rest = (1 - static_cast<Real>(e.rest)) * (1 - static_cast<Real>(e.rest));
+        sum += static_cast<Real>(e.rest_volume) / 2 *
+               (static_cast<Real>(e.mu) * shape + static_cast<Real>(e.lambda) * (volume * volume - at_rest));
     }
     return sum;
 }
@@ -143,6 +258,18 @@ State StaticEnergy::gradient(const State& x) const
         for (std::size_t c = 0; c < 4; ++c)
             g[v[c]] = g[v[c]] + torque * hinge.gradient[c];
     }
+    for (const SolidElement& e : solids_)
+    {
+        const Real33 pull = static_cast<Real>(e.rest_volume) * stress(e, deformation(e, x)) *
+                           inverse_rest(e).transpose();
+        for (int c = 0; c < 3; ++c)
+        {
+            const Vec<Real> part{pull(0, c), pull(1, c), pull(2, c)};
+            const std::uint32_t v = e.vertex[static_cast<std::size_t>(c) + 1];
+            g[v] = g[v] + part;
+            g[e.vertex[0]] = g[e.vertex[0]] - part;
+        }
+    }
     for (std::size_t i = 0; i < x.size(); ++i)
         if (unknown_[i] < 0)
             g[i] = {};
@@ -152,9 +279,9 @@ State StaticEnergy::gradient(const State& x) const
 Eigen::SparseMatrix<double> StaticEnergy::hessian(const State& x, Curvature curvature, double shift) const
 {
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(model_.springs.size() * 36 + model_.hinges.size() * 144 + x.size() * 3);
-    const auto add = [&](std::uint32_t a, std::uint32_t b, const auto& block)
-    {
+    entries.reserve(model_.springs.size() * 36 + (model_.hinges.size() + solids_.size()) * 144 +
+                    x.size() * 3);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, const auto& block) {
         if (unknown_[b] >= 0 && unknown_[a] >= unknown_[b]) // the lower triangle
             for (int r = 0; r < 3; ++r)
                 for (int c = 0; c < 3; ++c)
@@ -177,6 +304,14 @@ Eigen::SparseMatrix<double> StaticEnergy::hessian(const State& x, Curvature curv
         for (int r = 0; r < 4; ++r)
             for (int c = 0; c < 4; ++c)
                 add(v[static_cast<std::size_t>(r)], v[static_cast<std::size_t>(c)],
+                    Eigen::Matrix3d(k.block<3, 3>(3 * r, 3 * c)));
+    }
+    for (const SolidElement& e : solids_)
+    {
+        const Matrix12 k = solid_block(e, x, curvature);
+        for (int r = 0; r < 4; ++r)
+            for (int c = 0; c < 4; ++c)
+                add(e.vertex[static_cast<std::size_t>(r)], e.vertex[static_cast<std::size_t>(c)],
                     Eigen::Matrix3d(k.block<3, 3>(3 * r, 3 * c)));
     }
     Eigen::SparseMatrix<double> out(unknowns_, unknowns_);

@@ -33,6 +33,7 @@ public:
 
 private:
     const PhysicalModel& model_;
+    std::vector<SolidElement> solids_; ///< elastic ones, and held volumes as such without shear stiffness
     std::vector<int> unknown_;
     int unknowns_ = 0;
 };

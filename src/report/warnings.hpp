@@ -5,6 +5,9 @@
 
 namespace taut {
 
+/// Adds a count that is not 0.
+void count(Warning warning, std::uint64_t times, std::map<std::string, std::uint64_t>& warnings);
+
 /// Adds the counts that are not 0 under the words of Warning.
 void add_warnings(const Events& events, std::map<std::string, std::uint64_t>& warnings);
 

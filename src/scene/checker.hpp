@@ -51,6 +51,10 @@ private:
 /// Indices of pins, springs, masses and start positions against the number of vertices.
 void check_counts(const Body& body, std::size_t vertex_count, const Checker& out);
 
+/// Words and ranges of a shape, and of a body's material. `solid`: it has tetrahedra.
+void check_shape(const Shape& shape, const Checker& out);
+void check_material(const Material& material, bool solid, const Checker& out);
+
 /// Words and ranges of the method's settings, and of the wind.
 void check_method(const MethodSettings& method, const Checker& out);
 void check_wind(const Wind& wind, const Checker& out);

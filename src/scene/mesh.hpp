@@ -67,8 +67,8 @@ surface_of(const std::vector<std::array<std::uint32_t, 4>>& tetrahedra);
 Mesh solid_mesh(std::vector<glm::dvec3> positions, std::vector<std::array<std::uint32_t, 4>> tetrahedra,
                 const std::string& name, MeshFindings& findings);
 
-/// TetGen (.node with its .ele, either named), Gmsh (.msh), legacy VTK (.vtk), Medit (.mesh). Throws Error{io}
-/// or Error{bad_input} naming file, line and what is wrong.
+/// TetGen (.node with its .ele, either named), Gmsh (.msh), legacy VTK (.vtk), Medit (.mesh). Throws
+/// Error{io} or Error{bad_input} naming file, line and what is wrong.
 Mesh read_tetrahedra(const std::filesystem::path& file, MeshFindings* findings = nullptr);
 
 /// Written to a temporary name, then renamed. Throws Error{io}.

@@ -55,8 +55,9 @@ void read_tetrahedra(Words& words, RawSolid& out)
         {
             const std::int64_t number = words.to_integer(words.any_word(), "corner of a tetrahedron");
             if (number < 1 || static_cast<std::uint64_t>(number) > vertices)
-                words.fail("tetrahedron " + std::to_string(t + 1) + " names vertex " + std::to_string(number) +
-                           "; there are " + std::to_string(vertices) + ", numbered from 1");
+                words.fail("tetrahedron " + std::to_string(t + 1) + " names vertex " +
+                           std::to_string(number) + "; there are " + std::to_string(vertices) +
+                           ", numbered from 1");
             corner = static_cast<std::uint32_t>(number - 1);
         }
         words.to_number(words.any_word(), "reference of a tetrahedron");
@@ -90,8 +91,8 @@ RawSolid read_medit(std::string_view text, const std::string& file)
         else if (word == "Tetrahedra")
             read_tetrahedra(words, out);
         else if (passed != std::end(kPassed))
-            for (std::size_t left = count_of(words, word) * static_cast<std::size_t>(passed->numbers); left > 0;
-                 --left)
+            for (std::size_t left = count_of(words, word) * static_cast<std::size_t>(passed->numbers);
+                 left > 0; --left)
                 words.to_number(words.any_word(), "number of a passed section");
         else
             words.fail("the section " + quoted(word) + " is not known; Vertices and Tetrahedra are read");

@@ -34,16 +34,16 @@ struct Material
     double drag = 0;          ///< of a triangle along its normal in the wind, >= 0; 0 = no wind effect
     double friction_drag = 0; ///< the same across its normal (skin friction), >= 0
     /// Pa: closed cloth holds the volume V that it encloses by an energy of K/2 (V - V0)^2 / V0; 0 = no
-    /// surface_volume effect, inf = rigid. Of solids: springs hold volumes so (which, `volume` says); -1 = the
-    /// bulk modulus E / (3 (1 - 2 nu)).
+    /// surface_volume effect, inf = rigid. Of solids: springs hold volumes so (which, `volume` says); -1 =
+    /// the bulk modulus E / (3 (1 - 2 nu)).
     double volume_stiffness = 0;
 
     // Solids: tetrahedra. stretch_stiffness is not theirs.
     double youngs_modulus = 0;   ///< Pa, > 0 in solids
     double poissons_ratio = 0.3; ///< (-1, 0.5)
     /// "neo_hookean": stable neo-Hookean tetrahedra, "neo_hookean_simple": without the logarithm that keeps
-    /// them from collapsing to a point (plan/solid.hpp); "springs": springs along the edges, and constraints of
-    /// volume beside them.
+    /// them from collapsing to a point (plan/solid.hpp); "springs": springs along the edges, and constraints
+    /// of volume beside them.
     std::string model = "neo_hookean";
     /// What springs hold: the volume of each of the "tetrahedra", or the one within the "surface".
     std::string volume = "tetrahedra";
@@ -96,7 +96,8 @@ struct Pin
     std::vector<std::string>
         corners; ///< grid: "top_left", "top_right", "bottom_left", "bottom_right"; chain: "first", "last"
     std::vector<std::string> edges; ///< grid: "top", "bottom", "left", "right"
-    std::vector<std::string> faces; ///< box: "left", "right" (along x), "bottom", "top" (y), "back", "front" (z)
+    std::vector<std::string>
+        faces; ///< box: "left", "right" (along x), "bottom", "top" (y), "back", "front" (z)
     std::vector<Keyframe> motion;
 };
 

@@ -17,7 +17,8 @@ using Corners = std::array<std::uint32_t, 4>;
 
 /// Bits of a cell's corner: 1 = +x, 2 = +y, 4 = +z.
 constexpr Corners kFive[] = {{0, 3, 5, 6}, {1, 0, 3, 5}, {2, 0, 3, 6}, {4, 0, 5, 6}, {7, 3, 5, 6}};
-constexpr Corners kSix[] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
+constexpr Corners kSix[] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7},
+                            {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
 
 void turn_if_left_handed(const std::vector<glm::dvec3>& positions, Corners& t)
 {

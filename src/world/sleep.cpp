@@ -174,9 +174,10 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
     my.world = std::make_unique<World>(scene, my.device, options.world);
     my.scene = my.world->scene();
     if (!my.world->plan().kept.empty())
-        throw Error(ErrorCode::unsupported, "method \"" + my.scene.method.type +
-                                                "\" keeps more than places and speeds from step to step; bodies "
-                                                "under it cannot sleep");
+        throw Error(ErrorCode::unsupported,
+                    "method \"" + my.scene.method.type +
+                        "\" keeps more than places and speeds from step to step; bodies "
+                        "under it cannot sleep");
     const double gravity = glm::length(my.scene.gravity) > 0 ? glm::length(my.scene.gravity) : 9.81;
     my.first.push_back(0);
     for (const Body& body : my.scene.bodies)
@@ -187,7 +188,8 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
         Box rest;
         for (const glm::dvec3& x : body.mesh.positions)
             rest.add(x);
-        const bool windy = my.scene.wind.density > 0 && (body.material.drag > 0 || body.material.friction_drag > 0);
+        const bool windy =
+            my.scene.wind.density > 0 && (body.material.drag > 0 || body.material.friction_drag > 0);
         my.threshold.push_back(windy ? 0 : options.quiet_speed * std::sqrt(gravity * rest.size()));
     }
     for (const Collider& c : my.scene.colliders)
@@ -257,7 +259,8 @@ void SleepWorld::set_force(std::uint32_t vertex, const glm::dvec3& force)
 {
     Impl& my = *impl_;
     if (vertex >= my.first.back())
-        throw Error(ErrorCode::bad_input, "vertex " + std::to_string(vertex) + " is not there; the scene has " +
+        throw Error(ErrorCode::bad_input, "vertex " + std::to_string(vertex) +
+                                              " is not there; the scene has " +
                                               std::to_string(my.first.back()) + ", numbered from 0");
     const auto body = static_cast<std::size_t>(
         std::upper_bound(my.first.begin(), my.first.end(), vertex) - my.first.begin() - 1);

@@ -14,10 +14,10 @@ struct SleepOptions
     std::uint32_t quiet_looks = 2; ///< in a row, before a body falls asleep
 };
 
-/// Steps a scene without the bodies that rest. Bodies do not touch each other, so the others move bit for bit as they
-/// would beside them; one that wakes goes on, bit for bit, from the state in which it fell asleep. It wakes before a
-/// pin of its own moves, before a moving collider can reach it, and when a force is set on it. Bodies that the
-/// wind can move do not sleep.
+/// Steps a scene without the bodies that rest. Bodies do not touch each other, so the others move bit for bit
+/// as they would beside them; one that wakes goes on, bit for bit, from the state in which it fell asleep. It
+/// wakes before a pin of its own moves, before a moving collider can reach it, and when a force is set on it.
+/// Bodies that the wind can move do not sleep.
 ///
 /// Based on: Erin Catto. Box2D, islands and sleeping (the rule by speed and time).
 /// Departures: an island is a body; what sleeps has no plan, so it costs neither dispatches nor memory on the

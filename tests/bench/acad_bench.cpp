@@ -1,5 +1,5 @@
-// taut_acad_bench [FILE.csv]: what adaptive activation costs against plain springs when nothing is active, and how its
-// cost grows with the share of active springs. Prints the tables of docs/methods/acad.md.
+// taut_acad_bench [FILE.csv]: what adaptive activation costs against plain springs when nothing is active,
+// and how its cost grows with the share of active springs. Prints the tables of docs/methods/acad.md.
 
 #include "bench.hpp"
 #include "conditions.hpp"
@@ -98,7 +98,8 @@ try
     {
         worlds.push_back(world_of(k, "acad"));
         World& world = *worlds.back();
-        rivals.push_back({"acad, " + std::to_string(k) + " of 10 cloths stretched", [&world] { step(world); }});
+        rivals.push_back(
+            {"acad, " + std::to_string(k) + " of 10 cloths stretched", [&world] { step(world); }});
     }
     bench::take_turns(rivals, 15, 3);
     std::vector<double> x = {0}, y = {rivals[1].median()};
@@ -117,9 +118,9 @@ try
             y.push_back(rivals[k].median());
         }
         char line[200];
-        std::snprintf(line, sizeof line, "| %s | %.3f | %.3f | %.3f | %.2f | %.4f |\n", rivals[k].name.c_str(),
-                      share, rivals[k].median(), rivals[k].best(), rivals[k].median() / rivals[0].median(),
-                      report.max_stretch);
+        std::snprintf(line, sizeof line, "| %s | %.3f | %.3f | %.3f | %.2f | %.4f |\n",
+                      rivals[k].name.c_str(), share, rivals[k].median(), rivals[k].best(),
+                      rivals[k].median() / rivals[0].median(), report.max_stretch);
         text += line;
         csv += '"' + rivals[k].name + "\"," + shown(share, 4) + ',' + shown(rivals[k].median(), 5) + ',' +
                shown(rivals[k].best(), 5) + ',' + shown(rivals[k].median() / rivals[0].median(), 4) + ',' +

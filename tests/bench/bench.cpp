@@ -1,6 +1,6 @@
-// taut_bench [distance] [recording] [cloth] [opencloth] [solid] [FILE.csv]: prints the tables of docs/bench.md that
-// are named, or all, and, if asked, writes them as CSV.
-// Exit status 1 and one sentence when a rival computes something else, or the file cannot be written.
+// taut_bench [distance] [recording] [cloth] [opencloth] [solid] [FILE.csv]: prints the tables of
+// docs/bench.md that are named, or all, and, if asked, writes them as CSV. Exit status 1 and one sentence
+// when a rival computes something else, or the file cannot be written.
 
 #include "bench.hpp"
 #include "conditions.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// The rival for whole steps of solids: XPBD springs and volumes by colours as a programmer would write it with
-// OpenMP, no library.
+// The rival for whole steps of solids: XPBD springs and volumes by colours as a programmer would write it
+// with OpenMP, no library.
 
 #include "plain.hpp"
 
@@ -18,8 +18,9 @@ struct Tetrahedron
 class Solid
 {
 public:
-    Solid(std::vector<Vec4> position, std::vector<Constraint> springs, std::vector<std::uint32_t> spring_colours,
-          std::vector<Tetrahedron> tetrahedra, std::vector<std::uint32_t> tetrahedron_colours);
+    Solid(std::vector<Vec4> position, std::vector<Constraint> springs,
+          std::vector<std::uint32_t> spring_colours, std::vector<Tetrahedron> tetrahedra,
+          std::vector<std::uint32_t> tetrahedron_colours);
 
     void step(float seconds, int substeps, float gravity_y);
     const std::vector<Vec4>& position() const { return position_; }

@@ -1,5 +1,5 @@
-// taut_sleep_bench [FILE.csv]: a thousand bodies of which all but one sleep, against that one alone. Prints the table
-// of docs/sleep.md.
+// taut_sleep_bench [FILE.csv]: a thousand bodies of which all but one sleep, against that one alone. Prints
+// the table of docs/sleep.md.
 
 #include "bench.hpp"
 #include "conditions.hpp"
@@ -60,7 +60,8 @@ try
     }
     device->wait();
     if (many.asleep() != 999)
-        throw Error(ErrorCode::unsupported, std::to_string(many.asleep()) + " of 999 bodies sleep; nothing is timed");
+        throw Error(ErrorCode::unsupported,
+                    std::to_string(many.asleep()) + " of 999 bodies sleep; nothing is timed");
     const auto here = many.positions(), alone = one.positions();
     double error = 0;
     for (std::size_t v = 0; v < alone.size(); ++v)
@@ -86,13 +87,13 @@ try
         const double ratio = rivals[k].median() / rivals[0].median();
         const std::size_t passes = k == 0 ? one.plan().passes.size() : many.awake().plan().passes.size();
         char line[200];
-        std::snprintf(line, sizeof line, "| %s | %.3f | %.3f | %.2f | %zu | %.1g | %s |\n", rivals[k].name.c_str(),
-                      rivals[k].median(), rivals[k].best(), ratio, passes, k == 0 ? 0.0 : error,
-                      k == 0 ? "" : "1.1");
+        std::snprintf(line, sizeof line, "| %s | %.3f | %.3f | %.2f | %zu | %.1g | %s |\n",
+                      rivals[k].name.c_str(), rivals[k].median(), rivals[k].best(), ratio, passes,
+                      k == 0 ? 0.0 : error, k == 0 ? "" : "1.1");
         text += line;
-        csv += '"' + rivals[k].name + "\"," + shown(rivals[k].median(), 5) + ',' + shown(rivals[k].best(), 5) + ',' +
-               shown(ratio, 4) + ',' + std::to_string(passes) + ',' + shown(k == 0 ? 0.0 : error, 3) +
-               (k == 0 ? ",\n" : ",1.1\n");
+        csv += '"' + rivals[k].name + "\"," + shown(rivals[k].median(), 5) + ',' +
+               shown(rivals[k].best(), 5) + ',' + shown(ratio, 4) + ',' + std::to_string(passes) + ',' +
+               shown(k == 0 ? 0.0 : error, 3) + (k == 0 ? ",\n" : ",1.1\n");
     }
     std::printf("%s", text.c_str());
     if (argc > 1)

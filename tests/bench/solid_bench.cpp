@@ -1,5 +1,5 @@
-// Whole steps of a hanging box of 16^3 cells of five tetrahedra, springs and volumes, 10 substeps of one iteration,
-// against a plain coloured OpenMP program.
+// Whole steps of a hanging box of 16^3 cells of five tetrahedra, springs and volumes, 10 substeps of one
+// iteration, against a plain coloured OpenMP program.
 
 #include "bench.hpp"
 #include "plain_solid.hpp"
@@ -117,7 +117,8 @@ std::vector<Row> solid_rows()
         rows.push_back({rivals[i].name + ", hanging box of 20,480 tetrahedra, " + taut::shown(each, 3) +
                             " ns a projection, volume changed by " + taut::shown(100 * lost, 2) + " %",
                         rivals[i].median(), rivals[i].best(), i == 0 ? 0 : apart,
-                        rivals[i].median() / rivals[0].median(), i == 0 ? "" : "plain OpenMP", i == 2 ? 0.6 : 0});
+                        rivals[i].median() / rivals[0].median(), i == 0 ? "" : "plain OpenMP",
+                        i == 2 ? 0.6 : 0});
     }
     return rows;
 }

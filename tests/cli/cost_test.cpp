@@ -109,8 +109,8 @@ TEST_CASE("tune prints a method block that a scene takes, or says that nothing k
 TEST_CASE("cost by ablation has a row for each effect that a scene calls for")
 {
     const Folder folder;
-    const Result result = folder.taut({"cost", folder.file("cloth.json", scenes::cloth()), "--ablation", "--frames",
-                                       "3", "--device", "cpu:serial", "--out", folder / "study"});
+    const Result result = folder.taut({"cost", folder.file("cloth.json", scenes::cloth()), "--ablation",
+                                       "--frames", "3", "--device", "cpu:serial", "--out", folder / "study"});
     CHECK(result.status == 0);
     CHECK(result.out.find("| (the whole scene) |") != std::string::npos);
     CHECK(result.out.find("| distance |") != std::string::npos);

@@ -17,7 +17,8 @@ TEMPLATE_TEST_CASE("implicit_solid_product adds tetrahedra", "", float, double)
         const std::uint32_t count = dealt.count;
         const SolidNet<Real> in = random_solids<Real>(count, count, 1010 + count);
         Random random(1011 + count);
-        auto state = random_reals<Real>(random, std::max<std::size_t>(1, in.solids.size()) * TAUT_SOLID_STATE);
+        auto state =
+            random_reals<Real>(random, std::max<std::size_t>(1, in.solids.size()) * TAUT_SOLID_STATE);
         auto x = random_reals<Real>(random, 3 * count);
         for (std::uint32_t k = 0; k < 3 * count; ++k)
             x[k] = in.net.held[k] != 0 ? Real(0) : x[k];

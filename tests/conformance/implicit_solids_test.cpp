@@ -23,7 +23,8 @@ TEST_CASE("the reference's derivative of the stress is that of the energy's forc
                 {
                     glm::dmat3 step(0.0);
                     step[c][r] = 1e-5;
-                    const Eigen::Matrix<double, 9, 1> slope = (flat(stress_of(m, f + step)) - flat(stress_of(m, f - step))) / 2e-5;
+                    const Eigen::Matrix<double, 9, 1> slope =
+                        (flat(stress_of(m, f + step)) - flat(stress_of(m, f - step))) / 2e-5;
                     CHECK((slope - exact.col(3 * c + r)).norm() < 1e-7 * exact.norm());
                 }
         }
@@ -65,12 +66,13 @@ TEMPLATE_TEST_CASE("implicit_solids keeps stress and a positive semidefinite der
         const double square = grown * grown;
         const double push = m.lambda * (square * grown + m.rest);
         for (std::size_t e = 0; e < state.size(); ++e)
-            field.add(state[e], units * (e < 9 ? m.mu * grown + push * square
-                                               : m.mu * (1 + square) + m.lambda * square * square + push * grown));
+            field.add(state[e],
+                      units * (e < 9 ? m.mu * grown + push * square
+                                     : m.mu * (1 + square) + m.lambda * square * square + push * grown));
     }
     if (shapes > 60)
         CHECK(negative > shapes / 8);
-    // Not to the last bit: drivers reassociate within the rotations, and what they take out is then a rounding
-    // off (up to some units in the last place, within the tolerance everywhere).
+    // Not to the last bit: drivers reassociate within the rotations, and what they take out is then a
+    // rounding off (up to some units in the last place, within the tolerance everywhere).
     look_on_every_device(c, nullptr, false);
 }

@@ -35,8 +35,9 @@ Gradient gradient(const Eigen::Matrix3d& by_f, const Eigen::Matrix3d& b)
     return out;
 }
 
-/// XPBD by definition, both constraints of a tetrahedron at once: (J W J^T + alpha) dlambda = -(C + alpha lambda)
-/// by Cholesky, C = (|F|, det F - rest), alpha = (1/(mu q V h^2), 1/(lambda V h^2)), q = 1 - log/(|F|^2 + 1).
+/// XPBD by definition, both constraints of a tetrahedron at once: (J W J^T + alpha) dlambda = -(C + alpha
+/// lambda) by Cholesky, C = (|F|, det F - rest), alpha = (1/(mu q V h^2), 1/(lambda V h^2)), q = 1 -
+/// log/(|F|^2 + 1).
 template <typename Real>
 void project(State& s, const Constraint<Real>& c, std::uint32_t k)
 {
@@ -57,7 +58,9 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
     Eigen::Vector2d before(keep ? s.multiplier[4 * k] : 0, keep ? s.multiplier[4 * k + 1] : 0);
     if (s.lambda)
         for (std::size_t j = 0; j < 4; ++j)
-            s.multiplier[4 * k + j] = j < 2 ? before[static_cast<int>(j)] : keep ? s.multiplier[4 * k + j] : 0;
+            s.multiplier[4 * k + j] = j < 2  ? before[static_cast<int>(j)]
+                                      : keep ? s.multiplier[4 * k + j]
+                                             : 0;
     if (!(square > 1e-12))
     {
         s.events[TAUT_EVENT_DEGENERATE] += s.report && masses > 0 ? 1 : 0;
@@ -171,8 +174,9 @@ TEMPLATE_TEST_CASE("a neo-Hookean tetrahedron moves its corners by the two const
     check_colours<Params>(kernels::neo_hookean::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
-TEMPLATE_TEST_CASE("the tail of a colouring gives what one neo_hookean dispatch per colour gives, bit for bit",
-                   "", float, double)
+TEMPLATE_TEST_CASE(
+    "the tail of a colouring gives what one neo_hookean dispatch per colour gives, bit for bit", "", float,
+    double)
 {
     using Real = TestType;
     Mode mode;

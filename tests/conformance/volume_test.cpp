@@ -133,8 +133,8 @@ TEMPLATE_TEST_CASE("the tail of a colouring gives what one volume dispatch per c
     check_colours<Params>(kernels::volume::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
-TEMPLATE_TEST_CASE("the first volume iteration with multipliers moves vertices bitwise as the one without", "",
-                   float, double)
+TEMPLATE_TEST_CASE("the first volume iteration with multipliers moves vertices bitwise as the one without",
+                   "", float, double)
 {
     using Real = TestType;
     Random random(1360);

@@ -45,8 +45,8 @@ std::vector<MapCase> map_cases();
 std::string verdict(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
                     int most_steps);
 
-/// Settings under which the map runs a method. Solids are springs under methods without neo-Hookean tetrahedra,
-/// and hold no volumes under those that cannot.
+/// Settings under which the map runs a method. Solids are springs under methods without neo-Hookean
+/// tetrahedra, and hold no volumes under those that cannot.
 void set_method(Scene& scene, MethodKind method);
 
 } // namespace taut::hard

@@ -58,7 +58,8 @@ std::string recovered(const Journey& j)
 glm::dvec3 twisted(const glm::dvec3& x, double degrees)
 {
     const double angle = degrees * 3.14159265358979323846 / 180 * (x.x + 0.5);
-    return {x.x, std::cos(angle) * x.y - std::sin(angle) * x.z, std::sin(angle) * x.y + std::cos(angle) * x.z};
+    return {x.x, std::cos(angle) * x.y - std::sin(angle) * x.z,
+            std::sin(angle) * x.y + std::cos(angle) * x.z};
 }
 
 void add_starts(std::vector<MapCase>& out)
@@ -69,17 +70,23 @@ void add_starts(std::vector<MapCase>& out)
     };
     add("B08", "solid, one vertex pushed through its neighbours",
         [](const glm::dvec3& x, Random&) { return glm::length(x) < 1e-9 ? glm::dvec3(0.45, 0.1, 0) : x; }, 0);
-    add("B09", "solid mirrored", [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, -x.z); },
+    add(
+        "B09", "solid mirrored", [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, -x.z); },
         only(MethodKind::vbd) | only(MethodKind::implicit_euler));
-    add("B10", "solid flattened to a plane", [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, 0.5); },
-        0);
+    add(
+        "B10", "solid flattened to a plane",
+        [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, 0.5); }, 0);
     add("B11", "solid in a line, 1e-6 m of noise",
         [](const glm::dvec3& x, Random& r) { return glm::dvec3(x.x, 0, 0) + noise(r, 1e-6); }, kAllMethods);
     add("B12", "solid in a point", [](const glm::dvec3&, Random&) { return glm::dvec3(0); }, kAllMethods);
-    add("B13", "solid scrambled", [](const glm::dvec3&, Random& r) { return noise(r, 0.5); },
+    add(
+        "B13", "solid scrambled", [](const glm::dvec3&, Random& r) { return noise(r, 0.5); },
         only(MethodKind::vbd) | only(MethodKind::implicit_euler));
-    add("B14", "solid ten times too large", [](const glm::dvec3& x, Random&) { return 10.0 * x; }, kAllMethods);
-    add("B14", "solid a hundred times too small", [](const glm::dvec3& x, Random&) { return 0.01 * x; },
+    add(
+        "B14", "solid ten times too large", [](const glm::dvec3& x, Random&) { return 10.0 * x; },
+        kAllMethods);
+    add(
+        "B14", "solid a hundred times too small", [](const glm::dvec3& x, Random&) { return 0.01 * x; },
         kAllMethods);
     add("B15", "solid twisted by 360 degrees", [](const glm::dvec3& x, Random&) { return twisted(x, 360); },
         only(MethodKind::implicit_euler));
@@ -93,8 +100,9 @@ void add_materials(std::vector<MapCase>& out)
 {
     out.push_back({"B16", "solid at rest, 1,000 steps", scene_of(block(3), 0), 1000,
                    [](const Journey& j) {
-                       return first_of(above("movement", largest_distance(j.start, j.world.positions()), 1e-4),
-                                       above("volume", std::abs(j.last.volume.ratio - 1), 1e-4));
+                       return first_of(
+                           above("movement", largest_distance(j.start, j.world.positions()), 1e-4),
+                           above("volume", std::abs(j.last.volume.ratio - 1), 1e-4));
                    },
                    only(MethodKind::vbd)}); // it rounds at every vertex, and keeps the sum
     out.push_back({"A14", "solid with nu 0.4999, hung by a face",
@@ -144,7 +152,8 @@ void add_materials(std::vector<MapCase>& out)
                    [] {
                        Scene scene = scene_of(block(3), 1, {0, -9.81, 0});
                        Mesh& mesh = scene.bodies[0].mesh;
-                       // The corner of the block belongs to one tetrahedron; it is pushed near the face opposite.
+                       // The corner of the block belongs to one tetrahedron; it is pushed near the face
+                       // opposite.
                        for (auto& t : mesh.tetrahedra)
                            for (std::size_t c = 0; c < 4; ++c)
                                if (t[c] == 3)

@@ -38,7 +38,8 @@ glm::dvec3 centre_of(const std::vector<glm::dvec3>& x)
     return sum / static_cast<double>(x.size());
 }
 
-/// Root mean square distance to the rest shape after moving it to the same centre; the starts below do not turn.
+/// Root mean square distance to the rest shape after moving it to the same centre; the starts below do not
+/// turn.
 double shape_error(const Scene& scene, const std::vector<glm::dvec3>& x)
 {
     const auto& rest = scene.bodies[0].mesh.positions;

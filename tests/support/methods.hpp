@@ -25,8 +25,8 @@ inline Scene under(Scene scene, const std::string& method)
     return scene;
 }
 
-/// The words of all methods. Not acad: it holds strain by itself, so what the effects' tests ask of soft cloth
-/// does not hold under it.
+/// The words of all methods. Not acad: it holds strain by itself, so what the effects' tests ask of soft
+/// cloth does not hold under it.
 inline std::vector<std::string> methods()
 {
     std::vector<std::string> out(kMethodNames.begin(), kMethodNames.end());

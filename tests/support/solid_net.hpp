@@ -29,7 +29,8 @@ struct SolidNet
 template <typename Real>
 glm::dmat3 inverse_rest(const layout::SolidTetrahedron<Real>& t)
 {
-    return {glm::dvec3(t.b00, t.b10, t.b20), glm::dvec3(t.b01, t.b11, t.b21), glm::dvec3(t.b02, t.b12, t.b22)};
+    return {glm::dvec3(t.b00, t.b10, t.b20), glm::dvec3(t.b01, t.b11, t.b21),
+            glm::dvec3(t.b02, t.b12, t.b22)};
 }
 
 template <typename Real>
@@ -65,8 +66,9 @@ void make_solid_table(SolidNet<Real>& in)
     in.table = make_table(net, corners, 4, met);
 }
 
-/// `shapes` tetrahedra on `count` vertices, at first deformed by up to a half; then with the models and states
-/// that are special, one after the other: at rest, mirrored, flat, a point, without shear stiffness, squeezed.
+/// `shapes` tetrahedra on `count` vertices, at first deformed by up to a half; then with the models and
+/// states that are special, one after the other: at rest, mirrored, flat, a point, without shear stiffness,
+/// squeezed.
 template <typename Real>
 SolidNet<Real> random_solids(std::uint32_t count, std::uint32_t shapes, std::uint64_t seed)
 {
@@ -156,8 +158,8 @@ inline glm::dmat3 stress_of(const Elastic& m, const glm::dmat3& f)
            m.lambda * (glm::dot(f[0], glm::cross(f[1], f[2])) - m.rest) * cofactor_of(f);
 }
 
-/// dP/dF: columns are what a unit change of an entry of F does. The cofactor is quadratic in F, so half of its
-/// central difference with a step of 1 is its derivative.
+/// dP/dF: columns are what a unit change of an entry of F does. The cofactor is quadratic in F, so half of
+/// its central difference with a step of 1 is its derivative.
 inline Matrix9 stress_derivative(const Elastic& m, const glm::dmat3& f)
 {
     const double square = glm::dot(f[0], f[0]) + glm::dot(f[1], f[1]) + glm::dot(f[2], f[2]);

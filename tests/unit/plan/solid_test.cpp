@@ -42,10 +42,11 @@ TEST_CASE("the simple model pulls and thins as the golden uniaxial curves say")
     {
         double ratio, stretch, side, stress;
     };
-    const Point points[] = {{0.3, 0.7, 1.087967586552, -3.811392689e4}, {0.3, 0.9, 1.030402055055, -1.075762372e4},
-                            {0.3, 1.1, 0.970643477457, 9.365427960e3},  {0.3, 1.5, 0.869226987360, 3.831908832e4},
-                            {0.3, 2, 0.774596669241, 6.538461538e4},    {0.45, 2, 0.724568837309, 5.991379310e4},
-                            {0.49, 2, 0.710633520178, 5.864093960e4}};
+    const Point points[] = {
+        {0.3, 0.7, 1.087967586552, -3.811392689e4}, {0.3, 0.9, 1.030402055055, -1.075762372e4},
+        {0.3, 1.1, 0.970643477457, 9.365427960e3},  {0.3, 1.5, 0.869226987360, 3.831908832e4},
+        {0.3, 2, 0.774596669241, 6.538461538e4},    {0.45, 2, 0.724568837309, 5.991379310e4},
+        {0.49, 2, 0.710633520178, 5.864093960e4}};
     for (const Point& p : points)
     {
         CAPTURE(p.ratio, p.stretch);
@@ -99,8 +100,9 @@ TEST_CASE("forces of tetrahedra are the negative gradient of their energy, inver
             std::vector<glm::dvec3> more = x, less = x;
             more[k][axis] += 1e-5;
             less[k][axis] -= 1e-5;
-            CHECK(gradient[k][axis] ==
-                  Approx((volume_of(v.vertex, more) - volume_of(v.vertex, less)) / 2e-5).epsilon(1e-6).margin(1e-9));
+            CHECK(gradient[k][axis] == Approx((volume_of(v.vertex, more) - volume_of(v.vertex, less)) / 2e-5)
+                                           .epsilon(1e-6)
+                                           .margin(1e-9));
         }
 }
 

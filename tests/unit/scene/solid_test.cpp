@@ -48,7 +48,8 @@ double within(const Mesh& mesh)
 
 } // namespace
 
-TEST_CASE("a box has five or six tetrahedra a cell, all right-handed, and a closed surface that faces outwards")
+TEST_CASE(
+    "a box has five or six tetrahedra a cell, all right-handed, and a closed surface that faces outwards")
 {
     for (const bool five : {true, false})
     {
@@ -109,7 +110,8 @@ TEST_CASE("tetrahedra of a file are turned, stray vertices dropped, flat ones re
 TEST_CASE("a solid of a scene has its own defaults, its own keys, and faces to pin")
 {
     const Scene scene = resolve(parse_scene(
-        R"({"taut": 1, "bodies": [{"box": {"cells": [2, 3, 4], "size": [1, 2, 3]}, "pins": [{"face": "top"}]}]})"));
+        R"({"taut": 1,
+            "bodies": [{"box": {"cells": [2, 3, 4], "size": [1, 2, 3]}, "pins": [{"face": "top"}]}]})"));
     const Body& body = scene.bodies[0];
     CHECK(body.material.density == 1000);
     CHECK(body.material.youngs_modulus == 1e5);
