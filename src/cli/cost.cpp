@@ -1,10 +1,10 @@
 // taut cost: error against time over the settings of one or several methods.
 
-#include "taut/report/ablation.hpp"
 #include "taut/report/cost.hpp"
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/study.hpp"
+#include "taut/report/ablation.hpp"
 #include "taut/report/cost_energy.hpp"
 #include "taut/report/cost_ratio.hpp"
 #include "taut/report/method_settings.hpp"
@@ -180,11 +180,16 @@ int conserved(const CostCommand& command, const Scene& scene, CostOptions option
     return kDone;
 }
 
-int ablation(const CostCommand& command, const Scene& scene)
+int ablation(const CostCommand& command, const Scene& scene, const std::vector<SceneIssue>& issues)
 {
-    const double whole = std::ceil(scene.duration / scene.timestep - 1e-6);
-    const std::uint64_t frames = command.frames.value_or(static_cast<std::uint32_t>(std::max(whole, 1.0)));
-    const Ablation study = run_ablation(scene, open_device(command.device), frames);
+    const double whole = std::max(std::ceil(scene.duration / scene.timestep - 1e-6), 1.0);
+    const std::uint64_t asked = command.frames.value_or(0);
+    StudyProgress progress;
+    const Ablation study =
+        run_ablation(scene, open_device(command.device),
+                     asked > 0 ? asked : static_cast<std::uint64_t>(whole), progress.callback());
+    progress.end();
+    warn_of(issues);
     if (!command.folder.empty())
         write_file(command.folder / "ablation.csv", ablation_csv(study));
     std::cout << "What each effect costs: " << study.scene << " on " << study.device.name << " ("
@@ -200,14 +205,14 @@ int cost(const CostCommand& command)
     CostOptions options = study_options(command);
     if (!command.folder.empty())
         make_folder(command.folder); // before minutes of work
+    if (command.ablation)
+        return ablation(command, scene, issues);
     StudyProgress progress;
     options.progress = progress.silent();
     if (!command.ratio.empty())
         return ratios(command, scene, options);
     if (command.conserved)
         return conserved(command, scene, options);
-    if (command.ablation)
-        return ablation(command, scene);
     const auto device = open_device(command.device);
     options.progress = progress.callback();
     const CostStudy study = run_cost(scene, device, options);
@@ -251,6 +256,9 @@ void add_cost(CLI::App& app, Command& chosen)
         command->add_flag("--ablation", options->ablation,
                           "Instead: time, bytes and dispatches of each effect, by leaving it out");
     without->excludes(ratio)->excludes(kept);
+    for (const char* other :
+         {"--methods", "--substeps", "--iterations", "--precision", "--static", "--moving"})
+        without->excludes(command->get_option(other));
     command->add_option("--frames", options->frames,
                         "Moving: frames compared at most (default: the scene's)");
     command->add_option("--rest-seconds", options->rest_seconds,
@@ -263,7 +271,7 @@ void add_cost(CLI::App& app, Command& chosen)
         "--out", options->folder,
         "Folder for cost.csv, cost.json, cost.svg and cost_work.svg; with several methods also "
         "for cost_substeps.svg and cost_iterations.svg");
-    command->add_flag("--json", options->json, "Print the study as one JSON object");
+    command->add_flag("--json", options->json, "Print the study as one JSON object")->excludes(without);
     command->callback([&chosen, options] { chosen = [options] { return cost(*options); }; });
 }
 

@@ -157,7 +157,7 @@ private:
     MeshSequence meshes_;
     std::uint64_t torn_ = 0;
     bool has_volume_ = measure_volume(simulation_.scene(), simulation_.positions()).any;
-    double volume_min_ = 1;
+    double volume_min_ = measure_volume(simulation_.scene(), simulation_.positions()).ratio;
     std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
 };
 

@@ -63,10 +63,15 @@ std::vector<Run> make_runs(const Scene& scene, const std::shared_ptr<Device>& de
     return runs;
 }
 
-void step_in_turns(std::vector<Run>& runs, std::uint64_t frames)
+/// The frames that were run.
+std::uint64_t step_in_turns(std::vector<Run>& runs, std::uint64_t frames,
+                            const std::function<bool(std::size_t, std::size_t)>& progress)
 {
     using Clock = std::chrono::steady_clock;
     for (std::uint64_t k = 0; k < frames; ++k)
+    {
+        if (k > 0 && progress && !progress(k, frames))
+            return k;
         for (Run& run : runs)
         {
             if (!run.world)
@@ -76,6 +81,8 @@ void step_in_turns(std::vector<Run>& runs, std::uint64_t frames)
             run.world->device().wait();
             run.times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
         }
+    }
+    return frames;
 }
 
 double median(std::vector<double> values)
@@ -107,14 +114,14 @@ std::vector<std::string> cells(const AblationRow& row)
 
 } // namespace
 
-Ablation run_ablation(const Scene& scene, std::shared_ptr<Device> device, std::uint64_t frames)
+Ablation run_ablation(const Scene& scene, std::shared_ptr<Device> device, std::uint64_t frames,
+                      const std::function<bool(std::size_t, std::size_t)>& progress)
 {
     Ablation out;
     out.scene = scene.name;
     out.device = device->info();
-    out.frames = frames;
     std::vector<Run> runs = make_runs(scene, device);
-    step_in_turns(runs, frames);
+    out.frames = step_in_turns(runs, frames, progress);
     const Accounts whole = accounts_of(runs[0].world->plan());
     const ErrorWeights weights = error_weights(make_model(scene));
     const std::vector<glm::dvec3> end = runs[0].world->positions();

@@ -5,6 +5,7 @@
 #include "taut/scene/scene.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,8 +33,10 @@ struct Ablation
 };
 
 /// Runs the scene and its variants step by step in turns, so that a disturbance meets all of them. "motion"
-/// stays: nothing moves without it. Throws what World throws for the whole scene.
-Ablation run_ablation(const Scene& resolved, std::shared_ptr<Device> device, std::uint64_t frames);
+/// stays: nothing moves without it. `progress` is asked after every frame whether to go on; may be empty.
+/// Throws what World throws for the whole scene.
+Ablation run_ablation(const Scene& resolved, std::shared_ptr<Device> device, std::uint64_t frames,
+                      const std::function<bool(std::size_t done, std::size_t total)>& progress = {});
 
 std::string ablation_markdown(const Ablation& ablation);
 std::string ablation_csv(const Ablation& ablation);

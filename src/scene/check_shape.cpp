@@ -77,6 +77,15 @@ void check_solid(const Material& material, const Checker& out)
     out.word("volume", material.volume, volumes);
     if (material.tear_strain > 0)
         out.error("tear_strain", "is " + shown(material.tear_strain) + "; solids do not tear");
+    if (material.model == "springs")
+        return;
+    const std::string none = ", which does nothing: only model \"springs\" has springs and held volumes";
+    if (material.strain_limit > 0)
+        out.warning("strain_limit", "is " + shown(material.strain_limit) + none);
+    if (material.stretch_damping > 0)
+        out.warning("stretch_damping", "is " + shown(material.stretch_damping) + none);
+    if (material.volume_stiffness != -1)
+        out.warning("volume_stiffness", "is " + shown(material.volume_stiffness) + none);
 }
 
 } // namespace

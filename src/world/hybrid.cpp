@@ -30,7 +30,8 @@ double milliseconds_since(Clockwork::time_point start)
 
 std::uint64_t work_of(const Body& body)
 {
-    return body.mesh.positions.size() + stretch_elements(body).size() + 2 * bend_elements(body).size();
+    return body.mesh.positions.size() + stretch_elements(body).size() + 2 * bend_elements(body).size() +
+           2 * body.mesh.tetrahedra.size();
 }
 
 /// One side: a device and the world of its bodies, if it has any.

@@ -44,10 +44,14 @@ double reach(const Collider& c)
 bool comes_near(const Collider& c, double from, double to, const Box& box, double margin)
 {
     const glm::dvec3 before = pose(c.motion, from, c.point), after = pose(c.motion, to, c.point);
-    // A turn moves the far end of an arm as long as the collider.
-    const glm::dvec3 arm = c.point + glm::dvec3(0, 0, reach(c)) + glm::dvec3(reach(c), reach(c), 0);
-    const double moved = std::max(glm::distance(before, after),
-                                  glm::distance(pose(c.motion, from, arm), pose(c.motion, to, arm)));
+    // A turn moves the far ends of three arms as long as the collider; no turn leaves all of them.
+    double moved = glm::distance(before, after);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        glm::dvec3 arm = c.point;
+        arm[axis] += reach(c);
+        moved = std::max(moved, glm::distance(pose(c.motion, from, arm), pose(c.motion, to, arm)));
+    }
     if (!(moved > 0))
         return false;
     if (c.kind == ColliderKind::plane)
@@ -85,6 +89,7 @@ struct SleepWorld::Impl
     std::vector<double> threshold;    ///< m/s, by body; 0 = never sleeps
     Carried carried;                  ///< of those that sleep, as they fell asleep
     std::vector<glm::dvec3> resting;  ///< m, where they lie; scene-wide
+    std::vector<glm::dvec3> seen;     ///< m, at the last look
     std::vector<Box> box;             ///< of those that sleep
     std::vector<Collider> moving;     ///< colliders with a motion
     std::vector<std::uint32_t> led;   ///< bodies with a pin that has one
@@ -124,15 +129,22 @@ void SleepWorld::Impl::plan_anew(const std::vector<bool>& now)
 /// Counts quiet looks, and lets those sleep that have had enough of them.
 void SleepWorld::Impl::look()
 {
-    const std::vector<glm::dvec3> v = world->velocities();
+    const std::vector<glm::dvec3> v = world->velocities(), x = world->positions();
     std::vector<bool> now = sleeping;
     for (std::size_t own = 0; own < awake.size(); ++own)
     {
         const std::uint32_t b = awake[own];
-        double fastest = 0;
+        // What is no number is not quiet; and what swings is fast between two looks, so it is elsewhere.
+        const double far = threshold[b] * static_cast<double>(options.look_every) * scene.timestep;
+        bool rests = true;
         for (std::uint32_t k = world->plan().body_start[own]; k < world->plan().body_start[own + 1]; ++k)
-            fastest = std::max(fastest, glm::length(v[k]));
-        quiet[b] = fastest < threshold[b] ? quiet[b] + 1 : 0;
+        {
+            glm::dvec3& last = seen[first[b] + (k - world->plan().body_start[own])];
+            const bool near = quiet[b] == 0 || glm::distance(x[k], last) < far;
+            rests = rests && near && glm::length(v[k]) < threshold[b];
+            last = x[k];
+        }
+        quiet[b] = rests ? quiet[b] + 1 : 0;
         now[b] = quiet[b] >= options.quiet_looks;
     }
     if (now != sleeping)
@@ -178,6 +190,13 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
                     "method \"" + my.scene.method.type +
                         "\" keeps more than places and speeds from step to step; bodies "
                         "under it cannot sleep");
+    if (!my.world->plan().solvers.empty())
+        throw Error(ErrorCode::unsupported,
+                    "method \"" + my.scene.method.type +
+                        "\" solves for all bodies as one system, so one that is not "
+                        "there would change the others; bodies under it cannot sleep");
+    // The stiffest body may be the one that sleeps; the others keep its substeps.
+    my.scene.method.substeps = my.world->plan().substeps;
     const double gravity = glm::length(my.scene.gravity) > 0 ? glm::length(my.scene.gravity) : 9.81;
     my.first.push_back(0);
     for (const Body& body : my.scene.bodies)
@@ -206,6 +225,7 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
     my.quiet.assign(count, 0);
     my.box.resize(count);
     my.resting.resize(my.first.back());
+    my.seen.resize(my.first.back());
 }
 
 SleepWorld::~SleepWorld() = default;
@@ -262,8 +282,8 @@ void SleepWorld::set_force(std::uint32_t vertex, const glm::dvec3& force)
         throw Error(ErrorCode::bad_input, "vertex " + std::to_string(vertex) +
                                               " is not there; the scene has " +
                                               std::to_string(my.first.back()) + ", numbered from 0");
-    const auto body = static_cast<std::size_t>(
-        std::upper_bound(my.first.begin(), my.first.end(), vertex) - my.first.begin() - 1);
+    const auto body = static_cast<std::size_t>(std::upper_bound(my.first.begin(), my.first.end(), vertex) -
+                                               my.first.begin() - 1);
     if (my.sleeping[body])
     {
         std::vector<bool> now = my.sleeping;

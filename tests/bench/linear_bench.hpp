@@ -4,6 +4,7 @@
 #include "bench.hpp"
 
 #include "taut/linear/sparse.hpp"
+#include "taut/runtime/base/csv.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -88,8 +89,6 @@ void run_residuals(const PrecisionOptions& options, const std::string& condition
 /// Empty, and a line on standard error, where there is none.
 std::filesystem::path matrix_folder();
 
-/// `text` as a CSV cell, quoted where it must be.
-std::string cell(const std::string& text);
 
 /// The upper one of two; at least one value.
 double median_of(std::vector<double> values);

@@ -214,7 +214,7 @@ std::string csv(const std::vector<Peer>& peers, const std::vector<Ratio>& ratios
         "\nkind,what,iterations,median_ms,best_ms,true_residual,forward_error,value,to,target\n";
     const auto line = [&](const std::vector<std::string>& cells) {
         for (std::size_t i = 0; i < cells.size(); ++i)
-            text += (i > 0 ? "," : "") + cell(cells[i]);
+            text += (i > 0 ? "," : "") + taut::csv_cell(cells[i]);
         text += '\n';
     };
     const auto number = [](double value) { return taut::shown(value, 6); };

@@ -195,7 +195,7 @@ std::string csv(const std::vector<Study>& studies, const std::string& conditions
                         taut::shown(w.report.relative_residual, 4) + ',' + taut::shown(w.error, 4) + ',' +
                         std::string(to_string(w.report.status)) + ",\n";
             else
-                text += ",,,,,," + cell(w.refused) + '\n';
+                text += ",,,,,," + taut::csv_cell(w.refused) + '\n';
         }
     return text;
 }

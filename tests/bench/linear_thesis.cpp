@@ -277,7 +277,7 @@ std::string csv(const std::vector<Entry>& entries, const std::string& conditions
                     taut::shown(e.report.relative_residual, 4) + ',' +
                     std::string(to_string(e.report.status)) + ",\n";
         else
-            text += ",,,,,," + cell(e.refused) + '\n';
+            text += ",,,,,," + taut::csv_cell(e.refused) + '\n';
     }
     return text;
 }

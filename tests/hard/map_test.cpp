@@ -60,6 +60,8 @@ void set_method(Scene& scene, MethodKind method)
             body.material.model = "springs";
         if (!find_method(method).volumes)
             body.material.volume_stiffness = 0;
+        if (method == MethodKind::implicit_constraints && is_solid(body.shape.kind))
+            m.linear_operator = "matrix_free"; // rows of tetrahedra have no matrix
     }
 }
 

@@ -136,4 +136,27 @@ TEST_CASE("a world that sleeps gives its state to a whole one, and refuses metho
         body.material.volume_stiffness = 0;
     }
     CHECK_THROWS_WITH(SleepWorld(other, test_device("cpu:serial")), Contains("cannot sleep"));
+    Scene linear = scene;
+    linear.method.type = "implicit_euler";
+    CHECK_THROWS_WITH(SleepWorld(linear, test_device("cpu:serial")), Contains("as one system"));
+}
+
+TEST_CASE("the others keep the substeps of the stiffest body when it sleeps")
+{
+    Scene scene = blocks(2);
+    scene.method.type = "mass_spring";
+    scene.method.stability = "substep";
+    for (Body& body : scene.bodies)
+    {
+        body.material.model = "springs";
+        body.material.volume_stiffness = 0;
+    }
+    scene.bodies[0].material.youngs_modulus = 4e6;
+    scene.bodies[1].velocity = {0, 20, 0};
+    SleepWorld world(scene, test_device("cpu:serial"));
+    const std::uint32_t substeps = world.awake().plan().substeps;
+    for (int k = 0; k < 230 && world.asleep() == 0; ++k)
+        world.step();
+    REQUIRE(world.asleep(0));
+    CHECK(world.awake().plan().substeps == substeps);
 }
