@@ -1,5 +1,5 @@
 #pragma once
-// Internal to src/plan and src/report: closed surfaces of triangles and the volume within them, in fp64.
+// Closed surfaces of triangles and the volume within them, in fp64.
 
 #include "taut/scene/scene.hpp"
 
