@@ -115,7 +115,7 @@ private:
         ++done_;
         if (has_volume_)
             volume_min_ =
-                std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).ratio);
+                std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).least);
         finite_ = simulation_.events().non_finite == 0;
     }
 
@@ -157,7 +157,7 @@ private:
     MeshSequence meshes_;
     std::uint64_t torn_ = 0;
     bool has_volume_ = measure_volume(simulation_.scene(), simulation_.positions()).any;
-    double volume_min_ = measure_volume(simulation_.scene(), simulation_.positions()).ratio;
+    double volume_min_ = measure_volume(simulation_.scene(), simulation_.positions()).least;
     std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
 };
 

@@ -4,7 +4,7 @@
 #include "taut/cli/mesher.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/process.hpp"
-#include "taut/report/volume.hpp"
+#include "taut/plan/surface.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -53,38 +53,15 @@ fs::path out_file(const TetrahedraliseCommand& command)
     return out;
 }
 
-/// Edges that are not passed once each way: none where a surface is closed and all triangles are wound alike.
-std::size_t open_edges(const Mesh& mesh)
-{
-    std::vector<std::array<std::uint32_t, 3>> sides; // smaller, larger, direction
-    for (const auto& t : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-            sides.push_back({std::min(a, b), std::max(a, b), a < b});
-        }
-    std::sort(sides.begin(), sides.end());
-    std::size_t open = 0;
-    for (std::size_t k = 0; k < sides.size();)
-    {
-        std::size_t end = k, forward = 0;
-        for (; end < sides.size() && sides[end][0] == sides[k][0] && sides[end][1] == sides[k][1]; ++end)
-            forward += sides[end][2];
-        open += 2 * forward != end - k;
-        k = end;
-    }
-    return open;
-}
-
 /// Closed, wound alike, seen counter-clockwise from outside.
 Mesh read_surface(const std::string& file, double& volume)
 {
     Mesh surface = read_mesh(file, 0);
-    if (const std::size_t open = open_edges(surface); open > 0)
+    if (const std::size_t open = unpaired_edges(surface.triangles).size(); open > 0)
         throw Error(ErrorCode::bad_input,
                     file + ": it encloses no volume: " + counted(open, "edge is", "edges are") +
                         " not shared by triangles that are wound alike; close its holes first.");
-    volume = enclosed_volume(surface, surface.positions);
+    volume = enclosed_volume(surface.triangles, surface.positions);
     if (volume < 0)
         for (auto& triangle : surface.triangles)
             std::swap(triangle[1], triangle[2]);
@@ -114,10 +91,10 @@ std::pair<Mesher, fs::path> choose_mesher(const std::string& wanted)
 
 void check_solid(const Mesh& solid, double volume, const std::string& name)
 {
-    if (const std::size_t open = open_edges(solid); open > 0)
+    if (const std::size_t open = unpaired_edges(solid.triangles).size(); open > 0)
         throw Unsound{"the result of " + name + " has a surface that is not closed at " +
                       counted(open, "edge", "edges") + "; another program may do better (--program)."};
-    const double filled = enclosed_volume(solid, solid.positions);
+    const double filled = enclosed_volume(solid.triangles, solid.positions);
     if (!(std::abs(filled - volume) <= kVolumeTolerance * volume))
         throw Unsound{"the result of " + name + " fills " + shown(filled, 4) + ", the surface encloses " +
                       shown(volume, 4) +
@@ -170,7 +147,7 @@ struct Made
 void show(const TetrahedraliseCommand& command, const Made& made, const Mesh& solid,
           const MeshFindings& findings)
 {
-    const double filled = enclosed_volume(solid, solid.positions), largest = largest_volume(solid);
+    const double filled = enclosed_volume(solid.triangles, solid.positions), largest = largest_volume(solid);
     if (command.json)
         std::cout << to_text({{"taut", TAUT_VERSION},
                               {"surface", command.surface},

@@ -20,16 +20,23 @@ namespace taut {
 namespace {
 
 constexpr Method kMethods[] = {
-    // contacts each iteration, keeps the guess, check, holds volumes, has neo-Hookean, holds the surface's
-    // volume, substeps
-    {MethodKind::mass_spring, false, false, check_mass_spring, false, false, true, stable_substeps},
-    {MethodKind::implicit_euler, false, true, check_implicit_euler, true, true, false, nullptr},
-    {MethodKind::implicit_constraints, false, false, check_implicit_constraints, true, false, false,
-     stable_substeps},
-    {MethodKind::acad, false, false, check_acad, false, false, false, stable_substeps},
-    {MethodKind::pbd, true, false, check_pbd, true, false, false, nullptr},
-    {MethodKind::xpbd, true, false, nullptr, true, true, false, nullptr},
-    {MethodKind::vbd, false, true, check_vbd, true, true, false, nullptr},
+    {.kind = MethodKind::mass_spring,
+     .check = check_mass_spring,
+     .surface_volume = true,
+     .substeps = stable_substeps},
+    {.kind = MethodKind::implicit_euler,
+     .keeps_guess = true,
+     .check = check_implicit_euler,
+     .volumes = true,
+     .elastic = true},
+    {.kind = MethodKind::implicit_constraints,
+     .check = check_implicit_constraints,
+     .volumes = true,
+     .substeps = stable_substeps},
+    {.kind = MethodKind::acad, .check = check_acad, .substeps = stable_substeps},
+    {.kind = MethodKind::pbd, .contact_each_iteration = true, .check = check_pbd, .volumes = true},
+    {.kind = MethodKind::xpbd, .contact_each_iteration = true, .volumes = true, .elastic = true},
+    {.kind = MethodKind::vbd, .keeps_guess = true, .check = check_vbd, .volumes = true, .elastic = true},
 };
 
 } // namespace

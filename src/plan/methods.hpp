@@ -41,15 +41,16 @@ struct Method
 {
     MethodKind kind;
     /// Contacts after every iteration of the solver (position-based methods), or once, after the last.
-    bool contact_each_iteration;
+    bool contact_each_iteration = false;
     /// The inertial guess of each substep's displacement is kept beside the displacement.
-    bool keeps_guess;
+    bool keeps_guess = false;
     /// Throws Error{unsupported, bad_timestep, ...} for what the method cannot do; may be null.
-    void (*check)(const Scene& resolved, const DeviceTraits&);
-    bool volumes, elastic; ///< can hold volumes of tetrahedra; can move neo-Hookean ones
-    bool surface_volume;   ///< can hold the volume within a closed surface
+    void (*check)(const Scene& resolved, const DeviceTraits&) = nullptr;
+    bool volumes = false;        ///< can hold volumes of tetrahedra
+    bool elastic = false;        ///< can move neo-Hookean tetrahedra
+    bool surface_volume = false; ///< can hold the volume within a closed surface
     /// Substeps that the method takes; null: as the scene says. Throws Error{unstable_timestep}.
-    Substeps (*substeps)(const Scene& resolved);
+    Substeps (*substeps)(const Scene& resolved) = nullptr;
 };
 
 const Method& find_method(MethodKind kind);

@@ -24,6 +24,20 @@ glm::dmat3 edges(const std::array<std::uint32_t, 4>& v, std::span<const glm::dve
     return {x[v[1]] - x[v[0]], x[v[2]] - x[v[0]], x[v[3]] - x[v[0]]};
 }
 
+/// One of the same material for every tetrahedron.
+std::vector<SolidElement> elements_like(SolidElement element, const Mesh& mesh)
+{
+    std::vector<SolidElement> out;
+    for (const auto& t : mesh.tetrahedra)
+    {
+        element.vertex = t;
+        element.inverse_rest = glm::inverse(edges(t, mesh.positions));
+        element.rest_volume = six_volumes(mesh.positions, t) / 6;
+        out.push_back(element);
+    }
+    return out;
+}
+
 } // namespace
 
 double bulk_modulus(const Material& m)
@@ -58,9 +72,8 @@ std::vector<VolumeElement> volume_elements(const Body& body)
 
 std::vector<SolidElement> solid_elements(const Body& body)
 {
-    std::vector<SolidElement> out;
     if (!is_elastic(body))
-        return out;
+        return {};
     const double e = body.material.youngs_modulus, nu = body.material.poissons_ratio;
     const double lame_mu = e / (2 * (1 + nu)), lame_lambda = e * nu / ((1 + nu) * (1 - 2 * nu));
     const bool log = body.material.model == "neo_hookean";
@@ -69,32 +82,17 @@ std::vector<SolidElement> solid_elements(const Body& body)
     element.mu = log ? 4.0 / 3 * lame_mu : lame_mu;
     element.lambda = log ? lame_lambda + 5.0 / 6 * lame_mu : lame_lambda + lame_mu;
     element.rest = 1 + element.mu / element.lambda * (log ? 0.75 : 1);
-    for (const auto& t : body.mesh.tetrahedra)
-    {
-        element.vertex = t;
-        element.inverse_rest = glm::inverse(edges(t, body.mesh.positions));
-        element.rest_volume = six_volumes(body.mesh.positions, t) / 6;
-        out.push_back(element);
-    }
-    return out;
+    return elements_like(element, body.mesh);
 }
 
 std::vector<SolidElement> volume_solids(const Body& body)
 {
-    std::vector<SolidElement> out;
     if (!holds_volumes(body))
-        return out;
+        return {};
     SolidElement element;
     element.lambda = bulk_modulus(body.material);
     element.log = 0;
-    for (const auto& t : body.mesh.tetrahedra)
-    {
-        element.vertex = t;
-        element.inverse_rest = glm::inverse(edges(t, body.mesh.positions));
-        element.rest_volume = six_volumes(body.mesh.positions, t) / 6;
-        out.push_back(element);
-    }
-    return out;
+    return elements_like(element, body.mesh);
 }
 
 double volume_of(const std::array<std::uint32_t, 4>& v, std::span<const glm::dvec3> x)

@@ -15,12 +15,6 @@ namespace {
 /// What a surface of this area [m^2] has to enclose at least, as a share of area^1.5 (a ball: 0.094).
 constexpr double kLeastVolume = 1e-9;
 
-/// How often triangles run along an edge, upwards by vertex number and downwards.
-struct Runs
-{
-    std::uint32_t up = 0, down = 0;
-};
-
 } // namespace
 
 bool holds_surface_volume(const Body& body)
@@ -40,29 +34,38 @@ SurfaceElement surface_element(const Body& body)
     return out;
 }
 
-void check_surface(const Body& body, const std::string& where)
+std::vector<UnpairedEdge> unpaired_edges(std::span<const std::array<std::uint32_t, 3>> triangles)
 {
-    std::map<std::array<std::uint32_t, 2>, Runs> edges;
-    double area = 0;
-    const std::vector<glm::dvec3>& x = body.mesh.positions;
-    for (const auto& t : body.mesh.triangles)
-    {
-        area += 0.5 * glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+    std::map<std::array<std::uint32_t, 2>, UnpairedEdge> edges;
+    for (const auto& t : triangles)
         for (std::size_t k = 0; k < 3; ++k)
         {
             const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-            Runs& runs = edges[{std::min(from, to), std::max(from, to)}];
-            ++(from < to ? runs.up : runs.down);
+            const std::array<std::uint32_t, 2> ends = {std::min(from, to), std::max(from, to)};
+            UnpairedEdge& edge = edges.try_emplace(ends, UnpairedEdge{ends[0], ends[1]}).first->second;
+            ++(from < to ? edge.up : edge.down);
         }
-    }
-    for (const auto& [edge, runs] : edges)
+    std::vector<UnpairedEdge> out;
+    for (const auto& [ends, edge] : edges)
+        if (edge.up != edge.down)
+            out.push_back(edge);
+    return out;
+}
+
+void check_surface(const Body& body, const std::string& where)
+{
+    double area = 0;
+    const std::vector<glm::dvec3>& x = body.mesh.positions;
+    for (const auto& t : body.mesh.triangles)
+        area += 0.5 * glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+    const std::vector<UnpairedEdge> unpaired = unpaired_edges(body.mesh.triangles);
+    if (!unpaired.empty())
     {
-        if (runs.up == runs.down)
-            continue;
+        const UnpairedEdge& first = unpaired.front();
         const std::string between =
-            " between the vertices " + std::to_string(edge[0]) + " and " + std::to_string(edge[1]);
+            " between the vertices " + std::to_string(first.low) + " and " + std::to_string(first.high);
         throw Error(ErrorCode::bad_input,
-                    where + (runs.up + runs.down == 1
+                    where + (first.up + first.down == 1
                                  ? ", but the surface is open at the edge" + between +
                                        "; close it, or set volume_stiffness to 0"
                                  : ", but triangles at the edge" + between +

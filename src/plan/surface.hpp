@@ -25,6 +25,16 @@ bool holds_surface_volume(const Body& body);
 /// That of a body for which holds_surface_volume.
 SurfaceElement surface_element(const Body& body);
 
+/// An edge, and how often triangles run along it: upwards by vertex number, and downwards.
+struct UnpairedEdge
+{
+    std::uint32_t low = 0, high = 0; ///< vertices
+    std::uint32_t up = 0, down = 0;
+};
+/// Edges that are not run along equally often both ways, ascending: none where a surface is closed and all
+/// its triangles look to the same side.
+std::vector<UnpairedEdge> unpaired_edges(std::span<const std::array<std::uint32_t, 3>> triangles);
+
 /// Throws Error{bad_input} where a surface is open or its triangles do not all look to the same side, and
 /// Error{degenerate_rest} where it encloses nothing. `where` begins the message.
 void check_surface(const Body& body, const std::string& where);

@@ -28,7 +28,7 @@ void look(const World& world, CompareRow& row)
     row.report = measure(world);
     row.worst_stretch = std::max(row.worst_stretch, row.report.max_stretch);
     row.worst_rms_stretch = std::max(row.worst_rms_stretch, row.report.rms_stretch);
-    row.smallest_volume = std::min(row.smallest_volume, row.report.volume.ratio);
+    row.smallest_volume = std::min(row.smallest_volume, row.report.volume.least);
     row.highest_energy =
         std::max(row.highest_energy, row.report.kinetic_energy + row.report.potential_energy);
 }

@@ -13,6 +13,7 @@ void add_ratio(double ratio, VolumeReport& out)
 {
     if (!out.any || std::abs(ratio - 1) > std::abs(out.ratio - 1))
         out.ratio = ratio;
+    out.least = out.any ? std::min(out.least, ratio) : ratio;
     out.any = true;
 }
 
@@ -33,11 +34,6 @@ void add_tetrahedra(const Mesh& mesh, std::span<const glm::dvec3> now, VolumeRep
 
 } // namespace
 
-double enclosed_volume(const Mesh& mesh, std::span<const glm::dvec3> x)
-{
-    return enclosed_volume(mesh.triangles, x);
-}
-
 VolumeReport measure_volume(const Scene& scene, std::span<const glm::dvec3> positions)
 {
     VolumeReport out;
@@ -49,7 +45,10 @@ VolumeReport measure_volume(const Scene& scene, std::span<const glm::dvec3> posi
         if (!body.mesh.tetrahedra.empty())
             add_tetrahedra(body.mesh, now, out);
         else if (holds_surface_volume(body))
-            add_ratio(enclosed_volume(body.mesh, now) / enclosed_volume(body.mesh, body.mesh.positions), out);
+        {
+            const auto& triangles = body.mesh.triangles;
+            add_ratio(enclosed_volume(triangles, now) / enclosed_volume(triangles, body.mesh.positions), out);
+        }
         first += count;
     }
     return out;

@@ -12,15 +12,12 @@ struct VolumeReport
 {
     bool any = false;             ///< the scene has a body with a volume
     double ratio = 1;             ///< V / V0 of the body that is furthest from 1; V signed
+    double least = 1;             ///< V / V0 of the body that has least of its own
     double worst_element = 0;     ///< largest |V - V0| / V0 of a tetrahedron
     std::uint64_t inverted = 0;   ///< tetrahedra with V <= 0
 };
 
 /// Bodies with tetrahedra, and closed cloth that holds its volume. `positions`: scene-wide vertices, m.
 VolumeReport measure_volume(const Scene& resolved, std::span<const glm::dvec3> positions);
-
-/// m^3 within a closed surface, signed: a sixth of the triple products of its triangles, about their first
-/// corner.
-double enclosed_volume(const Mesh& mesh, std::span<const glm::dvec3> positions);
 
 } // namespace taut

@@ -6,36 +6,45 @@
 
 namespace taut::scene_file {
 
+namespace {
+
+KeySet method_keys()
+{
+    return {"method",
+            {"type",
+             "substeps",
+             "iterations",
+             "precision",
+             "integrator",
+             "stability",
+             "scheme",
+             "stretch",
+             "bend",
+             "volume",
+             "relaxation",
+             "linear_iterations",
+             "linear_tolerance",
+             "linear_operator",
+             "line_search",
+             "constrained",
+             "constraint_compliance",
+             "activate_strain",
+             "release_strain",
+             "release",
+             "target",
+             "start",
+             "spectral_radius"}};
+}
+
+} // namespace
+
 std::span<const KeySet> all_keys()
 {
     static const std::vector<KeySet> sets = {
         {"scene",
          {"taut", "name", "timestep", "duration", "gravity", "damping", "max_speed", "depenetration_speed",
           "external_forces", "method", "wind", "bodies", "colliders"}},
-        {"method",
-         {"type",
-          "substeps",
-          "iterations",
-          "precision",
-          "integrator",
-          "stability",
-          "scheme",
-          "stretch",
-          "bend",
-          "volume",
-          "relaxation",
-          "linear_iterations",
-          "linear_tolerance",
-          "linear_operator",
-          "line_search",
-          "constrained",
-          "constraint_compliance",
-          "activate_strain",
-          "release_strain",
-          "release",
-          "target",
-          "start",
-          "spectral_radius"}},
+        method_keys(),
         {"wind", {"density", "velocity", "keys"}},
         {"wind key", {"time", "velocity"}},
         {"body",

@@ -24,7 +24,8 @@ constexpr double kRigid = std::numeric_limits<double>::infinity();
 double share(const World& world) // V / V0
 {
     const Mesh& mesh = world.scene().bodies[0].mesh;
-    return enclosed_volume(mesh, world.positions()) / enclosed_volume(mesh, mesh.positions);
+    return enclosed_volume(mesh.triangles, world.positions()) /
+           enclosed_volume(mesh.triangles, mesh.positions);
 }
 
 /// The sphere of 258 vertices and radius 1, half a radius above the floor.
@@ -213,14 +214,14 @@ TEST_CASE("pressure of a compliant volume carries the load that its bulk modulus
     scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
     for (glm::dvec3& x : scene.bodies[0].start_positions)
         x *= 1.01;
-    const double volume = enclosed_volume(scene.bodies[0].mesh, scene.bodies[0].mesh.positions);
+    const double volume = enclosed_volume(scene.bodies[0].mesh.triangles, scene.bodies[0].mesh.positions);
     for (const std::uint32_t iterations : {1u, 3u})
     {
         scene.method.iterations = iterations;
         World world(scene, test_device("cpu:serial"));
         world.step();
         // p = K (V - V0) / V0, and the area vector of a vertex is its gradient: a = -p g / m.
-        const double pressure = 1e3 * (enclosed_volume(scene.bodies[0].mesh, world.positions()) / volume - 1);
+        const double pressure = 1e3 * (enclosed_volume(scene.bodies[0].mesh.triangles, world.positions()) / volume - 1);
         std::vector<glm::dvec3> g(scene.bodies[0].mesh.positions.size(), glm::dvec3(0));
         add_volume_gradient(scene.bodies[0].mesh.triangles, world.positions(), 1, g);
         for (std::size_t v = 0; v < g.size(); v += 17)
