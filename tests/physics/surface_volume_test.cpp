@@ -221,7 +221,8 @@ TEST_CASE("pressure of a compliant volume carries the load that its bulk modulus
         World world(scene, test_device("cpu:serial"));
         world.step();
         // p = K (V - V0) / V0, and the area vector of a vertex is its gradient: a = -p g / m.
-        const double pressure = 1e3 * (enclosed_volume(scene.bodies[0].mesh.triangles, world.positions()) / volume - 1);
+        const double pressure =
+            1e3 * (enclosed_volume(scene.bodies[0].mesh.triangles, world.positions()) / volume - 1);
         std::vector<glm::dvec3> g(scene.bodies[0].mesh.positions.size(), glm::dvec3(0));
         add_volume_gradient(scene.bodies[0].mesh.triangles, world.positions(), 1, g);
         for (std::size_t v = 0; v < g.size(); v += 17)
