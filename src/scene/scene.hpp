@@ -3,6 +3,7 @@
 // docs/scene.md lists every key of the file format; the names are the same here.
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/embed.hpp"
 #include "taut/scene/mesh.hpp"
 
 #include <glm/vec2.hpp>
@@ -37,6 +38,15 @@ struct Material
     /// surface_volume effect, inf = rigid. Of solids: springs hold volumes so (which, `volume` says); -1 =
     /// the bulk modulus E / (3 (1 - 2 nu)).
     double volume_stiffness = 0;
+    /// Pa: by how much the gas within a closed surface presses more than the air outside, at the rest volume
+    /// (less than 0: it sucks); 0 = no pressure effect.
+    double pressure = 0;
+    /// "constant", or "isothermal": the pressure falls as V0 / V where the body swells.
+    std::string pressure_law = "constant";
+    /// Strain beyond which springs and tetrahedra keep a part of it, >= 0; 0 = no plasticity effect.
+    double plastic_yield = 0;
+    double plastic_creep = 10; ///< 1/s, > 0: the rate at which strain beyond the yield stays; inf = at once
+    double plastic_limit = 1;  ///< strain that may stay in all, > 0
 
     // Solids: tetrahedra. stretch_stiffness is not theirs.
     double youngs_modulus = 0;   ///< Pa, > 0 in solids
@@ -164,8 +174,12 @@ struct Body
         SpringKind kind = SpringKind::extra; ///< set by resolve() for the springs of a network
     };
     std::vector<Spring> springs;
+    /// Solids: a fine surface (OBJ, PLY, OFF or STL, in the frame of the shape) that the tetrahedra carry
+    /// along; drawn and written in place of their own. Empty: none.
+    std::filesystem::path embedded_file;
     /// Filled by resolve(): the rest mesh in world space.
     Mesh mesh;
+    Embedding embedding; ///< filled by resolve() where there is an embedded_file
 };
 
 enum class ColliderKind
