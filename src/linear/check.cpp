@@ -294,4 +294,12 @@ bool maps_constants_to_zero(const SparseMatrix& a)
     return a.rows > 0;
 }
 
+void require_float64(const DeviceInfo& device)
+{
+    if (!device.limits.float64)
+        throw Error(ErrorCode::unsupported,
+                    device.selector + " has no 64-bit floats: take the precision float, or mixed, which "
+                                      "reaches the residuals of double without them");
+}
+
 } // namespace taut::linear

@@ -2,6 +2,7 @@
 // What is wrong with a system before any work is done, in words.
 
 #include "taut/linear/sparse.hpp"
+#include "taut/runtime/device.hpp"
 
 #include <string>
 
@@ -30,6 +31,9 @@ void check_structure(const SparseMatrix&);
 /// to them (no solution). Rows of `held`: only their entries of A and x0 must be finite.
 void check_system(const SparseMatrix&, std::span<const double> b, std::span<const double> x0,
                   const CheckOptions&);
+
+/// Throws Error{unsupported} that names the device and what to take instead, unless it has 64-bit floats.
+void require_float64(const DeviceInfo&);
 
 /// Constants are in the null space: |sum_j a_ij| <= 1e-12 sum_j |a_ij| in every row. Judged row by row, so
 /// that a small row that holds the others in place is not lost beside large ones. False for a matrix of no

@@ -21,9 +21,8 @@ void check(const Device& device, const SparseMatrix& matrix, const UploadOptions
                         " columns: only square ones go to a device, or rectangular ones in csr");
     if (matrix.rows == 0)
         throw Error(ErrorCode::bad_input, "the matrix has no rows: nothing to put on a device");
-    if (options.precision == Precision::float64 && !device.limits().float64)
-        throw Error(ErrorCode::unsupported, device.info().selector + " has no 64-bit floats: take float, or "
-                                                                     "mixed for more digits");
+    if (options.precision == Precision::float64)
+        require_float64(device.info());
     if (options.pairs && options.precision != Precision::float32)
         throw Error(ErrorCode::bad_input, "low words are kept of floats only: take pairs with float");
 }

@@ -3,6 +3,7 @@
 
 #include "taut/linear/small.hpp"
 #include "taut/linear/cg_state.hpp"
+#include "taut/linear/check.hpp"
 #include "taut/linear/reals.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -234,9 +235,8 @@ SmallBatch::SmallBatch(std::shared_ptr<Device> device, std::span<const SparseMat
                     "a batch wants at least one system, and an exponent and an inverse for each: there are " +
                         std::to_string(systems.size()) + " systems, " + std::to_string(exponents.size()) +
                         " exponents and " + std::to_string(inverses.size()) + " inverses");
-    if (precision == Precision::float64 && !device->limits().float64)
-        throw Error(ErrorCode::unsupported,
-                    device->info().selector + " has no 64-bit floats: take float, or mixed for more digits");
+    if (precision == Precision::float64)
+        require_float64(device->info());
     if (pairs && precision != Precision::float32)
         throw Error(ErrorCode::bad_input, "pairs are made of floats: take pairs with float");
     for (std::size_t k = 0; k < systems.size(); ++k)

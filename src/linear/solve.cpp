@@ -24,10 +24,8 @@ constexpr double kNothingLeft = 0x1p-50;
 
 SolvePrecision resolve(SolvePrecision wanted, const DeviceInfo& device)
 {
-    if (wanted == SolvePrecision::float64 && !device.limits.float64)
-        throw Error(ErrorCode::unsupported, "the device " + device.name +
-                                                " has no 64-bit floats: take the precision \"mixed\", which "
-                                                "reaches the same residuals without them");
+    if (wanted == SolvePrecision::float64)
+        require_float64(device);
     if (wanted != SolvePrecision::automatic)
         return wanted;
     return device.limits.float64 ? SolvePrecision::float64 : SolvePrecision::mixed;

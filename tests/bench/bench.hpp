@@ -36,6 +36,15 @@ struct Rival
     }
 };
 
+/// Median over the turns of a's time to b's in the same turn: what disturbs both does not count.
+inline double paired_ratio(const Rival& a, const Rival& b)
+{
+    Rival ratio{"", {}, a.milliseconds};
+    for (std::size_t i = 0; i < ratio.milliseconds.size(); ++i)
+        ratio.milliseconds[i] /= b.milliseconds[i];
+    return ratio.median();
+}
+
 /// Some turns to warm up, then `turns` turns in which every rival runs once.
 inline void take_turns(std::vector<Rival>& rivals, int turns, int warm_up = 3)
 {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -124,8 +125,10 @@ inline bool can_run(const Device& device, Precision precision)
 }
 
 /// Runs on every executor; each result must agree with the reference, and bit for bit with cpu:serial where
-/// that is promised. No validation message may appear.
-inline void check_on_every_device(const Case& c)
+/// that is promised. No validation message may appear. `look`, if any, sees what each executor left.
+/// `bitwise`: false where NaN may come out, whose bits nobody promises.
+inline void look_on_every_device(const Case& c, const std::function<void(const Buffers&)>& look,
+                                 bool bitwise = true)
 {
     const Buffers serial = run(*test_device("cpu:serial"), c.launches, c.in);
     for (const std::string& selector : test_devices())
@@ -138,10 +141,14 @@ inline void check_on_every_device(const Case& c)
                       << to_string(kernel.precision));
         const Buffers out = run(*device, c.launches, c.in);
         check_against_reference(c, out);
-        if (bitwise_equal_expected(device->info()))
+        if (look)
+            look(out);
+        if (bitwise && bitwise_equal_expected(device->info()))
             CHECK(differing_buffers(serial, out) == "");
         CHECK(device->counters().validation_messages == 0);
     }
 }
+
+inline void check_on_every_device(const Case& c) { look_on_every_device(c, nullptr); }
 
 } // namespace taut::conformance

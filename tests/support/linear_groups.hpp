@@ -75,28 +75,4 @@ std::vector<Real> random_reals(Random& random, std::size_t n, double low = -1, d
     return values;
 }
 
-/// As check_on_every_device, and `look` sees what each executor left. `bitwise`: false where NaN may come
-/// out, whose bits nobody promises.
-inline void look_on_every_device(const Case& c, const std::function<void(const Buffers&)>& look,
-                                 bool bitwise = true)
-{
-    const Buffers serial = run(*test_device("cpu:serial"), c.launches, c.in);
-    for (const std::string& selector : test_devices())
-    {
-        const auto device = test_device(selector);
-        if (!can_run(*device, c.precision))
-            continue;
-        const KernelInfo& kernel = *c.launches.front().kernel;
-        INFO(selector << ": " << kernel.name << " \"" << kernel.variant << "\" "
-                      << to_string(kernel.precision));
-        const Buffers out = run(*device, c.launches, c.in);
-        check_against_reference(c, out);
-        if (look)
-            look(out);
-        if (bitwise && bitwise_equal_expected(device->info()))
-            CHECK(differing_buffers(serial, out) == "");
-        CHECK(device->counters().validation_messages == 0);
-    }
-}
-
 } // namespace taut::conformance
