@@ -52,17 +52,14 @@ bool acts_as_force(const Scene& scene, const StretchElement& spring)
            !(scene.method.constrained == "all" || spring.kind == SpringKind::structural);
 }
 
-RateBounds rate_bounds(const std::vector<StretchElement>& springs, const std::vector<BendElement>& hinges,
-                       const std::vector<double>& mass, const std::vector<bool>& held,
-                       std::span<const glm::dvec3> x)
+std::vector<double> stiffness_rows(const std::vector<StretchElement>& springs,
+                                   const std::vector<BendElement>& hinges, std::size_t vertices,
+                                   std::span<const glm::dvec3> x)
 {
-    std::vector<double> stiff(mass.size(), 0.0), damp(mass.size(), 0.0);
+    std::vector<double> stiff(vertices, 0.0);
     for (const StretchElement& s : springs)
         for (const std::uint32_t v : {s.a, s.b})
-        {
             stiff[v] += 2 / s.compliance;
-            damp[v] += 2 * s.damping;
-        }
     for (const BendElement& h : hinges)
     {
         const std::array<double, 4> size = gradient_sizes(h, x);
@@ -72,6 +69,18 @@ RateBounds rate_bounds(const std::vector<StretchElement>& springs, const std::ve
             if (sum > 0)
                 stiff[vertex[c]] += size[c] * sum / h.compliance;
     }
+    return stiff;
+}
+
+RateBounds rate_bounds(const std::vector<StretchElement>& springs, const std::vector<BendElement>& hinges,
+                       const std::vector<double>& mass, const std::vector<bool>& held,
+                       std::span<const glm::dvec3> x)
+{
+    const std::vector<double> stiff = stiffness_rows(springs, hinges, mass.size(), x);
+    std::vector<double> damp(mass.size(), 0.0);
+    for (const StretchElement& s : springs)
+        for (const std::uint32_t v : {s.a, s.b})
+            damp[v] += 2 * s.damping;
     RateBounds out;
     for (std::size_t v = 0; v < mass.size(); ++v)
         if (!held[v])

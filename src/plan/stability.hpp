@@ -20,6 +20,11 @@ struct RateBounds
     double damping = 0;   ///< 1/s
 };
 
+/// Row sums of |K|, N/m, one a vertex: what rate_bounds divides by the masses. Springs and hinges as there.
+std::vector<double> stiffness_rows(const std::vector<StretchElement>& springs,
+                                   const std::vector<BendElement>& hinges, std::size_t vertices,
+                                   std::span<const glm::dvec3> x);
+
 /// Springs count at their stiffest (along their direction; no shorter than half their rest length, where the
 /// compressed direction across would be stiffer), hinges by their gradients at `x`; those without an area
 /// there count nothing. Elements index `mass` [kg], `held` and `x` [m].

@@ -104,7 +104,8 @@ public:
         out_.device = device_->info();
         out_.kind = options.kind == CostKind::automatic ? cost_kind(scene_) : options.kind;
         out_.vertices = model_.mass.size();
-        out_.constraints = model_.springs.size() + model_.hinges.size();
+        out_.constraints = model_.springs.size() + model_.hinges.size() + model_.volumes.size() +
+                           model_.solids.size() + model_.surfaces.size();
         out_.timestep = scene_.timestep;
         out_.basis = options.basis;
         if (!at_rest() && cost::wanted_frames(scene_, options) == 0)

@@ -141,8 +141,9 @@ CostReference reference_of_motion(const Question& q)
 {
     const std::size_t frames = wanted_frames(q.scene, q.options);
     std::string refusal = unmodelled(q.scene);
-    if (refusal.empty() && !(q.model.solids.empty() && q.model.volumes.empty()))
-        refusal = "it has no bound on the step that tetrahedra allow";
+    if (refusal.empty() && std::any_of(q.model.springs.begin(), q.model.springs.end(),
+                                       [](const StretchElement& e) { return e.damping > 0; }))
+        refusal = "it does not model the dampers of springs";
     if (!refusal.empty())
         return self_motion(q, frames, {"R3: " + refusal});
     std::string stop;

@@ -1,6 +1,7 @@
 #include "taut/report/model.hpp"
 
 #include "taut/plan/stability.hpp"
+#include "taut/report/element_rates.hpp"
 #include "taut/report/hinge.hpp"
 
 #include <glm/geometric.hpp>
@@ -235,7 +236,29 @@ std::size_t rigid_element_count(const PhysicalModel& model)
 
 double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x)
 {
-    return std::sqrt(rate_bounds(model.springs, model.hinges, model.mass, model.pinned, x).stiffness);
+    const std::size_t count = model.mass.size();
+    const std::vector<double> thin = stiffness_rows(model.springs, model.hinges, count, x);
+    std::vector<double> thick(count, 0.0);
+    for (const VolumeElement& e : model.volumes)
+        reference::add_stiffness(e, x, thick);
+    for (const SolidElement& e : model.solids)
+        reference::add_stiffness(e, x, thick);
+    for (const SurfaceElement& e : model.surfaces)
+        reference::add_stiffness(e, x, thick);
+    double most = 0;
+    for (std::size_t v = 0; v < count; ++v)
+        if (!model.pinned[v])
+            most = std::max(most, (thin[v] + kStiffening * thick[v]) / model.mass[v]);
+    return std::sqrt(most);
+}
+
+std::size_t element_cost(const PhysicalModel& model)
+{
+    std::size_t out = model.springs.size() + 12 * model.hinges.size() + 6 * model.volumes.size() +
+                      10 * model.solids.size() + model.mass.size();
+    for (const SurfaceElement& e : model.surfaces)
+        out += 3 * e.triangles.size();
+    return out;
 }
 
 } // namespace taut

@@ -60,8 +60,16 @@ void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::
 double total_weight(const PhysicalModel& model);
 std::size_t rigid_element_count(const PhysicalModel& model);
 
-/// Largest eigenfrequency that the springs and hinges can have, 1/s: the square root of the largest row
-/// sum of |M^-1 K| (Gershgorin), springs taken at their stiffest, hinges at `x`. 0 without elements.
+/// By how much stiffer than at `x` tetrahedra and enclosed volumes count in frequency_bound: room for what a
+/// deformation adds to them.
+inline constexpr double kStiffening = 2;
+
+/// Bound on the eigenfrequencies that a state near `x` can have, 1/s: the square root of the largest row sum
+/// of |M^-1 K| (Gershgorin, by blocks of 3 x 3). Springs count at their stiffest, hinges as at `x`,
+/// tetrahedra and enclosed volumes kStiffening times as at `x`. 0 without elements.
 double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x);
+
+/// What one evaluation of all forces costs, in springs.
+std::size_t element_cost(const PhysicalModel& model);
 
 } // namespace taut

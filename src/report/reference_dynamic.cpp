@@ -1,4 +1,4 @@
-// Reference R3: plain loops over springs, hinges and colliders.
+// Reference R3: plain loops over springs, hinges, tetrahedra and colliders.
 // Based on: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006 (symplectic Euler,
 //   Stoermer-Verlet); Roache, Verification and Validation, 1998 (observed order, Richardson estimate).
 // Departures: contacts are projections of the position at the end of a step, the velocity follows; with
@@ -293,7 +293,7 @@ DynamicReference solve_dynamic(const PhysicalModel& model, const DynamicOptions&
     const double duration = options.duration < 0 ? model.duration : options.duration;
     const auto frame_count = static_cast<std::size_t>(std::llround(duration / model.timestep));
     const std::uint64_t coarsest = coarsest_steps(model, options.safety);
-    const std::size_t elements = model.springs.size() + 12 * model.hinges.size() + model.mass.size();
+    const std::size_t elements = element_cost(model);
     const double fine = std::exp2(wanted.levels - 1.0), coarse = static_cast<double>(coarsest);
     out.element_steps = static_cast<double>(elements * frame_count) * coarse * (2 * fine - 1);
     out.step = model.timestep / (coarse * fine);

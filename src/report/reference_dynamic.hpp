@@ -22,8 +22,8 @@ struct DynamicOptions
     double duration = -1;       ///< s, whole time steps of it; < 0 = the scene's
     double safety = 0.1;        ///< largest step over the stability limit 2/frequency_bound, (0, 0.5]
     std::uint32_t levels = 4;   ///< runs at h, h/2, h/4, ...; >= 4, for two observed orders
-    double max_element_steps = 5e9; ///< (springs + 12 hinges + vertices) x steps, all levels;
-                                    ///< a core does about 1e8 a second
+    double max_element_steps = 5e9; ///< element_cost() x steps, all levels; a core does
+                                    ///< about 1e8 a second
     bool two_threads = true;    ///< the finest level beside the others
 };
 
