@@ -17,6 +17,7 @@ struct TuneCommand
 {
     std::string scene, device;
     std::vector<std::string> methods, precisions;
+    std::string by;
     double error = 0.01;
     std::optional<std::uint32_t> frames;
     std::optional<double> rest_seconds, timing_seconds, reference_steps;
@@ -27,6 +28,7 @@ TuneOptions tune_options(const TuneCommand& command)
 {
     TuneOptions options;
     options.error = command.error;
+    options.by = command.by == "volume" ? TuneCriterion::volume : TuneCriterion::motion;
     if (!command.methods.empty())
         options.methods = methods_listed(command.methods);
     if (!command.precisions.empty())
@@ -133,6 +135,8 @@ void add_tune(CLI::App& app, Command& chosen)
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
     command->add_option("--error", options->error, "Bound on the error, 0.01 is 1 % (default: 0.01)");
+    command->add_option("--by", options->by, "What the error is of (default: motion)")
+        ->check(CLI::IsMember({"motion", "volume"}));
     command->add_option("--methods", options->methods, "To try, or \"all\" (default: all)")->delimiter(',');
     add_precisions_option(*command, options->precisions);
     add_kind_options(*command, options->at_rest, options->moving, "Bound the error of");

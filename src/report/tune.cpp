@@ -6,6 +6,7 @@
 #include "taut/report/cost_design.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
+#include "taut/report/volume.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,16 @@ void check_input(const Scene& scene, const TuneOptions& options)
         throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
     if (scene.bodies.empty())
         throw Error(ErrorCode::bad_input, "bodies is empty: there is nothing to tune; add a body.");
+    if (options.by == TuneCriterion::volume && options.kind == CostKind::at_rest)
+        throw Error(ErrorCode::bad_input,
+                    "an error of volume is the worst of all frames; leave out that it is at rest.");
+}
+
+void check_volumes(const Scene& resolved)
+{
+    if (!measure_volume(resolved, make_model(resolved).start).any)
+        throw Error(ErrorCode::bad_input, "no body has a volume: an error of volume is one of bodies of "
+                                          "tetrahedra, or of closed cloth that holds its volume.");
 }
 
 /// A candidate that passed everything.
@@ -50,7 +61,11 @@ public:
         out_.scene = scene_.name;
         out_.device = device_->info();
         out_.bound = options.error;
-        out_.kind = options.kind == CostKind::automatic ? cost_kind(scene_) : options.kind;
+        out_.kind = by_volume()                           ? CostKind::moving
+                    : options.kind == CostKind::automatic ? cost_kind(scene_)
+                                                          : options.kind;
+        if (by_volume())
+            check_volumes(scene_);
         references_.methods = options.methods.empty() ? methods_listed({"all"}) : options.methods;
         references_.kind = out_.kind;
         references_.rest_seconds = options.rest_seconds;
@@ -61,7 +76,7 @@ public:
 
     TuneResult run()
     {
-        starts_.push_back(make_start(scene_, device_, out_.kind, references_));
+        starts_.push_back(start_of(scene_));
         const Start& start = starts_[0];
         out_.reference = start.reference;
         out_.metric = start.metric;
@@ -71,7 +86,7 @@ public:
             return std::move(out_);
         }
         if (out_.kind == CostKind::moving)
-            out_.frames = references_.frames = start.reference.frames.size() - 1;
+            out_.frames = references_.frames = start.frames;
         race(priced());
         if (!finalists_.empty())
             choose();
@@ -79,6 +94,14 @@ public:
     }
 
 private:
+    bool by_volume() const { return options_.by == TuneCriterion::volume; }
+
+    Start start_of(const Scene& scene)
+    {
+        return by_volume() ? make_volume_start(scene, references_.frames)
+                           : make_start(scene, device_, out_.kind, references_);
+    }
+
     void reject(const Candidate& candidate, const char* stage, std::string reason,
                 std::optional<double> error = std::nullopt)
     {
@@ -179,7 +202,7 @@ private:
 
     void add_perturbed(std::uint32_t which)
     {
-        starts_.push_back(make_start(perturbed(scene_, which), device_, out_.kind, references_));
+        starts_.push_back(start_of(perturbed(scene_, which)));
         if (!starts_.back().reference.verified)
             out_.notes.push_back("perturbed start " + std::to_string(which) +
                                  " has no reference that can be trusted and is left out");

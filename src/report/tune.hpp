@@ -12,9 +12,17 @@
 
 namespace taut {
 
+/// What the bound is on.
+enum class TuneCriterion
+{
+    motion, ///< e_traj, or e_disp of a scene that comes to rest
+    volume  ///< e_V, the largest |V - V0| / V0 of a body, of all frames: of how it moves nothing is asked
+};
+
 struct TuneOptions
 {
-    double error = 0.01;             ///< bound on e_traj or e_disp, (0, 1)
+    double error = 0.01;             ///< bound on the error, (0, 1)
+    TuneCriterion by = TuneCriterion::motion;
     std::vector<MethodKind> methods; ///< empty: all
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     CostKind kind = CostKind::automatic;
@@ -61,7 +69,8 @@ struct TuneResult
 };
 
 /// Static filter, prices, race over rungs of 18, 48 and 120 frames with slack 3, 2, 1, guards, two perturbed
-/// starts, a margin of 0.8 and hysteresis of 10 %. Throws Error{bad_input} for impossible options.
+/// starts, a margin of 0.8 and hysteresis of 10 %. Throws Error{bad_input} for impossible options, among them
+/// a bound on volume where no body has one or at rest.
 TuneResult tune(const Scene& scene, std::shared_ptr<Device> device, const TuneOptions& options = {});
 
 std::string tune_json(const TuneResult& result); ///< one object, indented

@@ -59,11 +59,14 @@ struct Start
     PhysicalModel model;
     ErrorWeights weights;
     CostReference reference;
-    std::string metric; ///< "e_traj", "e_disp" or "e_L"
+    std::string metric;     ///< "e_traj", "e_disp", "e_L" or "e_V"
+    std::size_t frames = 0; ///< moving: of the last rung
 };
 /// Reference and metric of a scene. Without a reference `reference.verified` is false.
 Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, CostKind kind,
                  const CostOptions& options);
+/// e_V over so many frames: the reference is the volume at rest and has no frames.
+Start make_volume_start(const Scene& resolved, std::size_t frames);
 
 /// A candidate on one start, rung by rung.
 struct Lap

@@ -3,9 +3,11 @@
 //   2016 (successive halving: short runs sort out most).
 // Departures: candidates come in the order of their price, and the first that passes ends the race.
 #include "taut/report/tune_parts.hpp"
+#include "taut/report/volume.hpp"
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace taut::tuning {
 
@@ -23,8 +25,18 @@ std::string percent(double value)
     return std::string(text, end) + " %";
 }
 
+double volume_error(const Scene& scene, const Frames& frames)
+{
+    double worst = 0;
+    for (const auto& x : frames)
+        worst = std::max(worst, std::abs(measure_volume(scene, x).ratio - 1));
+    return worst;
+}
+
 double error_of(const Start& start, const Frames& frames)
 {
+    if (start.metric == "e_V")
+        return volume_error(start.scene, frames);
     const Frames& all = start.reference.frames;
     const bool at_rest = start.metric == "e_disp";
     if (start.metric == "e_L")
@@ -69,7 +81,7 @@ bool passes(const Start& start, const Motion& motion, double bound, Lap& lap)
 Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, CostKind kind,
                  const CostOptions& options)
 {
-    Start out{resolved, make_model(resolved), {}, {}, {}};
+    Start out{resolved, make_model(resolved), {}, {}, {}, 0};
     out.weights = error_weights(out.model);
     const cost::Question question{out.scene, out.model, out.weights, options, device};
     const bool at_rest = kind == CostKind::at_rest;
@@ -79,6 +91,18 @@ Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, C
         return distance_by_mass(out.weights, x, frames[0]) > 0;
     });
     out.metric = !moves ? "e_L" : at_rest ? "e_disp" : "e_traj";
+    out.frames = at_rest || frames.empty() ? 0 : frames.size() - 1;
+    return out;
+}
+
+Start make_volume_start(const Scene& resolved, std::size_t frames)
+{
+    Start out{resolved, make_model(resolved), {}, {}, "e_V", frames};
+    out.weights = error_weights(out.model);
+    out.reference.name = "rest volume";
+    out.reference.text = "The volume of each body at rest. Of how it moves nothing is asked.";
+    out.reference.verified = true;
+    out.reference.error = out.reference.error_l = 0;
     return out;
 }
 
@@ -94,12 +118,14 @@ Lap run_lap(const Start& start, const std::shared_ptr<Device>& device, const Met
         return out;
     }
     Motion motion;
-    const std::vector<std::size_t> all = rungs(start.reference.frames.size() - 1);
+    const std::vector<std::size_t> all = rungs(start.frames);
     for (std::size_t r = 0; r < all.size(); ++r)
     {
+        // The worst of all frames only grows: it needs no slack.
+        const double slack = start.metric == "e_V" ? 1 : kSlack[all.size() - 1 - r];
         out.frames = all[r];
         trial.extend(motion, all[r]);
-        if (!passes(start, motion, kSlack[all.size() - 1 - r] * bound, out))
+        if (!passes(start, motion, slack * bound, out))
             break;
     }
     return out;

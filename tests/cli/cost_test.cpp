@@ -106,6 +106,30 @@ TEST_CASE("tune prints a method block that a scene takes, or says that nothing k
     CHECK(with_bound("2").status == 2);
 }
 
+TEST_CASE("tune by volume bounds e_V of a scene of cloth and a solid, and asks for a body that has a volume")
+{
+    const Folder folder;
+    const std::string mixed = folder.file("mixed.json", scenes::cloth_and_box());
+    const std::vector<std::string> more{"--by",     "volume",       "--methods", "xpbd,pbd,vbd",
+                                        "--frames", "12",           "--device",  "cpu:serial",
+                                        "--json",   "--prior-only", "--error",   "0.05"};
+    const auto with = [&](const std::string& scene) {
+        std::vector<std::string> all{"tune", scene};
+        all.insert(all.end(), more.begin(), more.end());
+        return folder.taut(all);
+    };
+    const Result found = with(mixed);
+    INFO(found.err);
+    REQUIRE(found.status == 0);
+    const auto result = program::parse(found.out);
+    CHECK(result["error_metric"] == "e_V");
+    CHECK(result["frames"] == 12);
+    CHECK(result["confirmed_error"].get<double>() <= 0.04);
+    const Result none = with(folder.file("cloth.json", scenes::cloth()));
+    CHECK(none.status == 2);
+    CHECK(none.err.find("volume") != std::string::npos);
+}
+
 TEST_CASE("cost by ablation has a row for each effect that a scene calls for")
 {
     const Folder folder;

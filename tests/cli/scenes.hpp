@@ -13,6 +13,17 @@ inline std::string cloth(const std::string& timestep = "0.016666666666666666")
                     "pins": [{"corners": ["top_left", "top_right"]}]}]})";
 }
 
+/// The same with a box of springs and volumes that falls on a floor beside it.
+inline std::string cloth_and_box()
+{
+    return R"({"taut": 1, "duration": 0.5,
+        "bodies": [{"grid": {"cells": [8, 8], "size": [1, 1]},
+                    "pins": [{"corners": ["top_left", "top_right"]}]},
+                   {"box": {"cells": [2, 2, 2], "size": [0.3, 0.3, 0.3]}, "material": {"model": "springs"},
+                    "transform": {"translate": [2, 0.2, 0]}}],
+        "colliders": [{"plane": {"point": [0, 0, 0], "normal": [0, 1, 0]}}]})";
+}
+
 /// 9 and 4 vertices; one body has a name, with a space in it.
 inline std::string two_bodies()
 {
