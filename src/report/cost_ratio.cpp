@@ -96,6 +96,11 @@ RatioStudy run_ratios(const Scene& scene, std::shared_ptr<Device> device, const 
 {
     if (ratios.empty() || std::any_of(ratios.begin(), ratios.end(), [](double r) { return !(r > 0); }))
         throw Error(ErrorCode::bad_input, "ratios to try must be a list of numbers above 0.");
+    if (kind == RatioKind::stiffness &&
+        std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                    [](const Body& body) { return !body.mesh.tetrahedra.empty(); }))
+        throw Error(ErrorCode::bad_input, "ratios of stiffness are of springs: a body of tetrahedra has one "
+                                          "material; take ratios of mass.");
     RatioStudy out{scene.name, kind, ratios, {}};
     for (const double ratio : ratios)
     {

@@ -110,6 +110,17 @@ TEST_CASE("a ratio of masses is the last vertex's, one of stiffness that of the 
     CHECK(stiffer == 3);
 }
 
+TEST_CASE("of a solid there is no ratio of stiffness", "[figures]")
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {1, 1, 1};
+    body.material = solid_material();
+    scene.bodies = {body};
+    CHECK_THROWS_AS(run_ratios(resolve(scene), serial(), one_setting(4), RatioKind::stiffness, {1}), Error);
+}
+
 TEST_CASE("a growing mass ratio is followed to where a method leaves 10 %", "[figures]")
 {
     const RatioStudy study = run_ratios(damped_chain(), serial(), one_setting(10), RatioKind::mass, {1, 100});
