@@ -146,7 +146,8 @@ TEST_CASE("as many sweeps keep more volume in substeps than in iterations, and l
     note("pbd volume", *device, "ball, 10 substeps: 1 - mean V/V0", 1 - substeps.mean);
     note("pbd volume", *device, "ball, 10 iterations, Jacobi: 1 - least V/V0", 1 - jacobi.least);
     note("pbd volume", *device, "ball, 10 iterations, Jacobi: 1 - mean V/V0", 1 - jacobi.mean);
-    CHECK(substeps.least >= 0.987);
+    CHECK(substeps.mean >= 0.987); // the thesis' number, an average
+    CHECK(substeps.least >= 0.986); // in the worst frame
     CHECK(substeps.least > iterations.least);
     CHECK(jacobi.least < iterations.least);
 }

@@ -46,6 +46,24 @@ double within(const Mesh& mesh)
     return six / 6;
 }
 
+/// Volume to the cube of the root mean square edge, least over the tetrahedra; 1 = regular, 0 = flat.
+double worst_quality(const Mesh& mesh)
+{
+    double worst = 1;
+    for (const auto& t : mesh.tetrahedra)
+    {
+        double squares = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = 0; j < i; ++j)
+            {
+                const glm::dvec3 edge = mesh.positions[t[i]] - mesh.positions[t[j]];
+                squares += glm::dot(edge, edge) / 6;
+            }
+        worst = std::min(worst, std::sqrt(2.0) * six_volumes(mesh.positions, t) / std::pow(squares, 1.5));
+    }
+    return worst;
+}
+
 } // namespace
 
 TEST_CASE(
@@ -78,6 +96,7 @@ TEST_CASE("a ball's vertices lie on spheres, and its volume goes to that of the 
             for (const std::uint32_t v : t)
                 CHECK(glm::length(ball.positions[v]) == Approx(0.5).epsilon(1e-12));
         CHECK(closed(ball));
+        CHECK(worst_quality(ball) > 0.5); // 1 = regular; 0.026 with 16 cells where edges of the cube lie flat
         const double error = 1 - volume(ball) / (4.0 / 3 * 3.14159265358979 * 0.125);
         CHECK(error > 0);
         CHECK(error < 0.4 * before); // second order: a quarter
