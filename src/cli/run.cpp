@@ -11,6 +11,7 @@
 #include "taut/report/warnings.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/embedding.hpp"
 #include "taut/scene/settings.hpp"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ public:
           frames_(frames),
           every_(mesh_interval(options, simulation.scene())),
           moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
-          meshes_(simulation.scene(), options.folder)
+          meshes_(shown_scene(simulation.scene()), options.folder)
     {}
 
     /// Up to the last frame, an interruption or a value that is not finite.
@@ -138,11 +139,11 @@ private:
         if (simulation_.torn() != torn_)
         {
             torn_ = simulation_.torn();
-            meshes_.set_scene(simulation_.scene());
+            meshes_.set_scene(shown_scene(simulation_.scene()));
             torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
         }
         if (mesh)
-            meshes_.write(positions, done_, simulation_.time());
+            meshes_.write(shown_positions(simulation_.scene(), positions), done_, simulation_.time());
         if (moment)
             moments_.push_back({simulation_.time(), std::move(positions), torn_scene_});
     }

@@ -2,6 +2,7 @@
 
 #include "taut/report/image.hpp"
 #include "taut/scene/collider.hpp"
+#include "taut/scene/embedding.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -203,11 +204,10 @@ Surface plane_surface(const glm::dvec3& point, const glm::dvec3& normal, const S
     return out;
 }
 
-/// Triangles and links of a body, its vertices renamed by `rename`.
+/// Triangles and links of a body's mesh, its vertices renamed by `rename`.
 template <typename Rename>
-Surface body_surface(const Body& body, std::size_t number, const Rename& rename)
+Surface body_surface(const Mesh& mesh, std::size_t number, const Rename& rename)
 {
-    const Mesh& mesh = body.mesh;
     Surface out;
     const Colours& colours = kBodies[number % std::size(kBodies)];
     out.front = colours.front;
@@ -281,9 +281,16 @@ std::vector<Surface> Pictures::cloth(const Moment& moment) const
             throw Error(ErrorCode::bad_input, "the moment at " + std::to_string(moment.time) + " s has " +
                                                   std::to_string(moment.positions.size()) +
                                                   " positions, fewer than the scene has vertices");
-        out.push_back(body_surface(bodies[b], b, [](std::uint32_t v) { return v; }));
-        for (const auto end = next + count; next != end; ++next)
-            out.back().positions.emplace_back(glm::vec3(*next), 1.0f);
+        const std::span<const glm::dvec3> own(next, next + count);
+        const Embedding& embedding = bodies[b].embedding;
+        const bool carries = embedding.used();
+        const Mesh& shown = carries ? embedding.surface : bodies[b].mesh;
+        out.push_back(body_surface(shown, b, [](std::uint32_t v) { return v; }));
+        const std::vector<glm::dvec3> carried =
+            carries ? carry(embedding, bodies[b].mesh, own) : std::vector<glm::dvec3>();
+        for (const glm::dvec3& x : carries ? std::span<const glm::dvec3>(carried) : own)
+            out.back().positions.emplace_back(glm::vec3(x), 1.0f);
+        next += count;
     }
     return out;
 }
@@ -298,8 +305,8 @@ std::vector<Surface> Pictures::cloth_in_place(const World& world) const
     for (std::size_t b = 0; b < world.scene().bodies.size(); ++b)
     {
         const std::uint32_t first = plan.body_start[b];
-        out.push_back(
-            body_surface(world.scene().bodies[b], b, [&](std::uint32_t v) { return place_of[first + v]; }));
+        const auto rename = [&](std::uint32_t v) { return place_of[first + v]; };
+        out.push_back(body_surface(world.scene().bodies[b].mesh, b, rename));
         out.back().buffer = world.position_buffer();
     }
     return out;
@@ -342,7 +349,7 @@ Image Pictures::draw(const Moment& moment, const Shot& shot)
 Image Pictures::draw(const World& world, const Shot& shot)
 {
     const bool in_place = &world.device() == renderer_.device().get() && world.position_buffer() &&
-                          world.plan().precision == Precision::float32;
+                          world.plan().precision == Precision::float32 && !any_embedding(world.scene());
     if (!in_place)
         return draw(
             Moment{world.time(), world.positions(), std::make_shared<const Scene>(world.scene())}, shot);

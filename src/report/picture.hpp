@@ -51,7 +51,8 @@ public:
     Image draw(const Moment& moment, const Shot& shot);
 
     /// A world in single precision on the device that draws is drawn from its own position buffer, without
-    /// a copy; any other from World::positions(). Bitwise the same image either way.
+    /// a copy; any other from World::positions(). Bitwise the same image either way. Solids with an embedded
+    /// surface are shown by it, from positions.
     Image draw(const World& world, const Shot& shot);
 
     /// All moments in rows, each with its time. Throws Error{bad_input} when there are none.

@@ -147,6 +147,10 @@ void check_body(const Body& body, const Checker& out)
 {
     check_shape(body.shape, out);
     check_body_values(body, out);
+    if (!body.embedded_file.empty() && !is_solid(body.shape.kind))
+        out.error("embedded", "names " + body.embedded_file.string() +
+                                  ", but only solids carry a surface along; leave it out, or take a box, a "
+                                  "ball or tetrahedra");
     const Checker transform = out.at("transform");
     transform.finite("translate", body.transform.translate, "m");
     check_axis(body.transform.rotate_axis, body.transform.rotate_degrees, transform.at("rotate"));

@@ -88,6 +88,28 @@ void check_solid(const Material& material, const Checker& out)
         out.warning("volume_stiffness", "is " + shown(material.volume_stiffness) + none);
 }
 
+/// The gas within a closed surface, and what strain leaves behind.
+void check_gas_and_flow(const Material& material, const Checker& out)
+{
+    constexpr std::array<std::string_view, 2> laws = {"constant", "isothermal"};
+    out.finite("pressure", material.pressure, "Pa");
+    out.word("pressure_law", material.pressure_law, laws);
+    out.not_negative("plastic_yield", material.plastic_yield, "(a strain)");
+    if (material.plastic_creep != std::numeric_limits<double>::infinity())
+        out.positive("plastic_creep", material.plastic_creep, "1/s");
+    out.positive("plastic_limit", material.plastic_limit, "(a strain)");
+    if (!(material.tear_strain > 0))
+        return;
+    const std::string beside = " beside tear_strain " + shown(material.tear_strain);
+    if (material.pressure != 0)
+        out.error("pressure", "is " + shown(material.pressure) + " Pa" + beside +
+                                  "; torn cloth encloses nothing, so set one of them to 0");
+    if (material.plastic_yield > 0)
+        out.error("plastic_yield", "is " + shown(material.plastic_yield) + beside +
+                                       "; a tear plans the scene anew and would forget what has flowed, so "
+                                       "set one of them to 0");
+}
+
 } // namespace
 
 void check_shape(const Shape& shape, const Checker& out)
@@ -130,6 +152,7 @@ void check_material(const Material& material, bool solid, const Checker& out)
     out.not_negative("tear_strain", material.tear_strain, "(of the rest length)");
     out.not_negative("drag", material.drag, "(a coefficient)");
     out.not_negative("friction_drag", material.friction_drag, "(a coefficient)");
+    check_gas_and_flow(material, out);
     if (!(material.attachment_slack < 0))
         out.not_negative("attachment_slack", material.attachment_slack, "(of the rest distance)");
 }

@@ -224,6 +224,12 @@ Body read_body(Field field)
     if (const auto positions = field.find("start_positions"))
         for (const Field& position : positions->elements())
             body.start_positions.push_back(position.vector());
+    if (const auto embedded = field.find("embedded"))
+    {
+        body.embedded_file = embedded->text();
+        if (body.embedded_file.empty())
+            embedded->refuse("it must name an OBJ, PLY, OFF or STL file, or be left out");
+    }
     return body;
 }
 

@@ -6,17 +6,23 @@ namespace taut::scene_file {
 namespace {
 
 /// A number, or the word for one without bound.
-void read_or_rigid(const Field& object, std::string_view key, std::string_view unit, double& out)
+void read_or_unbounded(const Field& object, std::string_view key, std::string_view unit,
+                       std::string_view word, double& out)
 {
     const auto value = object.find(key);
     if (!value)
         return;
     if (!value->is_text())
         out = value->number();
-    else if (value->text() == "rigid")
+    else if (value->text() == word)
         out = std::numeric_limits<double>::infinity();
     else
-        value->refuse("it must be a number in " + std::string(unit) + " or \"rigid\"");
+        value->refuse("it must be a number in " + std::string(unit) + " or \"" + std::string(word) + '"');
+}
+
+void read_or_rigid(const Field& object, std::string_view key, std::string_view unit, double& out)
+{
+    read_or_unbounded(object, key, unit, "rigid", out);
 }
 
 } // namespace
@@ -47,6 +53,11 @@ void read_material(Field field, bool solid, Material& material)
     field.read("attachment_slack", material.attachment_slack);
     field.read("drag", material.drag);
     field.read("friction_drag", material.friction_drag);
+    field.read("pressure", material.pressure);
+    field.read("pressure_law", material.pressure_law);
+    field.read("plastic_yield", material.plastic_yield);
+    read_or_unbounded(field, "plastic_creep", "1/s", "at once", material.plastic_creep);
+    field.read("plastic_limit", material.plastic_limit);
 }
 
 } // namespace taut::scene_file

@@ -1,7 +1,7 @@
 // A scene made ready for planning: meshes in world space, pins as lists of vertices.
 
 #include "taut/scene/checker.hpp"
-#include "taut/scene/scene.hpp"
+#include "taut/scene/embedding.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -30,20 +30,21 @@ void throw_if_any(const std::vector<SceneIssue>& issues)
         fail(issues);
 }
 
-void warn_of(const MeshFindings& findings, bool solid, const Checker& out)
+/// `field`: the member of the body that names the file.
+void warn_of(const MeshFindings& findings, bool solid, const Checker& out, const char* field = "mesh")
 {
     const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what; };
     if (!findings.degenerate_triangles.empty())
-        out.warning("mesh", "had " + count(findings.degenerate_triangles.size(), "triangles without area, ") +
+        out.warning(field, "had " + count(findings.degenerate_triangles.size(), "triangles without area, ") +
                                 "dropped; the first is number " +
                                 std::to_string(findings.degenerate_triangles.front()) + " of the file");
     if (findings.unused_vertices > 0)
-        out.warning("mesh", "had " + count(findings.unused_vertices, "vertices of no ") +
+        out.warning(field, "had " + count(findings.unused_vertices, "vertices of no ") +
                                 (solid ? "tetrahedron" : "triangle") + ", dropped");
     if (findings.turned_tetrahedra > 0)
-        out.warning("mesh", "had " + count(findings.turned_tetrahedra, "left-handed tetrahedra, turned"));
+        out.warning(field, "had " + count(findings.turned_tetrahedra, "left-handed tetrahedra, turned"));
     if (!findings.non_manifold_edges.empty())
-        out.warning("mesh",
+        out.warning(field,
                     "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
                         "; the first joins vertices " +
                         std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
@@ -194,14 +195,50 @@ void add_network(Body& body)
     body.springs.insert(body.springs.begin(), springs.begin(), springs.end());
 }
 
+/// Names the first vertex that is not.
+bool all_finite(const Mesh& mesh, const Checker& out)
+{
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        if (!out.finite("", mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
+            return false;
+    return true;
+}
+
+/// The surface that a solid carries along, in the frame of its shape.
+void embed_surface(Body& body, const std::filesystem::path& directory, const Checker& out)
+{
+    Mesh surface;
+    try
+    {
+        MeshFindings findings;
+        surface = read_mesh(directory / body.embedded_file, 0, &findings);
+        warn_of(findings, false, out, "embedded");
+    }
+    catch (const Error& error)
+    {
+        out.error("embedded", std::string("is of no use: ") + error.what(), error.code());
+        return;
+    }
+    apply(body.transform, surface);
+    if (!all_finite(surface, out.at("embedded")))
+        return;
+    EmbeddingFindings findings;
+    body.embedding = embed(std::move(surface), body.mesh, &findings);
+    if (findings.far > 0)
+        out.warning("embedded", "has " + std::to_string(findings.far) +
+                                    " vertices further from the solid than an edge of its tetrahedra; the "
+                                    "first is vertex " +
+                                    std::to_string(findings.first_far) + ", " +
+                                    scene_file::shown(findings.first_distance) +
+                                    " m away; is it in the frame of the shape, in metres?");
+}
+
 void resolve_body(Body& body, const std::filesystem::path& directory, const Checker& out)
 {
     body.mesh = make_mesh(body.shape, directory, out);
     apply(body.transform, body.mesh);
-    for (std::size_t v = 0; v < body.mesh.positions.size(); ++v)
-        if (!out.at("transform")
-                 .finite("", body.mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
-            break;
+    if (all_finite(body.mesh, out.at("transform")) && !body.embedded_file.empty())
+        embed_surface(body, directory, out);
     if (body.shape.kind == ShapeKind::grid && body.shape.network.used)
         add_network(body);
     if (body.shape.kind != ShapeKind::grid && body.shape.kind != ShapeKind::chain)

@@ -277,3 +277,40 @@ TEST_CASE("a hybrid run says which device did what, and ends where one device en
     CHECK_FALSE(alone.contains("hybrid"));
     CHECK(folder.taut({"run", scene, "--device", "hybrid:nowhere", "--json"}).status == 3);
 }
+
+TEST_CASE("meshes and pictures of a solid show the surface that it carries")
+{
+    const Folder folder;
+    folder.file("fine.obj", "v 0.1 0 0\nv 0 0.1 0\nv -0.1 0 0\nv 0 0 0.2\n"
+                            "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    const std::string scene = folder.file("solid.json", R"({"taut": 1, "gravity": [0, -2, 0], "bodies": [
+        {"grid": {"cells": [1, 1]}},
+        {"name": "solid", "box": {"cells": [2, 2, 2]}, "embedded": "fine.obj"}]})");
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "60", "--every",
+                                       "60", "--out", folder / "o", "--json"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    CHECK(program::parse(result.out)["vertices"] == 4 + 27);
+    for (const std::string name : {"o/mesh_00000.obj", "o/mesh_00001.obj"})
+    {
+        const std::string text = program::read(folder / name);
+        CHECK(count_lines(text, "v ") == 4 + 4);
+        CHECK(count_lines(text, "f ") == 2 + 4);
+        CHECK(count_lines(text, "f 5 7 6") == 1); // numbered behind the cloth's
+    }
+    // It falls with the box: a second of 2 m/s^2.
+    std::istringstream lines(program::read(folder / "o/mesh_00001.obj"));
+    std::string line;
+    std::vector<double> heights;
+    while (std::getline(lines, line))
+        if (line.rfind("v ", 0) == 0)
+        {
+            std::istringstream numbers(line.substr(2));
+            double x = 0, y = 0;
+            numbers >> x >> y;
+            heights.push_back(y);
+        }
+    REQUIRE(heights.size() == 8);
+    CHECK(heights[4] == Approx(-1).epsilon(0.02));
+    CHECK(heights[5] == Approx(-0.9).epsilon(0.02));
+}

@@ -3,6 +3,8 @@
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 #include "support/scenes.hpp"
+#include "support/sphere.hpp"
+#include "taut/scene/embedding.hpp"
 
 #include "taut/report/picture.hpp"
 
@@ -286,6 +288,30 @@ TEST_CASE("capsules and boxes are drawn where they lie, turned as they are")
     box.rotate_degrees = 0;
     box.motion = {{0, {0, 0, 0}, {0, 1, 0}, 90, box.point}};
     CHECK(differing(draw(box), turned) < 100); // but for rounding at its edges
+    CHECK_NOTHING_SAID(device);
+}
+
+TEST_CASE("a solid is drawn by the surface that it carries")
+{
+    TAUT_DRAWING(device);
+    Scene scene;
+    scene.bodies.resize(1);
+    scene.bodies[0].shape.kind = ShapeKind::box;
+    scene.bodies[0].shape.box_cells = {2, 2, 2};
+    scene.bodies[0].material = solid_material();
+    scene = resolve(scene);
+    const Scene plain = scene;
+    scene.bodies[0].embedding = embed(test::sphere_mesh(6, 0.4), scene.bodies[0].mesh);
+    Scene ball = plain; // cloth of the same shape
+    ball.bodies[0].mesh = test::sphere_mesh(6, 0.4);
+    World world(scene, test_device("cpu:serial"));
+    const Moment moment = {0, world.positions()}, of_ball = {0, ball.bodies[0].mesh.positions};
+    const Shot shot = frame_shot(scene, std::span(&moment, 1), 320, 240);
+    const Image seen = Pictures(scene, device).draw(moment, shot);
+    CHECK(differing(seen, Pictures(ball, device).draw(of_ball, shot)) == 0);
+    CHECK(differing(seen, Pictures(plain, device).draw(moment, shot)) > 500);
+    World in_place(scene, device); // which would be drawn from its own buffer
+    CHECK(differing(seen, Pictures(scene, device).draw(in_place, shot)) == 0);
     CHECK_NOTHING_SAID(device);
 }
 
