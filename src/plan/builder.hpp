@@ -70,6 +70,7 @@ struct ForceBuffers;
 struct BlockBuffers;
 
 struct Acad;
+struct Plasticity;
 struct ImplicitConstraints;
 struct ImplicitEuler; // implicit_euler.cpp
 
@@ -138,6 +139,7 @@ public:
     const Method& method;
     PbdBuffers pbd;
     SurfaceBuffers surfaces;
+    SurfaceBuffers gas; ///< the same of surfaces that enclose one (pressure.hpp)
     std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
     std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< null: nothing is constrained
     std::shared_ptr<ImplicitEuler> implicit_euler; ///< under that method
@@ -146,6 +148,7 @@ public:
     std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp
     std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
+    std::shared_ptr<Plasticity> plasticity; ///< plasticity.hpp
 
     // Of effects that have more than one pass of an account: wind, limits, tearing.
     std::uint32_t wind_triangles = kNoBuffer, wind_start = kNoBuffer, wind_incident = kNoBuffer,

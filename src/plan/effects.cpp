@@ -7,6 +7,8 @@
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/limits.hpp"
 #include "taut/plan/pbd.hpp"
+#include "taut/plan/plasticity.hpp"
+#include "taut/plan/pressure.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/solid_constraints.hpp"
 #include "taut/plan/surface_volume.hpp"
@@ -283,26 +285,6 @@ bool any_bending(const Scene& scene)
     });
 }
 
-bool any_strain_limit(const Scene& scene)
-{
-    return any_stretch(scene) && std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                             [](const Body& b) { return b.material.strain_limit > 0; });
-}
-
-bool any_attachment(const Scene& scene)
-{
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
-        return b.material.attachment_slack >= 0 &&
-               std::any_of(b.pins.begin(), b.pins.end(), [](const Pin& p) { return !p.vertices.empty(); });
-    });
-}
-
-bool any_tearing(const Scene& scene)
-{
-    return any_stretch(scene) && std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                             [](const Body& b) { return b.material.tear_strain > 0; });
-}
-
 bool any_volume(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), holds_volumes);
@@ -328,6 +310,7 @@ constexpr Effect kEffects[] = {
     {"external_force", Stage::force, [](const Scene& s) { return has_bodies(s) && s.external_forces; },
      prepare_external_force, record_external_force},
     {"wind", Stage::force, wants_wind, prepare_wind, record_wind},
+    {"pressure", Stage::force, wants_pressure, prepare_pressure, record_pressure},
     {"acad", Stage::force, any_stretch, prepare_acad, record_acad_forces, kAcad},
     {"spring_force", Stage::force, any_stretch, prepare_spring_force, record_spring_force,
      kMassSpring | kConstraints},
@@ -369,8 +352,8 @@ constexpr Effect kEffects[] = {
     {"implicit_euler", Stage::solve, any_blocks, nullptr, record_implicit_step,
      only(MethodKind::implicit_euler)},
     {"acad", Stage::solve, any_stretch, nullptr, record_acad_solve, kAcad},
-    {"strain_limit", Stage::contact, any_strain_limit, prepare_strain_limit, record_strain_limit},
-    {"attachment", Stage::contact, any_attachment, prepare_attachment, record_attachment},
+    {"strain_limit", Stage::contact, wants_strain_limit, prepare_strain_limit, record_strain_limit},
+    {"attachment", Stage::contact, wants_attachment, prepare_attachment, record_attachment},
     {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_mark, kVbd},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
@@ -382,7 +365,9 @@ constexpr Effect kEffects[] = {
     {"cuboid", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::cuboid); },
      prepare_cuboid, record_cuboid},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
-    {"tearing", Stage::after, any_tearing, prepare_tearing, record_tearing},
+    {"plasticity", Stage::after, wants_plasticity, prepare_plasticity, record_plasticity,
+     kMassSpring | only(MethodKind::xpbd) | only(MethodKind::implicit_euler) | kVbd},
+    {"tearing", Stage::after, wants_tearing, prepare_tearing, record_tearing},
     {"vbd_start", Stage::after, any_blocks, nullptr, record_vbd_share, kVbd},
     {"spring_force", Stage::after, [](const Scene& s) { return any_stretch(s) && wants_forces_after(s); },
      nullptr, record_spring_force_after, kMassSpring},

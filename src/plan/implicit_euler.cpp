@@ -333,6 +333,12 @@ void check_implicit_euler(const Scene& resolved, const DeviceTraits&)
     }
 }
 
+ImplicitRecords implicit_records(const PlanBuilder& b)
+{
+    const ImplicitEuler* m = b.implicit_euler.get();
+    return m == nullptr ? ImplicitRecords{} : ImplicitRecords{m->springs, m->solids};
+}
+
 void prepare_implicit_euler(PlanBuilder& b)
 {
     const Elements elements = acting_elements(b);

@@ -14,4 +14,12 @@ void record_implicit_start(PlanBuilder& builder, const Moment& moment);
 /// One Newton step.
 void record_implicit_step(PlanBuilder& builder, const Moment& moment);
 
+/// Plan buffers of layout::Spring and layout::SolidTetrahedron once the method is prepared, one record an
+/// element; kNoBuffer where there are none.
+struct ImplicitRecords
+{
+    std::uint32_t springs = kNoBuffer, solids = kNoBuffer;
+};
+ImplicitRecords implicit_records(const PlanBuilder& builder);
+
 } // namespace taut

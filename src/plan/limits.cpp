@@ -15,6 +15,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -63,7 +64,32 @@ Colouring colouring_of_body(const PlanBuilder& b, std::size_t body,
     return colour_greedy(graph, {0, true}); // springs of a hub go one after another
 }
 
+bool any_springs(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), has_springs);
+}
+
 } // namespace
+
+bool wants_strain_limit(const Scene& scene)
+{
+    return any_springs(scene) && std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                             [](const Body& b) { return b.material.strain_limit > 0; });
+}
+
+bool wants_attachment(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
+        return b.material.attachment_slack >= 0 &&
+               std::any_of(b.pins.begin(), b.pins.end(), [](const Pin& p) { return !p.vertices.empty(); });
+    });
+}
+
+bool wants_tearing(const Scene& scene)
+{
+    return any_springs(scene) && std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                             [](const Body& b) { return b.material.tear_strain > 0; });
+}
 
 std::vector<NearestPin> nearest_pins(const Body& body)
 {

@@ -20,6 +20,11 @@ struct NearestPin
 /// Based on: Dijkstra. A note on two problems in connexion with graphs. 1959, from all pins at once.
 std::vector<NearestPin> nearest_pins(const Body& body);
 
+// Whether a resolved scene calls for each.
+bool wants_strain_limit(const Scene& scene);
+bool wants_attachment(const Scene& scene);
+bool wants_tearing(const Scene& scene);
+
 void prepare_strain_limit(PlanBuilder& builder);
 void record_strain_limit(PlanBuilder& builder, const Moment& moment);
 void prepare_attachment(PlanBuilder& builder);

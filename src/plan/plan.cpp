@@ -2,6 +2,8 @@
 
 #include "taut/plan/builder.hpp"
 #include "taut/plan/effect_names.hpp"
+#include "taut/plan/plasticity.hpp"
+#include "taut/plan/pressure.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -31,6 +33,8 @@ void check_settings(const Scene& scene, const DeviceTraits& traits)
         throw Error(ErrorCode::unsupported, "method.precision is \"double\", but the device has no 64-bit "
                                             "floats; use \"float\" or another device");
     check_solids(scene);
+    check_pressure(scene);
+    check_plasticity(scene);
     if (method.check != nullptr)
         method.check(scene, traits);
 }

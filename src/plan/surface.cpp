@@ -52,7 +52,7 @@ std::vector<UnpairedEdge> unpaired_edges(std::span<const std::array<std::uint32_
     return out;
 }
 
-void check_surface(const Body& body, const std::string& where)
+void check_surface(const Body& body, const std::string& where, const std::string& setting)
 {
     double area = 0;
     const std::vector<glm::dvec3>& x = body.mesh.positions;
@@ -67,13 +67,13 @@ void check_surface(const Body& body, const std::string& where)
         throw Error(ErrorCode::bad_input,
                     where + (first.up + first.down == 1
                                  ? ", but the surface is open at the edge" + between +
-                                       "; close it, or set volume_stiffness to 0"
+                                       "; close it, or set " + setting + " to 0"
                                  : ", but triangles at the edge" + between +
-                                       " look to different sides; turn them, or set volume_stiffness to 0"));
+                                       " look to different sides; turn them, or set " + setting + " to 0"));
     }
     if (!(std::abs(enclosed_volume(body.mesh.triangles, x)) > kLeastVolume * std::pow(area, 1.5)))
         throw Error(ErrorCode::degenerate_rest,
-                    where + ", but the surface encloses no volume; set volume_stiffness to 0");
+                    where + ", but the surface encloses no volume; set " + setting + " to 0");
 }
 
 double enclosed_volume(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const glm::dvec3> x)

@@ -36,8 +36,9 @@ struct UnpairedEdge
 std::vector<UnpairedEdge> unpaired_edges(std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Throws Error{bad_input} where a surface is open or its triangles do not all look to the same side, and
-/// Error{degenerate_rest} where it encloses nothing. `where` begins the message.
-void check_surface(const Body& body, const std::string& where);
+/// Error{degenerate_rest} where it encloses nothing. `where` begins the message, `setting` is what may be 0.
+void check_surface(const Body& body, const std::string& where,
+                   const std::string& setting = "volume_stiffness");
 
 /// m^3, signed: a sixth of the triple products of the triangles, about their first corner (far from the
 /// origin the terms would cancel).

@@ -23,20 +23,6 @@ constexpr const char* kEffect = "surface_volume";
 constexpr std::uint32_t kVertices = 2 * TAUT_LINEAR_GROUP; ///< of a group of a small surface
 constexpr std::uint32_t kMostGroups = 1024;                ///< of a surface
 
-struct Group
-{
-    std::uint32_t first, end, origin, surface, from, count;
-};
-
-/// All surfaces as the kernels read them.
-struct Tables
-{
-    std::vector<Group> groups;
-    std::vector<std::uint32_t> vertices; ///< 2 words each, as in the kernels' table
-    std::vector<std::uint32_t> corners;
-    std::vector<double> surfaces; ///< V at rest and compliance
-};
-
 std::vector<std::array<std::uint32_t, 3>> in_plan_vertices(const PlanBuilder& b, std::size_t body)
 {
     auto triangles = b.scene.bodies[body].mesh.triangles;
@@ -46,7 +32,8 @@ std::vector<std::array<std::uint32_t, 3>> in_plan_vertices(const PlanBuilder& b,
     return triangles;
 }
 
-void check_trips(const PlanBuilder& b, std::size_t body, const Incidence& at, std::uint32_t chunk)
+void check_trips(const PlanBuilder& b, std::size_t body, const Incidence& at, std::uint32_t chunk,
+                 std::string_view setting)
 {
     for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
         if (std::uint64_t(at.start[v + 1] - at.start[v]) * (chunk / TAUT_LINEAR_GROUP) > kMaxLoopTrips)
@@ -54,10 +41,11 @@ void check_trips(const PlanBuilder& b, std::size_t body, const Incidence& at, st
                         "bodies[" + std::to_string(body) +
                             "]: " + std::to_string(at.start[v + 1] - at.start[v]) +
                             " triangles meet at one vertex, too many for one invocation to "
-                            "gather; set volume_stiffness to 0, or take a finer mesh there");
+                            "gather; set " +
+                            std::string(setting) + " to 0, or take a finer mesh there");
 }
 
-void add_surface(const PlanBuilder& b, std::size_t body, Tables& out)
+void add_surface(const PlanBuilder& b, std::size_t body, std::string_view setting, SurfaceTables& out)
 {
     const auto triangles = in_plan_vertices(b, body);
     std::vector<std::uint32_t> flat;
@@ -79,14 +67,13 @@ void add_surface(const PlanBuilder& b, std::size_t body, Tables& out)
     }
     const auto end = static_cast<std::uint32_t>(out.vertices.size() / 2);
     const std::uint32_t chunk = surface_chunk(end - first), count = (end - first + chunk - 1) / chunk;
-    check_trips(b, body, at, chunk);
-    const auto from = static_cast<std::uint32_t>(out.groups.size());
-    const auto surface = static_cast<std::uint32_t>(out.surfaces.size() / 2);
+    check_trips(b, body, at, chunk, setting);
+    const auto from = static_cast<std::uint32_t>(out.groups.size() / 6);
+    const auto surface = static_cast<std::uint32_t>(out.bodies.size());
     for (std::uint32_t v = first; v < end; v += chunk)
-        out.groups.push_back(
-            {v, std::min(v + chunk, end), out.vertices[2 * std::size_t(first)], surface, from, count});
-    const SurfaceElement element = surface_element(b.scene.bodies[body]);
-    out.surfaces.insert(out.surfaces.end(), {element.rest_volume, element.compliance});
+        out.groups.insert(out.groups.end(), {v, std::min(v + chunk, end),
+                                             out.vertices[2 * std::size_t(first)], surface, from, count});
+    out.bodies.push_back(body);
 }
 
 /// Whether any vertex of the surface can move.
@@ -97,16 +84,6 @@ bool moves(const PlanBuilder& b, std::size_t body)
         return std::any_of(t.begin(), t.end(),
                            [&](std::uint32_t v) { return b.inverse_mass[b.vertex(body, v)] > 0; });
     });
-}
-
-Tables make_tables(const PlanBuilder& b)
-{
-    Tables out;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        if (holds_surface_volume(b.scene.bodies[body]) && moves(b, body))
-            add_surface(b, body, out);
-    out.vertices.insert(out.vertices.end(), {0, static_cast<std::uint32_t>(out.corners.size() / 2)});
-    return out;
 }
 
 } // namespace
@@ -123,30 +100,66 @@ std::uint32_t surface_chunk(std::uint32_t vertices)
     return std::max(kVertices, rounded);
 }
 
-void prepare_surface_volume(PlanBuilder& b)
+SurfaceTables surface_tables(const PlanBuilder& b, bool (*wanted)(const Body&), std::string_view setting)
 {
-    const Tables tables = make_tables(b);
-    SurfaceBuffers& s = b.surfaces;
-    s.groups = static_cast<std::uint32_t>(tables.groups.size());
-    s.surfaces = static_cast<std::uint32_t>(tables.surfaces.size() / 2);
+    SurfaceTables out;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+        if (wanted(b.scene.bodies[body]) && moves(b, body))
+            add_surface(b, body, setting, out);
+    out.vertices.insert(out.vertices.end(), {0, static_cast<std::uint32_t>(out.corners.size() / 2)});
+    return out;
+}
+
+void add_surface_tables(PlanBuilder& b, std::string_view effect, const SurfaceTables& tables,
+                        SurfaceBuffers& s)
+{
+    s.groups = static_cast<std::uint32_t>(tables.groups.size() / 6);
+    s.surfaces = static_cast<std::uint32_t>(tables.bodies.size());
     s.vertices = static_cast<std::uint32_t>(tables.vertices.size() / 2 - 1);
     if (s.groups == 0)
         return;
-    std::vector<std::uint32_t> words;
-    for (const Group& g : tables.groups)
-        words.insert(words.end(), {g.first, g.end, g.origin, g.surface, g.from, g.count});
+    std::vector<std::uint32_t> words = tables.groups;
     words.insert(words.end(), tables.vertices.begin(), tables.vertices.end());
-    s.table = b.add_buffer<std::uint32_t>(kEffect, "surface groups and vertices", words);
-    s.corners = b.add_buffer<std::uint32_t>(kEffect, "corners at a vertex", tables.corners);
+    s.table = b.add_buffer<std::uint32_t>(effect, "surface groups and vertices", words);
+    s.corners = b.add_buffer<std::uint32_t>(effect, "corners at a vertex", tables.corners);
+    s.gradient = b.add_buffer(effect, "volume gradients", std::uint64_t(s.vertices) * 4 * b.real_size());
+    s.partials = b.add_buffer(effect, "volume sums", std::uint64_t(s.groups) * 3 * b.real_size());
+}
+
+void record_surface_sums(PlanBuilder& b, std::string_view effect, const SurfaceBuffers& s, bool further)
+{
+    const auto each = static_cast<std::uint32_t>(b.plan.buffers[s.corners].bytes / 4 / s.vertices + 1);
+    const Use sums[] = {{s.table, 2},
+                        {s.corners, each},
+                        {b.plan.position, 1 + each},
+                        {b.plan.low, 1 + each},
+                        {b.plan.delta, 1 + each},
+                        {s.gradient},
+                        {s.partials}};
+    b.dispatch(effect, "surface_volume_sum", "", sums,
+               kernels::surface_volume_sum::Params{s.groups, further}, s.groups, s.vertices);
+}
+
+void prepare_surface_volume(PlanBuilder& b)
+{
+    const SurfaceTables tables = surface_tables(b, holds_surface_volume, "volume_stiffness");
+    SurfaceBuffers& s = b.surfaces;
+    add_surface_tables(b, kEffect, tables, s);
+    if (s.groups == 0)
+        return;
+    std::vector<double> held;
+    for (const std::size_t body : tables.bodies)
+    {
+        const SurfaceElement element = surface_element(b.scene.bodies[body]);
+        held.insert(held.end(), {element.rest_volume, element.compliance});
+    }
     with_real(b.plan.precision, [&](auto zero) {
-        const std::vector<decltype(zero)> values(tables.surfaces.begin(), tables.surfaces.end());
+        const std::vector<decltype(zero)> values(held.begin(), held.end());
         s.values = b.add_buffer<decltype(zero)>(kEffect, "volumes at rest", values);
     });
-    s.gradient = b.add_buffer(kEffect, "volume gradients", std::uint64_t(s.vertices) * 4 * b.real_size());
-    s.partials = b.add_buffer(kEffect, "volume sums", std::uint64_t(s.groups) * 3 * b.real_size());
     bool soft = false;
-    for (std::size_t k = 1; k < tables.surfaces.size(); k += 2)
-        soft = soft || tables.surfaces[k] > 0;
+    for (std::size_t k = 1; k < held.size(); k += 2)
+        soft = soft || held[k] > 0;
     if (soft && b.plan.iterations > 1) // what the iterations before have pulled with
         s.multiplier = b.add_buffer(kEffect, "volume multipliers",
                                     std::uint64_t(b.plan.iterations + 1) * s.surfaces * b.real_size());
@@ -157,16 +170,7 @@ void record_surface_volume(PlanBuilder& b, const Moment& moment)
     const SurfaceBuffers& s = b.surfaces;
     if (s.groups == 0)
         return;
-    const auto each = static_cast<std::uint32_t>(b.plan.buffers[s.corners].bytes / 4 / s.vertices + 1);
-    const Use sums[] = {{s.table, 2},
-                        {s.corners, each},
-                        {b.plan.position, 1 + each},
-                        {b.plan.low, 1 + each},
-                        {b.plan.delta, 1 + each},
-                        {s.gradient},
-                        {s.partials}};
-    b.dispatch(kEffect, "surface_volume_sum", "", sums,
-               kernels::surface_volume_sum::Params{s.groups, moment.iteration > 0}, s.groups, s.vertices);
+    record_surface_sums(b, kEffect, s, moment.iteration > 0);
     std::vector<Use> moved = {
         {s.table, 2},   {s.values},        {s.gradient}, {s.partials}, {b.plan.step_values, 0},
         {b.plan.delta}, {b.plan.events, 0}};

@@ -77,15 +77,24 @@ void to_scene(BendingRecord& c, const std::vector<std::uint32_t>& original)
         *v = original[*v];
 }
 
-/// The records of a constraint kind as the device got them, else those of the model; vertices scene-wide.
+/// A buffer as the device got it, or as it is now where it changes on the device (plasticity).
+std::vector<std::byte> contents(const World& world, std::uint32_t buffer)
+{
+    const auto& kept = world.plan().kept;
+    const auto at = static_cast<std::size_t>(std::find(kept.begin(), kept.end(), buffer) - kept.begin());
+    return at == kept.size() ? world.plan().buffers[buffer].initial : world.state().kept[at];
+}
+
+/// The records of a constraint kind as the device has them, else those of the model; vertices scene-wide.
 template <template <typename> typename Record>
-std::vector<Record<double>> records(const Plan& plan, std::string_view kind,
+std::vector<Record<double>> records(const World& world, std::string_view kind,
                                     std::vector<Record<double>> of_model)
 {
+    const Plan& plan = world.plan();
     for (const ConstraintSet& set : plan.constraints)
         if (set.kind == kind)
         {
-            const auto& bytes = plan.buffers[set.buffer].initial;
+            const auto bytes = contents(world, set.buffer);
             auto out = plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
                                                             : decode_as<Record<float>>(bytes);
             for (Record<double>& record : out)
@@ -104,8 +113,8 @@ struct View
           model(make_model(w.scene())),
           x(w.positions()),
           v(w.velocities()),
-          distance(records<layout::DistanceConstraint>(plan, "distance", records_of(model.springs))),
-          bending(records<layout::BendingConstraint>(plan, "bending", records_of(model.hinges)))
+          distance(records<layout::DistanceConstraint>(world, "distance", records_of(model.springs))),
+          bending(records<layout::BendingConstraint>(world, "bending", records_of(model.hinges)))
     {}
 
     double length(const DistanceRecord& c) const { return glm::length(x[c.a] - x[c.b]); }

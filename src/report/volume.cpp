@@ -44,7 +44,7 @@ VolumeReport measure_volume(const Scene& scene, std::span<const glm::dvec3> posi
         const std::span<const glm::dvec3> now = positions.subspan(first, count);
         if (!body.mesh.tetrahedra.empty())
             add_tetrahedra(body.mesh, now, out);
-        else if (holds_surface_volume(body))
+        else if (holds_surface_volume(body) || body.material.pressure != 0)
         {
             const auto& triangles = body.mesh.triangles;
             add_ratio(enclosed_volume(triangles, now) / enclosed_volume(triangles, body.mesh.positions), out);

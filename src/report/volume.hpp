@@ -17,7 +17,7 @@ struct VolumeReport
     std::uint64_t inverted = 0;   ///< tetrahedra with V <= 0
 };
 
-/// Bodies with tetrahedra, and closed cloth that holds its volume. `positions`: scene-wide vertices, m.
+/// Bodies with tetrahedra, and closed cloth that holds its volume or a gas. `positions`: scene-wide, m.
 VolumeReport measure_volume(const Scene& resolved, std::span<const glm::dvec3> positions);
 
 } // namespace taut
