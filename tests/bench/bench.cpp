@@ -23,7 +23,8 @@ constexpr struct
                {"recording", bench::recording_rows},
                {"cloth", bench::cloth_rows},
                {"opencloth", bench::opencloth_rows},
-               {"solid", bench::solid_rows}};
+               {"solid", bench::solid_rows},
+               {"solid", bench::solid_static_rows}};
 
 void print(const std::vector<bench::Row>& rows)
 {

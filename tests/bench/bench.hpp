@@ -67,5 +67,7 @@ std::vector<Row> recording_rows();
 std::vector<Row> cloth_rows();     ///< whole steps against a plain coloured OpenMP program
 std::vector<Row> opencloth_rows(); ///< opencloth's position-based scene against a plain serial loop
 std::vector<Row> solid_rows();     ///< a box of tetrahedra against a plain coloured OpenMP program
+/// The same box until it rests: block descent against XPBD. TAUT_BENCH_CELLS: cells a side, else 16.
+std::vector<Row> solid_static_rows();
 
 } // namespace bench
