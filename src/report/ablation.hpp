@@ -15,7 +15,7 @@ namespace taut {
 struct AblationRow
 {
     std::string effect;           ///< that is missing; empty: the whole scene
-    double step_ms = 0;           ///< median wall time of a step, waiting included
+    double step_ms = 0; ///< median time of a step, waiting included: CPU time on software devices, else wall
     double cost_ms = 0;           ///< of the whole scene less step_ms
     std::int64_t dispatches = 0;  ///< a step, of the whole scene less this
     std::int64_t bytes = 0;       ///< allocated, likewise
