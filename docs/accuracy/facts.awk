@@ -41,7 +41,7 @@ FNR == 1 {
     n = cells($0, head)
     for (i = 1; i <= n; ++i) column[head[i]] = i
     problem = FILENAME
-    sub(/.*\//, "", problem); sub(/(_cost)?\.csv$/, "", problem)
+    sub(/.*\//, "", problem); sub(/(_cost|_solids)?\.csv$/, "", problem)
     problems[++problem_count] = problem
     first[problem] = points + 1
     next

@@ -1,12 +1,14 @@
 #!/bin/sh
-# Measures what accuracy costs, with every method, and writes this folder anew: no number in README.md is typed
-# by hand. Two studies run side by side on one core each; times are CPU time, so that a busy machine spoils
-# little. It takes some ten minutes.
+# Measures what accuracy costs, with every method, and writes the pages of this folder anew: no number of a table
+# is typed by hand. Two studies run side by side on one core each; times are CPU time, so that a busy machine
+# spoils little. Cloth (README.md) takes some ten minutes, solids (solids.md) some minutes, effects (effects.md) one.
 #
-#   docs/accuracy/update.sh build/release/taut
+#   docs/accuracy/update.sh build/release/taut [cloth|solids|effects...]
 set -eu
-[ $# -eq 1 ] || { echo "usage: $0 PROGRAM (the built taut)" >&2; exit 2; }
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM [cloth|solids|effects...] (the built taut)" >&2; exit 2; }
 program=$(realpath "$1")
+shift
+wanted=" ${*:-cloth solids effects} "
 cd "$(dirname "$0")/../.."
 folder=docs/accuracy
 scratch=$(mktemp -d)
@@ -21,8 +23,17 @@ study() # NAME SCENE [OPTION...]
     echo "taut cost $scene $*" > "$scratch/$name/command"
     "$program" cost "$scene" "$@" --out "$scratch/$name" > "$scratch/$name/text" || [ $? -eq 1 ]
 }
+is_wanted() { case "$wanted" in *" $1 "*) ;; *) return 1 ;; esac }
+# side_by_side FIRST SECOND: two functions, one core each.
+side_by_side()
+{
+    "$1" & one=$!
+    "$2" & two=$!
+    wait $one
+    wait $two
+}
 
-first()
+cloth_first()
 {
     study spring examples/accuracy/spring.json --methods all $common
     study chain_1 examples/accuracy/chain_1.json --methods all $common
@@ -37,7 +48,7 @@ first()
     study conserved_free examples/accuracy/free.json --methods all --conserved --substeps 8 --device cpu:serial
 }
 
-second()
+cloth_second()
 {
     study net_17 examples/accuracy/net_17.json --methods all $common
     study net_33 examples/accuracy/net_33.json --methods all $common
@@ -45,9 +56,33 @@ second()
     study slide examples/accuracy/slide.json --methods all $common
 }
 
-first & one=$!
-second & two=$!
-wait $one
-wait $two
-sh "$folder/write.sh" "$program" "$scratch"
+solids_first()
+{
+    study beam examples/accuracy/beam.json --methods all --rest-seconds 8 $common
+    study ratio_mass_solids examples/accuracy/beam.json --methods all --ratio mass --ratios 1,10,100,1000 \
+        --substeps 16 --rest-seconds 8 $common
+}
+
+solids_second()
+{
+    study cube examples/accuracy/cube.json --methods all $common
+    study ball examples/accuracy/ball.json --methods all $common
+    study precision_solids examples/accuracy/cube.json --methods all --precision float,double \
+        --substeps 4,16,64,256 --iterations 1 $common
+    study conserved_solids examples/accuracy/cube_free.json --methods all --conserved --substeps 8 \
+        --device cpu:serial
+}
+
+if is_wanted cloth; then
+    side_by_side cloth_first cloth_second
+    sh "$folder/write.sh" "$program" "$scratch"
+fi
+if is_wanted solids; then
+    side_by_side solids_first solids_second
+    sh "$folder/write_solids.sh" "$program" "$scratch"
+fi
+if is_wanted effects; then
+    study effects examples/scenes/all_effects.json --ablation --device cpu:serial
+    sh "$folder/write_effects.sh" "$program" "$scratch"
+fi
 sh "$folder/check.sh"

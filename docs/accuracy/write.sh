@@ -4,13 +4,8 @@ set -eu
 program=$1 scratch=$2
 folder=docs/accuracy
 problems="spring chain_1 chain_100 chain_10000 net_17 net_33 cloth elastica slide"
-rm -f "$folder"/*.csv "$folder"/*.svg
-for name in $problems; do
-    cp "$scratch/$name/cost.csv" "$folder/${name}_cost.csv"
-    for file in cost cost_work cost_substeps cost_iterations; do
-        cp "$scratch/$name/$file.svg" "$folder/${name}_$file.svg"
-    done
-done
+. "$folder/parts.sh"
+keep_problems $problems
 cp "$scratch/precision/cost.csv" "$folder/precision.csv"
 cp "$scratch/precision/cost_substeps.svg" "$folder/precision.svg"
 for what in mass stiffness; do
@@ -21,31 +16,9 @@ for name in conserved conserved_free; do
 done
 cp "$scratch/conserved_free/momentum.svg" "$folder/conserved_free_momentum.svg"
 
-quoted() { sed 's/^/    /' "$1"; }
-problem() # NAME TEXT
-{
-    echo
-    echo "### $1"
-    echo
-    echo "$2"
-    echo
-    quoted "$scratch/$1/command"
-    echo
-    grep '^reference\|^ *passed over' "$scratch/$1/text" | sed 's/^reference */Reference /; s/^ *passed/Passed/'
-    echo
-    echo "![error against CPU time, $1]($1_cost.svg)"
-    echo "![error against sweeps, $1]($1_cost_work.svg)"
-    echo "![error against substeps, $1]($1_cost_substeps.svg)"
-    echo "![error against iterations, $1]($1_cost_iterations.svg)"
-    echo
-    echo "All settings, refused ones with their reason: [CSV]($1_cost.csv)."
-}
-
 {
     cat "$folder/head.md"
-    echo "Written by \`docs/accuracy/update.sh\` with $("$program" --version), commit" \
-         "$(git describe --always --dirty=' with changes' 2>/dev/null || echo unknown)," \
-         "on one core each of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)."
+    written_by "one core each"
     echo
     echo "## In plain words"
     echo
@@ -96,5 +69,10 @@ problem() # NAME TEXT
     echo "## Linear systems"
     echo
     echo "Errors and residuals of conjugate gradients, and times by format: [docs/linear.md](../linear.md)."
+    echo
+    echo "## Solids, effects, hard cases"
+    echo
+    echo "The same for solids: [solids.md](solids.md). What each effect costs: [effects.md](effects.md). Which hard" \
+         "case which method passes or refuses: [robustness.md](../robustness.md)."
 } > "$scratch/README.md"
 mv "$scratch/README.md" "$folder/README.md"
