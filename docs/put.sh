@@ -1,6 +1,8 @@
-# For the update.sh of the pages: what stands between "<!-- PART -->" and "<!-- end -->" of a page becomes the
+# For the update.sh of the pages.
+#
+# put PAGE PART FILE: what stands between "<!-- PART -->" and "<!-- end -->" of a page becomes the
 # text of a file. `scratch` is the caller's folder.
-put() # PAGE PART FILE
+put()
 {
     awk -v part="$2" -v table="$3" '
         $0 == "<!-- " part " -->" {
@@ -11,4 +13,24 @@ put() # PAGE PART FILE
         $0 == "<!-- end -->" { skip = 0 }
         !skip && $0 != "<!-- " part " -->" { print }' "$1" > "$scratch/page.md"
     mv "$scratch/page.md" "$1"
+}
+
+# figure NAME SCENE VARIANT...: runs the variants of a scene, keeps table and picture beside the page. For pages
+# whose figures are comparisons: `program` is the built taut, `page` is docs/X.md, `wanted` is " NAME NAME " or two
+# blanks for all.
+figure()
+{
+    name=$1
+    scene=$2
+    shift 2
+    case "$wanted" in "  " | *" $name "*) ;; *) return 0 ;; esac
+    echo "$name" >&2
+    for variant in "$@"; do
+        set -- "$@" --variant "$variant"
+        shift
+    done
+    "$program" compare "$scene" "$@" --out "$scratch/$name" > /dev/null || [ $? -eq 1 ]
+    [ ! -f "$scratch/$name/compare.png" ] || cp "$scratch/$name/compare.png" "${page%.md}/$name.png"
+    cp "$scratch/$name/compare.csv" "${page%.md}/$name.csv"
+    put "$page" "$name" "$scratch/$name/compare.md"
 }

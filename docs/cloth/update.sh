@@ -14,23 +14,6 @@ trap 'rm -rf "$scratch"' EXIT
 wanted=" $* "
 . docs/put.sh
 
-# figure NAME VARIANT...: runs the variants of a scene, keeps table and picture.
-figure()
-{
-    name=$1
-    shift
-    case "$wanted" in "  " | *" $name "*) ;; *) return 0 ;; esac
-    echo "$name" >&2
-    for variant in "$@"; do
-        set -- "$@" --variant "$variant"
-        shift
-    done
-    "$program" compare "$scenes/$name.json" "$@" --out "$scratch/$name" > /dev/null || [ $? -eq 1 ]
-    [ ! -f "$scratch/$name/compare.png" ] || cp "$scratch/$name/compare.png" "docs/cloth/$name.png"
-    cp "$scratch/$name/compare.csv" "docs/cloth/$name.csv"
-    put "$page" "$name" "$scratch/$name/compare.md"
-}
-
 constraints="method.type=implicit_constraints; method.constrained=structural; method.constraint_compliance=0; method.substeps=8; method.iterations=2"
 acad="method.type=acad; method.constrained=structural; method.constraint_compliance=0; method.activate_strain=0.05"
 network() # STRUCTURAL SHEAR BEND
@@ -41,33 +24,33 @@ network() # STRUCTURAL SHEAR BEND
 # Looser solves than elsewhere: software Vulkan and OpenGL pay half a millisecond for each of their dispatches. The
 # strains are those of solves to 1e-5.
 loose="method.type=implicit_constraints; method.substeps=16; method.linear_iterations=20; method.linear_tolerance=1e-2"
-figure apis "springs, native serial: device=cpu:serial" "springs, native on all cores: device=cpu" \
+figure apis $scenes/apis.json "springs, native serial: device=cpu:serial" "springs, native on all cores: device=cpu" \
     "springs, Vulkan: device=vulkan" "springs, OpenGL: device=opengl" \
     "constraints, native serial: device=cpu:serial; $loose" \
     "constraints, native on all cores: device=cpu; $loose" \
     "constraints, Vulkan: device=vulkan; $loose" "constraints, OpenGL: device=opengl; $loose"
-figure stiffness "k = 20 N/m: device=cpu; $(network 20 10 2)" "k = 100: device=cpu" \
+figure stiffness $scenes/stiffness.json "k = 20 N/m: device=cpu; $(network 20 10 2)" "k = 100: device=cpu" \
     "k = 500: device=cpu; $(network 500 250 50)" "k = 2500: device=cpu; $(network 2500 1250 250)"
-figure constraints "springs alone: device=cpu" "structural springs enforced: device=cpu; $constraints" \
+figure constraints $scenes/constraints.json "springs alone: device=cpu" "structural springs enforced: device=cpu; $constraints" \
     "all enforced with their own compliance: device=cpu; method.type=implicit_constraints; method.substeps=8"
-figure acad_stiffness "k = 20 N/m: device=cpu; $(network 20 10 2)" "k = 100: device=cpu; $(network 100 50 10)" \
+figure acad_stiffness $scenes/acad_stiffness.json "k = 20 N/m: device=cpu; $(network 20 10 2)" "k = 100: device=cpu; $(network 100 50 10)" \
     "k = 500: device=cpu; method.stability=substep; $(network 500 250 50)"
-figure large_force "springs: device=cpu" "adaptive: device=cpu; $acad" "enforced: device=cpu; $constraints" \
+figure large_force $scenes/large_force.json "springs: device=cpu" "adaptive: device=cpu; $acad" "enforced: device=cpu; $constraints" \
     "xpbd: device=cpu; method.type=xpbd" "vertex block descent: device=cpu; method.type=vbd; method.iterations=2; method.substeps=16"
-figure acad_load "springs: device=cpu" "adaptive, 5 %: device=cpu; $acad" \
+figure acad_load $scenes/acad_load.json "springs: device=cpu" "adaptive, 5 %: device=cpu; $acad" \
     "adaptive, 1 %: device=cpu; $acad; method.activate_strain=0.01"
-figure pbd_devices "native serial: device=cpu:serial" "native on all cores: device=cpu" "Vulkan: device=vulkan" \
+figure pbd_devices $scenes/pbd_devices.json "native serial: device=cpu:serial" "native on all cores: device=cpu" "Vulkan: device=vulkan" \
     "OpenGL: device=opengl" "native, by vertices: device=cpu; method.scheme=node_centric" \
     "native, by constraints: device=cpu; method.scheme=constraint_centric"
-figure pbd_stretch "stretch 0.1: device=cpu; method.stretch=0.1" "0.5: device=cpu; method.stretch=0.5" \
+figure pbd_stretch $scenes/pbd_stretch.json "stretch 0.1: device=cpu; method.stretch=0.1" "0.5: device=cpu; method.stretch=0.5" \
     "0.9: device=cpu; method.stretch=0.9" "1: device=cpu"
-figure pbd_bend "bend 0: device=cpu; method.bend=0" "0.02: device=cpu; method.bend=0.02" \
+figure pbd_bend $scenes/pbd_bend.json "bend 0: device=cpu; method.bend=0" "0.02: device=cpu; method.bend=0.02" \
     "0.1: device=cpu; method.bend=0.1" "0.5: device=cpu; method.bend=0.5"
-figure pbd_iterations "1 iteration: device=cpu; method.iterations=1" "4: device=cpu; method.iterations=4" \
+figure pbd_iterations $scenes/pbd_iterations.json "1 iteration: device=cpu; method.iterations=1" "4: device=cpu; method.iterations=4" \
     "20: device=cpu" "80: device=cpu; method.iterations=80"
-figure pbd_sphere "4 x 5: device=cpu" "1 x 20: device=cpu; method.substeps=1; method.iterations=20" \
+figure pbd_sphere $scenes/pbd_sphere.json "4 x 5: device=cpu" "1 x 20: device=cpu; method.substeps=1; method.iterations=20" \
     "20 x 1: device=cpu; method.substeps=20; method.iterations=1"
-figure methods "xpbd: device=cpu" "pbd: device=cpu; method.type=pbd" "mass_spring: device=cpu; method.type=mass_spring; method.stability=substep" \
+figure methods $scenes/methods.json "xpbd: device=cpu" "pbd: device=cpu; method.type=pbd" "mass_spring: device=cpu; method.type=mass_spring; method.stability=substep" \
     "implicit_euler: device=cpu; method.type=implicit_euler; method.substeps=2" \
     "implicit_constraints: device=cpu; method.type=implicit_constraints; method.substeps=5" \
     "acad: device=cpu; method.type=acad; method.stability=substep" \

@@ -15,24 +15,6 @@ trap 'rm -rf "$scratch"' EXIT
 wanted=" $* "
 . docs/put.sh
 
-# figure NAME SCENE VARIANT...: runs the variants of a scene, keeps table and picture.
-figure()
-{
-    name=$1
-    scene=$2
-    shift 2
-    case "$wanted" in "  " | *" $name "*) ;; *) return 0 ;; esac
-    echo "$name" >&2
-    for variant in "$@"; do
-        set -- "$@" --variant "$variant"
-        shift
-    done
-    "$program" compare "$scene" "$@" --out "$scratch/$name" > /dev/null || [ $? -eq 1 ]
-    [ ! -f "$scratch/$name/compare.png" ] || cp "$scratch/$name/compare.png" "docs/solids/$name.png"
-    cp "$scratch/$name/compare.csv" "docs/solids/$name.csv"
-    put "$page" "$name" "$scratch/$name/compare.md"
-}
-
 springs="bodies[0].material.model=springs"
 bare="$springs; bodies[0].material.volume_stiffness=0"
 surface="$springs; bodies[0].material.volume=surface; bodies[0].material.volume_stiffness=rigid"
