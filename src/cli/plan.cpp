@@ -8,6 +8,7 @@
 #include "taut/version.hpp"
 #include "taut/world/world.hpp"
 
+#include <algorithm>
 #include <iostream>
 
 namespace taut::cli {
@@ -20,12 +21,22 @@ struct PlanCommand
     bool json = false;
 };
 
-std::string join(const std::vector<std::string>& words)
+/// Words in lines of at most `width` columns, the first after `head`, the others below its end.
+std::string wrapped(const std::string& head, const std::vector<std::string>& words, std::size_t width)
 {
-    std::string text;
+    std::string text = head;
+    std::size_t column = head.size();
     for (const std::string& word : words)
-        text += (text.empty() ? "" : " ") + word;
-    return text;
+    {
+        if (column + 1 + word.size() > width && column > head.size())
+        {
+            text += "\n" + std::string(head.size(), ' ');
+            column = head.size();
+        }
+        text += " " + word;
+        column += 1 + word.size();
+    }
+    return text + "\n";
 }
 
 Json to_json(const PlanCommand& options, const Plan& plan, const std::string& device)
@@ -57,12 +68,18 @@ Json to_json(const PlanCommand& options, const Plan& plan, const std::string& de
 
 std::string to_table(const Plan& plan)
 {
-    std::vector<std::vector<std::string>> rows = {{"effect", "dispatches", "allocated", "moved", "kernels"}};
+    std::vector<std::vector<std::string>> rows = {{"effect", "dispatches", "allocated", "moved"}};
+    std::size_t longest = 0;
     for (const EffectCost& effect : plan.effects)
+    {
         rows.push_back({effect.name, std::to_string(effect.dispatches_per_step),
-                        bytes_text(effect.bytes_allocated), bytes_text(effect.bytes_per_step),
-                        join(effect.kernels)});
-    std::string text = table(rows) + "\n";
+                        bytes_text(effect.bytes_allocated), bytes_text(effect.bytes_per_step)});
+        longest = std::max(longest, effect.name.size());
+    }
+    std::string text = table(rows) + "\nkernels\n";
+    for (const EffectCost& effect : plan.effects)
+        text += wrapped(effect.name + std::string(longest - effect.name.size(), ' '), effect.kernels, 100);
+    text += "\n";
     text += std::to_string(plan.vertex_count) + " vertices, " + std::string(to_string(plan.precision)) +
             ", " + std::to_string(plan.substeps) + " substeps of " + std::to_string(plan.iterations) +
             " iterations\n";

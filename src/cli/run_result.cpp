@@ -20,6 +20,9 @@ double percentile(std::vector<double> values, double share)
     return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
+/// What a report does not know is below zero there, and null for the reader.
+Json known(double value) { return value < 0 ? Json(nullptr) : Json(value); }
+
 std::string hex(std::uint64_t value)
 {
     char text[24];
@@ -54,6 +57,17 @@ Json parts_json(const std::vector<HybridPart>& parts)
     return list;
 }
 
+/// Of methods that have them.
+std::string residuals(const StepReport& report)
+{
+    std::string text;
+    if (report.primal_residual >= 0)
+        text += "; residual " + number(report.primal_residual, 2) + " primal";
+    if (report.dual_residual >= 0)
+        text += std::string(text.empty() ? "; residual " : ", ") + number(report.dual_residual, 2) + " dual";
+    return text;
+}
+
 } // namespace
 
 Json to_json(const RunResult& result)
@@ -81,11 +95,11 @@ Json to_json(const RunResult& result)
     json["penetration"] = report.penetration;
     json["kinetic_energy"] = report.kinetic_energy;
     json["potential_energy"] = report.potential_energy;
-    json["momentum_error"] = report.momentum_error;
-    json["primal_residual"] = report.primal_residual;
-    json["dual_residual"] = report.dual_residual;
+    json["momentum_error"] = known(report.momentum_error);
+    json["primal_residual"] = known(report.primal_residual);
+    json["dual_residual"] = known(report.dual_residual);
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
-    json["active_share"] = report.active_share >= 0 ? Json(report.active_share) : Json(nullptr);
+    json["active_share"] = known(report.active_share);
     json["torn"] = report.torn;
     if (result.asleep)
         json["asleep"] = *result.asleep;
@@ -112,8 +126,7 @@ std::string summary(const RunResult& result)
             std::to_string(result.vertices) + " vertices\n";
     text += "errors  stretch " + number(100 * report.max_stretch, 3) + " % largest, " +
             number(100 * report.rms_stretch, 3) + " % rms; penetration " +
-            number(1000 * report.penetration, 3) + " mm; residuals " + number(report.primal_residual, 2) +
-            " primal, " + number(report.dual_residual, 2) + " dual\n";
+            number(1000 * report.penetration, 3) + " mm" + residuals(report) + "\n";
     if (result.solvers > 0)
         text += "solver  " + std::to_string(report.solver.solves) + " linear solves, " +
                 std::to_string(report.solver.iterations) + " iterations, " +

@@ -175,9 +175,9 @@ int tetrahedralise(const TetrahedraliseCommand& command)
         throw Error(ErrorCode::bad_input,
                     "--max-volume is " + shown(command.max_volume) + "; it must be above 0.");
     const fs::path out = out_file(command);
-    const auto mesher = choose_mesher(command.program);
     double volume = 0;
     const Mesh surface = read_surface(command.surface, volume);
+    const auto mesher = choose_mesher(command.program);
     check_writable(out);
     MeshFindings findings;
     const Mesh solid = fill(surface, volume, mesher, command.max_volume, findings);

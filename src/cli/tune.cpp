@@ -102,11 +102,16 @@ std::string summary(const TuneResult& result)
     text += "reference  " + result.reference.name + ": " + result.reference.text + "\n";
     for (const std::string& passed : result.reference.passed)
         text += "           passed over: " + passed + "\n";
-    text += result.found ? found_text(result) : "No setting keeps that error.\n";
+    if (result.interrupted)
+        text += "Interrupted: settings that were not tried may be cheaper, or keep the error.\n";
+    text += result.found         ? found_text(result)
+            : result.interrupted ? "None of those tried keeps that error.\n"
+                                 : "No setting keeps that error.\n";
     for (const std::string& note : result.notes)
         text += "note       " + note + "\n";
     text += "rejected   " + std::to_string(result.rejected.size()) + " settings; " +
-            std::to_string(result.not_tried) + " dearer ones were not tried\n";
+            std::to_string(result.not_tried) + (result.interrupted ? "" : " dearer ones") +
+            " were not tried\n";
     return text + rejected_table(result);
 }
 

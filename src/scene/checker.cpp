@@ -57,7 +57,8 @@ bool Checker::finite(std::string_view member, const glm::dvec3& value, std::stri
 void Checker::positive(std::string_view member, double value, std::string_view unit) const
 {
     if (finite(member, value, unit) && !(value > 0))
-        error(member, "is " + shown(value) + "; it must be greater than 0 " + std::string(unit));
+        error(member, "is " + shown(value) + "; it must be greater than 0" +
+                          (unit.empty() ? "" : " " + std::string(unit)));
 }
 
 void Checker::not_negative(std::string_view member, double value, std::string_view unit) const
