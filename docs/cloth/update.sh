@@ -42,8 +42,8 @@ figure acad_load $scenes/acad_load.json "springs: device=cpu" "adaptive, 5 %: de
 figure pbd_devices $scenes/pbd_devices.json "native serial: device=cpu:serial" "native on all cores: device=cpu" "Vulkan: device=vulkan" \
     "OpenGL: device=opengl" "native, by vertices: device=cpu; method.scheme=node_centric" \
     "native, by constraints: device=cpu; method.scheme=constraint_centric"
-figure pbd_stretch $scenes/pbd_stretch.json "stretch 0.1: device=cpu; method.stretch=0.1" "0.5: device=cpu; method.stretch=0.5" \
-    "0.9: device=cpu; method.stretch=0.9" "1: device=cpu"
+figure pbd_stretch $scenes/pbd_stretch.json "stretch 0.9: device=cpu; method.stretch=0.9" \
+    "0.99: device=cpu; method.stretch=0.99" "0.999: device=cpu; method.stretch=0.999" "1: device=cpu"
 figure pbd_bend $scenes/pbd_bend.json "bend 0: device=cpu; method.bend=0" "0.02: device=cpu; method.bend=0.02" \
     "0.1: device=cpu; method.bend=0.1" "0.5: device=cpu; method.bend=0.5"
 figure pbd_iterations $scenes/pbd_iterations.json "1 iteration: device=cpu; method.iterations=1" "4: device=cpu; method.iterations=4" \
@@ -55,3 +55,5 @@ figure methods $scenes/methods.json "xpbd: device=cpu" "pbd: device=cpu; method.
     "implicit_constraints: device=cpu; method.type=implicit_constraints; method.substeps=5" \
     "acad: device=cpu; method.type=acad; method.stability=substep" \
     "vbd: device=cpu; method.type=vbd; method.substeps=5; method.iterations=2"
+figure opencloth examples/scenes/opencloth.json "pbd, native serial: device=cpu:serial" "native on all cores: device=cpu" \
+    "Vulkan: device=vulkan" "OpenGL: device=opengl" "xpbd: device=cpu:serial; method.type=xpbd"

@@ -67,11 +67,12 @@ std::uint64_t frames_of(const CompareCommand& command, const Scene& scene)
     return static_cast<std::uint64_t>(std::max(std::ceil(scene.duration / scene.timestep - 1e-6), 0.0));
 }
 
-/// The last frame of every variant that ran, left to right, under one camera. False: nothing can draw.
+/// The last frame of every variant that ran, labelled, line by line, under one camera. False: nothing can draw.
 bool draw(const std::vector<Variant>& variants, const std::vector<CompareRow>& rows, double time,
           const fs::path& file)
 {
-    constexpr std::uint32_t kWidth = 400, kHeight = 400;
+    constexpr std::uint32_t kWidth = 400, kHeight = 400, kMostInARow = 5;
+    constexpr glm::u8vec3 kInk{70, 76, 84};
     std::vector<Moment> moments;
     for (const CompareRow& row : rows)
         if (row.refusal.empty())
@@ -80,16 +81,20 @@ bool draw(const std::vector<Variant>& variants, const std::vector<CompareRow>& r
         return false;
     try
     {
-        Image sheet =
-            make_image(static_cast<std::uint32_t>(kWidth * moments.size()), kHeight, {255, 255, 255});
-        std::uint32_t column = 0;
+        const auto tiles = static_cast<std::uint32_t>(moments.size());
+        const std::uint32_t lines = (tiles + kMostInARow - 1) / kMostInARow, columns = (tiles + lines - 1) / lines;
+        Image sheet = make_image(kWidth * columns, kHeight * lines, {255, 255, 255});
+        std::uint32_t tile = 0;
         for (std::size_t k = 0; k < rows.size(); ++k)
             if (rows[k].refusal.empty())
             {
                 // Vertices may differ from variant to variant, so each has its own drawing of the scene.
                 Pictures pictures(variants[k].scene);
                 const Shot shot = frame_shot(variants[k].scene, moments, kWidth, kHeight);
-                place(sheet, pictures.draw(Moment{time, rows[k].positions}, shot), column++ * kWidth, 0);
+                Image picture = pictures.draw(Moment{time, rows[k].positions}, shot);
+                label(picture, rows[k].label, 12, 12, 2, kInk);
+                place(sheet, picture, tile % columns * kWidth, tile / columns * kHeight);
+                ++tile;
             }
         write_png(file, sheet);
         return true;

@@ -17,6 +17,7 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
+#include <stb/stb_easy_font.h>
 #include <stb/stb_image_write.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
@@ -25,32 +26,28 @@
 namespace taut {
 namespace {
 
-struct Glyph
-{
-    char letter;
-    std::array<std::uint8_t, 7> rows; ///< five bits each, the leftmost pixel is 16
-};
-
-constexpr Glyph kFont[] = {
-    {'0', {14, 17, 17, 17, 17, 17, 14}}, {'1', {4, 12, 4, 4, 4, 4, 14}},  {'2', {14, 17, 1, 2, 4, 8, 31}},
-    {'3', {14, 17, 1, 6, 1, 17, 14}},    {'4', {2, 6, 10, 18, 31, 2, 2}}, {'5', {31, 16, 30, 1, 1, 17, 14}},
-    {'6', {14, 16, 30, 17, 17, 17, 14}}, {'7', {31, 1, 2, 4, 4, 8, 8}},   {'8', {14, 17, 17, 14, 17, 17, 14}},
-    {'9', {14, 17, 17, 17, 15, 1, 14}},  {'.', {0, 0, 0, 0, 0, 12, 12}},  {'=', {0, 0, 31, 0, 31, 0, 0}},
-    {'-', {0, 0, 0, 31, 0, 0, 0}},       {'t', {8, 8, 28, 8, 8, 9, 6}},   {'s', {0, 0, 15, 16, 14, 1, 30}},
-};
-
 std::uint8_t* pixel(Image& image, std::uint32_t x, std::uint32_t y)
 {
     return image.rgba.data() + 4 * (std::size_t(y) * image.width + x);
 }
 
-void fill(Image& image, std::uint32_t x, std::uint32_t y, std::uint32_t size, const glm::u8vec3& colour)
+void fill(Image& image, std::uint32_t left, std::uint32_t top, std::uint32_t right, std::uint32_t bottom,
+          const glm::u8vec3& colour)
 {
-    for (std::uint32_t v = y; v < std::min(y + size, image.height); ++v)
-        for (std::uint32_t u = x; u < std::min(x + size, image.width); ++u)
+    for (std::uint32_t v = top; v < std::min(bottom, image.height); ++v)
+        for (std::uint32_t u = left; u < std::min(right, image.width); ++u)
             for (int c = 0; c < 3; ++c)
                 pixel(image, u, v)[c] = colour[c];
 }
+
+constexpr std::size_t kMostQuads = 24; ///< of a letter
+
+/// As stb_easy_font.h lays it out.
+struct FontVertex
+{
+    float x, y, z;
+    std::array<std::uint8_t, 4> colour;
+};
 
 } // namespace
 
@@ -75,16 +72,19 @@ void place(Image& image, const Image& part, std::uint32_t x, std::uint32_t y)
 void label(Image& image, std::string_view text, std::uint32_t x, std::uint32_t y, std::uint32_t size,
            const glm::u8vec3& colour)
 {
-    for (const char letter : text)
-    {
-        const auto glyph = std::find_if(std::begin(kFont), std::end(kFont),
-                                        [&](const Glyph& g) { return g.letter == letter; });
-        for (std::uint32_t row = 0; glyph != std::end(kFont) && row < 7; ++row)
-            for (std::uint32_t column = 0; column < 5; ++column)
-                if ((glyph->rows[row] >> (4 - column) & 1) != 0)
-                    fill(image, x + column * size, y + row * size, size, colour);
-        x += (letter == '.' ? 5 : 6) * size;
-    }
+    std::string ascii(text);
+    for (char& letter : ascii)
+        if (letter < ' ' || letter > '~')
+            letter = ' ';
+    std::vector<FontVertex> corners(ascii.size() * 4 * kMostQuads);
+    const int quads = stb_easy_font_print(0, 0, ascii.data(), nullptr, corners.data(),
+                                          static_cast<int>(corners.size() * sizeof(FontVertex)));
+    const auto at = [size](std::uint32_t from, float units) {
+        return from + static_cast<std::uint32_t>(units * static_cast<float>(size) + 0.5f);
+    };
+    for (std::size_t k = 0; k < 4 * static_cast<std::size_t>(quads); k += 4)
+        fill(image, at(x, corners[k].x), at(y, corners[k].y), at(x, corners[k + 2].x), at(y, corners[k + 2].y),
+             colour);
 }
 
 void write_png(const std::filesystem::path& file, const Image& image)

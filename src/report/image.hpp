@@ -14,8 +14,8 @@ Image make_image(std::uint32_t width, std::uint32_t height, const glm::u8vec3& c
 /// Copies `part` so that its top left pixel is at (x, y); what lies outside is cut off.
 void place(Image& image, const Image& part, std::uint32_t x, std::uint32_t y);
 
-/// Writes with a bitmap font: digits, "t", "s", "=", ".", "-", " "; other characters are left blank. `size`:
-/// pixels of the image per pixel of the font (5 x 7).
+/// Writes with the font of stb_easy_font; what is not ASCII is left blank. `size`: pixels of the image per
+/// pixel of the font, whose capitals are 7 high.
 void label(Image& image, std::string_view text, std::uint32_t x, std::uint32_t y, std::uint32_t size,
            const glm::u8vec3& colour);
 

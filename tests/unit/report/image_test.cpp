@@ -45,11 +45,16 @@ TEST_CASE("a label changes pixels where it stands, and what does not fit is cut 
 {
     const Image plain = make_image(60, 20, {255, 255, 255});
     Image image = plain;
-    label(image, "t", 2, 3, 1, {0, 0, 0});
-    CHECK(pixel(image, 3, 3) == glm::ivec3(0));
-    CHECK(pixel(image, 2, 3) == glm::ivec3(255));
-    CHECK(differing(image, plain) == 11);
-    label(image, "0.123456789 = -s", 50, 15, 2, {0, 0, 0});
+    label(image, "-", 2, 3, 1, {0, 0, 0}); // one bar: the third row of seven below the top
+    const std::size_t bar = differing(image, plain);
+    CHECK(bar >= 3);
+    CHECK(bar <= 6);
+    Image large = plain;
+    label(large, "-", 2, 3, 2, {0, 0, 0});
+    CHECK(differing(large, plain) == 4 * bar);
+    label(large, "\xc3\xa4", 30, 3, 1, {0, 0, 0}); // not ASCII
+    CHECK(differing(large, plain) == 4 * bar);
+    label(image, "Every letter: (k = 5) 0.123456789", 40, 15, 2, {0, 0, 0});
     place(image, make_image(10, 10, {1, 2, 3}), 55, 12);
     CHECK(pixel(image, 59, 19) == glm::ivec3(1, 2, 3));
     CHECK(pixel(image, 0, 19) == glm::ivec3(255));
