@@ -20,6 +20,7 @@ PARAMS
     uint chunk; // of them a group
     uint further;
     uint report; // 1: count degenerate rows
+    uint swing;  // 1: count rows whose ends move apart by more than 0.3 lengths across them
 };
 
 READ(0, Spring, row); // stiffness 0 = rigid
@@ -55,6 +56,9 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     real value = len - s.rest_length;
     value = further != 0u ? value : value + along;
     value += damped * along;
+    // Beyond this the direction at the start says little about the length at the end.
+    rvec3 across = moved - n * along;
+    real limit = REAL(0.3) * s.rest_length;
 #if KEPT
     value -= further != 0u ? scaled * multiplier[i] : real(0);
 #endif
@@ -62,5 +66,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     b[i] = usable ? value / share : real(0);
     if (report != 0u && !usable && s.rest_length > real(0))
         COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    if (swing != 0u && usable && dot(across, across) > limit * limit)
+        COUNT_EVENT(events, TAUT_EVENT_SPEED_CLAMP);
     EACH_END
 }

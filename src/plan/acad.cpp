@@ -232,7 +232,7 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
     if (kept)
         uses.push_back({a.total});
     gated(b, a, "constraint_rows", kept ? "kept" : "", uses,
-          kernels::constraint_rows::Params{springs, a.chunk, further, moment.last}, a.groups,
+          kernels::constraint_rows::Params{springs, a.chunk, further, moment.last, 0}, a.groups,
           TAUT_ACAD_SOLVE);
     a.solve->record(b);
     std::vector<Use> store = {{a.row_list}, {a.solve->x()},        {a.multiplier},          {a.flags},

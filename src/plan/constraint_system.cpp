@@ -1,4 +1,4 @@
-// Based on: kernels/constraint/constraint_spread.comp, constraint_product.comp, constraint_matrix.comp.
+// Based on: kernels/constraint/constraint_{spread,product,matrix}.comp, corner_{spread,product,matrix}.comp.
 // Departures: none beyond those named there.
 
 #include "taut/plan/constraint_system.hpp"
@@ -6,8 +6,10 @@
 #include "taut/kernels/constraint_matrix.hpp"
 #include "taut/kernels/constraint_product.hpp"
 #include "taut/kernels/constraint_spread.hpp"
-#include "taut/kernels/volume_product.hpp"
-#include "taut/kernels/volume_spread.hpp"
+#include "taut/kernels/corner_matrix.hpp"
+#include "taut/kernels/corner_product.hpp"
+#include "taut/kernels/corner_spread.hpp"
+#include "taut/kernels/shared/corner_address.h"
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
@@ -17,6 +19,26 @@ namespace {
 
 constexpr std::uint64_t kMostPatternEntries = std::uint64_t(1) << 26;
 constexpr const char* kLabel = "constraint product";
+
+std::uint64_t degree_of(const Incidence& at, std::size_t v) { return at.start[v + 1] - at.start[v]; }
+
+void check_entries(std::uint64_t most, std::size_t rows)
+{
+    if (most > kMostPatternEntries)
+        throw Error(ErrorCode::limit, "the matrix of " + std::to_string(rows) +
+                                          " constraints would have about " + std::to_string(most) +
+                                          " entries, more than " + std::to_string(kMostPatternEntries) +
+                                          "; take method.linear_operator \"matrix_free\"");
+}
+
+std::shared_ptr<linear::DeviceMatrix> upload_csr(PlanBuilder& b, const linear::SparseMatrix& pattern)
+{
+    linear::UploadOptions options;
+    options.format = linear::Format::csr;
+    options.precision = b.plan.precision;
+    options.rewritable = true;
+    return linear::DeviceMatrix::upload(b.paper(), pattern, options);
+}
 
 } // namespace
 
@@ -36,15 +58,15 @@ ConstraintOperator::ConstraintOperator(PlanBuilder& b, const ConstraintRows& row
         list_ = b.on_paper(rows.list);
         place_ = b.on_paper(rows.place);
     }
-    if (rows.volumes.count > 0)
+    if (rows.corners.count > 0)
     {
-        tetrahedra_ = b.on_paper(rows.volumes.records);
-        volume_start_ = b.on_paper(rows.volumes.start);
-        volume_incident_ = b.on_paper(rows.volumes.incident);
-        gradient_ = b.on_paper(rows.volumes.gradient);
+        corners_ = b.on_paper(rows.corners.records);
+        corner_start_ = b.on_paper(rows.corners.start);
+        corner_incident_ = b.on_paper(rows.corners.incident);
+        gradient_ = b.on_paper(rows.corners.gradient);
     }
     for (const BufferPtr& read : {records_, start_, incident_, direction_, position_, list_, place_,
-                                  tetrahedra_, volume_start_, volume_incident_, gradient_})
+                                  corners_, corner_start_, corner_incident_, gradient_})
         bytes_ += read ? read->bytes() : 0;
 }
 
@@ -58,20 +80,20 @@ void ConstraintOperator::record_spread(Recorder& recorder, const linear::Gate& g
         bindings.insert(bindings.end(), {list_, place_});
     launch(recorder, gate, kernels::constraint_spread::info(list_ ? "listed" : "", precision_),
            std::move(bindings), kernels::constraint_spread::Params{vertices_, chunk}, kLabel);
-    if (tetrahedra_)
-        launch(recorder, gate, kernels::volume_spread::info("", precision_),
-               {volume_start_, volume_incident_, gradient_, std::move(x), position_, spread_},
-               kernels::volume_spread::Params{vertices_, chunk, rows_.count}, kLabel);
+    if (corners_)
+        launch(recorder, gate, kernels::corner_spread::info("", precision_),
+               {corner_start_, corner_incident_, gradient_, std::move(x), position_, spread_},
+               kernels::corner_spread::Params{vertices_, chunk, rows_.count}, kLabel);
 }
 
-void ConstraintOperator::record_volumes(Recorder& recorder, const linear::Gate& gate,
+void ConstraintOperator::record_corners(Recorder& recorder, const linear::Gate& gate,
                                         std::string_view variant, std::vector<Binding> bindings) const
 {
-    if (!tetrahedra_)
+    if (!corners_)
         return;
-    const linear::Grid grid = linear::make_grid(rows_.volumes.count, gate.groups);
-    launch(recorder, gate, kernels::volume_product::info(variant, precision_), std::move(bindings),
-           kernels::volume_product::Params{grid.count, grid.chunk, rows_.count, gate.groups}, kLabel);
+    const linear::Grid grid = linear::make_grid(rows_.corners.count, gate.groups);
+    launch(recorder, gate, kernels::corner_product::info(variant, precision_), std::move(bindings),
+           kernels::corner_product::Params{grid.count, grid.chunk, rows_.count, gate.groups}, kLabel);
 }
 
 void ConstraintOperator::record_product(Recorder& recorder, const linear::Gate& gate, Binding x, Binding y,
@@ -80,17 +102,17 @@ void ConstraintOperator::record_product(Recorder& recorder, const linear::Gate& 
     record_spread(recorder, gate, x);
     const linear::Grid grid = linear::make_grid(rows_.count, gate.groups);
     std::vector<Binding> bindings = {records_, direction_, spread_, x, y};
-    std::vector<Binding> volumes = {tetrahedra_, gradient_, spread_, std::move(x), std::move(y)};
+    std::vector<Binding> corners = {corners_, gradient_, spread_, std::move(x), std::move(y)};
     const bool dot = partials.buffer != nullptr;
     if (dot)
     {
         bindings.push_back(partials);
-        volumes.push_back(std::move(partials));
+        corners.push_back(std::move(partials));
     }
     launch(recorder, gate, kernels::constraint_product::info(dot ? "dot" : "", precision_),
            std::move(bindings), kernels::constraint_product::Params{grid.count, grid.chunk, gate.groups},
            kLabel);
-    record_volumes(recorder, gate, dot ? "dot" : "", std::move(volumes));
+    record_corners(recorder, gate, dot ? "dot" : "", std::move(corners));
 }
 
 void ConstraintOperator::record_residual(Recorder& recorder, const linear::Gate& gate, Binding x, Binding b,
@@ -101,8 +123,8 @@ void ConstraintOperator::record_residual(Recorder& recorder, const linear::Gate&
     launch(recorder, gate, kernels::constraint_product::info("residual", precision_),
            {records_, direction_, spread_, x, r, b},
            kernels::constraint_product::Params{grid.count, grid.chunk, gate.groups}, kLabel);
-    record_volumes(recorder, gate, "residual",
-                   {tetrahedra_, gradient_, spread_, std::move(x), std::move(r), std::move(b)});
+    record_corners(recorder, gate, "residual",
+                   {corners_, gradient_, spread_, std::move(x), std::move(r), std::move(b)});
 }
 
 linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, const Incidence& at,
@@ -111,14 +133,10 @@ linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, co
     std::uint64_t most = 0;
     for (std::size_t v = 0; v + 1 < at.start.size(); ++v)
     {
-        const std::uint64_t degree = at.start[v + 1] - at.start[v];
+        const std::uint64_t degree = degree_of(at, v);
         most += inverse_mass[v] > 0 ? degree * degree : 0;
     }
-    if (most > kMostPatternEntries)
-        throw Error(ErrorCode::limit, "the matrix of " + std::to_string(rows.size()) +
-                                          " constraints would have about " + std::to_string(most) +
-                                          " entries, more than " + std::to_string(kMostPatternEntries) +
-                                          "; take method.linear_operator \"matrix_free\"");
+    check_entries(most, rows.size());
     linear::SparseMatrix out;
     out.rows = out.columns = static_cast<std::uint32_t>(rows.size());
     std::vector<std::pair<std::uint32_t, double>> row;
@@ -146,16 +164,86 @@ linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, co
     return out;
 }
 
+namespace {
+
+/// A term of the entry in a column.
+struct Term
+{
+    std::uint32_t column, row_address, column_address;
+    double weight;
+};
+
+/// Terms of a row through one of its vertices.
+void append_terms(std::vector<Term>& out, std::uint32_t address, std::uint32_t v, double w,
+                  std::uint32_t springs, const Incidence& at, const Incidence& corners_at)
+{
+    for (std::uint32_t k = at.start[v]; w > 0 && k < at.start[v + 1]; ++k)
+        out.push_back({at.entries[k] / 2, address, at.entries[k], w});
+    for (std::uint32_t k = corners_at.start[v]; w > 0 && k < corners_at.start[v + 1]; ++k)
+    {
+        const std::uint32_t entry = corners_at.entries[k];
+        out.push_back({springs + entry / 4, address, TAUT_CORNER_ROW | entry, w});
+    }
+}
+
+void append_row(ConstraintTerms& out, std::vector<Term>& terms)
+{
+    std::stable_sort(terms.begin(), terms.end(), [](auto& x, auto& y) { return x.column < y.column; });
+    for (std::size_t k = 0; k < terms.size(); ++k)
+    {
+        if (k == 0 || terms[k].column != terms[k - 1].column)
+        {
+            out.pattern.column.push_back(terms[k].column);
+            out.pattern.value.push_back(0);
+            out.start.push_back(out.start.back());
+        }
+        out.address.insert(out.address.end(), {terms[k].row_address, terms[k].column_address});
+        out.weight.push_back(terms[k].weight);
+        ++out.start.back();
+    }
+    out.pattern.row_start.push_back(static_cast<std::uint32_t>(out.pattern.column.size()));
+}
+
+} // namespace
+
+ConstraintTerms constraint_terms(std::span<const StretchElement> springs, const Incidence& at,
+                                 std::span<const std::uint32_t> corners, const Incidence& corners_at,
+                                 std::span<const double> inverse_mass)
+{
+    const auto count = static_cast<std::uint32_t>(springs.size());
+    const std::uint32_t rows = count + static_cast<std::uint32_t>(corners.size() / 4);
+    std::uint64_t most = 0;
+    for (std::size_t v = 0; v + 1 < at.start.size(); ++v)
+    {
+        const std::uint64_t degree = degree_of(at, v) + degree_of(corners_at, v);
+        most += inverse_mass[v] > 0 ? degree * degree : 0;
+    }
+    check_entries(most, rows);
+    ConstraintTerms out;
+    out.pattern.rows = out.pattern.columns = rows;
+    std::vector<Term> terms;
+    for (std::uint32_t r = 0; r < rows; ++r)
+    {
+        const std::uint32_t address = r < count ? 2 * r : TAUT_CORNER_ROW | 4 * (r - count);
+        terms.assign(1, {r, address, address, 0.0}); // the diagonal is there whatever is held
+        for (std::uint32_t c = 0; c < (r < count ? 2u : 4u); ++c)
+        {
+            const std::uint32_t v = r >= count ? corners[4 * (r - count) + c]
+                                    : c == 0   ? springs[r].a
+                                               : springs[r].b;
+            append_terms(terms, address + c, v, inverse_mass[v], count, at, corners_at);
+        }
+        append_row(out, terms);
+    }
+    return out;
+}
+
 ConstraintMatrix::ConstraintMatrix(PlanBuilder& b, std::string_view effect,
                                    const linear::SparseMatrix& pattern, std::uint32_t direction)
     : effect_(effect),
       direction_(direction)
 {
-    linear::UploadOptions options;
-    options.format = linear::Format::csr;
-    options.precision = b.plan.precision;
-    options.rewritable = true;
-    matrix_ = linear::DeviceMatrix::upload(b.paper(), pattern, options);
+    matrix_ = upload_csr(b, pattern);
     // The tables follow the order of the stored values, so that a pass writes memory as it lies.
     const std::vector<std::uint32_t> slots = matrix_->slots(pattern);
     entries_ = static_cast<std::uint32_t>(slots.size());
@@ -175,11 +263,50 @@ ConstraintMatrix::ConstraintMatrix(PlanBuilder& b, std::string_view effect,
     values_ = b.adopt(effect, matrix_->values());
 }
 
+ConstraintMatrix::ConstraintMatrix(PlanBuilder& b, std::string_view effect, const ConstraintTerms& terms,
+                                   std::uint32_t direction, std::uint32_t gradient)
+    : effect_(effect),
+      direction_(direction),
+      gradient_(gradient)
+{
+    matrix_ = upload_csr(b, terms.pattern);
+    const std::vector<std::uint32_t> slots = matrix_->slots(terms.pattern);
+    entries_ = static_cast<std::uint32_t>(slots.size());
+    terms_ = static_cast<std::uint32_t>(terms.weight.size());
+    std::vector<std::uint32_t> entry(entries_), start = {0}, address;
+    for (std::uint32_t k = 0; k < entries_; ++k)
+        entry[slots[k]] = k;
+    with_real(b.plan.precision, [&](auto zero) {
+        std::vector<decltype(zero)> weight;
+        for (const std::uint32_t k : entry)
+        {
+            for (std::uint32_t t = terms.start[k]; t < terms.start[k + 1]; ++t)
+            {
+                address.insert(address.end(), {terms.address[2 * t], terms.address[2 * t + 1]});
+                weight.push_back(static_cast<decltype(zero)>(terms.weight[t]));
+            }
+            start.push_back(static_cast<std::uint32_t>(weight.size()));
+        }
+        weight_ = b.add_buffer<decltype(zero)>(effect, "constraint weights", weight);
+    });
+    start_ = b.add_buffer<std::uint32_t>(effect, "constraint terms, start", start);
+    pair_ = b.add_buffer<std::uint32_t>(effect, "constraint terms", address);
+    values_ = b.adopt(effect, matrix_->values());
+}
+
 void ConstraintMatrix::record(PlanBuilder& b) const
 {
-    const Use uses[] = {{pair_, 2}, {weight_}, {direction_, 2}, {values_}};
-    b.dispatch(effect_, "constraint_matrix", "", uses, kernels::constraint_matrix::Params{entries_},
-               entries_);
+    if (start_ == kNoBuffer)
+    {
+        const Use uses[] = {{pair_, 2}, {weight_}, {direction_, 2}, {values_}};
+        b.dispatch(effect_, "constraint_matrix", "", uses, kernels::constraint_matrix::Params{entries_},
+                   entries_);
+        return;
+    }
+    const std::uint32_t each = terms_ / std::max(entries_, 1u) + 1;
+    const Use uses[] = {{start_, 2},        {pair_, 2 * each}, {weight_, each},
+                        {direction_, each}, {gradient_, each}, {values_}};
+    b.dispatch(effect_, "corner_matrix", "", uses, kernels::corner_matrix::Params{entries_}, entries_);
 }
 
 } // namespace taut

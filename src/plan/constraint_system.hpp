@@ -7,12 +7,12 @@
 
 namespace taut {
 
-/// Rows of tetrahedra behind those of springs; count 0: none.
-struct VolumeRows
+/// Rows of four corners behind those of springs, tetrahedra and then hinges; count 0: none.
+struct CornerRows
 {
     std::uint32_t count = 0;
-    std::uint32_t records = kNoBuffer;  ///< layout::VolumeConstraint<real> a row
-    std::uint32_t start = kNoBuffer;    ///< tetrahedra at each vertex, as in springs.hpp
+    std::uint32_t records = kNoBuffer;  ///< layout::VolumeConstraint<real> or BendingConstraint<real> a row
+    std::uint32_t start = kNoBuffer;    ///< rows at each vertex, as in springs.hpp
     std::uint32_t incident = kNoBuffer;
     std::uint32_t gradient = kNoBuffer; ///< 3 rvec4 a row
 };
@@ -29,11 +29,12 @@ struct ConstraintRows
     // Only where rows are a changing part of the springs (acad):
     std::uint32_t list = kNoBuffer;  ///< how many vertices have rows, then these
     std::uint32_t place = kNoBuffer; ///< row of each spring
-    VolumeRows volumes;
-    std::uint32_t all() const { return count + volumes.count; }
+    CornerRows corners;
+    std::uint32_t all() const { return count + corners.count; }
 };
 
-/// y = J (W (J^T x)) + compliance x by two gathering passes, and two more where there are tetrahedra.
+/// y = J (W (J^T x)) + compliance x by two gathering passes, and two more where there are rows of four
+/// corners.
 class ConstraintOperator final : public linear::Operator
 {
 public:
@@ -48,7 +49,7 @@ public:
 
 private:
     void record_spread(Recorder&, const linear::Gate&, Binding x) const;
-    void record_volumes(Recorder&, const linear::Gate&, std::string_view variant,
+    void record_corners(Recorder&, const linear::Gate&, std::string_view variant,
                         std::vector<Binding> bindings) const;
 
     ConstraintRows rows_;
@@ -56,7 +57,7 @@ private:
     std::uint32_t vertices_;
     std::uint64_t bytes_ = 0;
     BufferPtr records_, start_, incident_, direction_, position_, spread_, list_, place_;
-    BufferPtr tetrahedra_, volume_start_, volume_incident_, gradient_; ///< null: no tetrahedra
+    BufferPtr corners_, corner_start_, corner_incident_, gradient_; ///< null: no rows of four corners
 };
 
 /// The pattern of A, and what never changes of its values: sum of s_r s_s w_k over the vertices that two
@@ -65,12 +66,27 @@ private:
 linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, const Incidence& at,
                                         std::span<const double> inverse_mass);
 
-/// The matrix on paper, its pattern from constraint_pattern, with the pass that fills it.
+/// The same where rows of four corners stand behind those of springs, with the terms that each entry adds up.
+struct ConstraintTerms
+{
+    linear::SparseMatrix pattern;            ///< values 0
+    std::vector<std::uint32_t> start = {0};  ///< entries + 1
+    std::vector<std::uint32_t> address;      ///< two a term, kernels/shared/corner_address.h
+    std::vector<double> weight;              ///< 1/kg a term
+};
+/// `corners` lists four vertices a row, `corners_at` them at each vertex. Throws as constraint_pattern.
+ConstraintTerms constraint_terms(std::span<const StretchElement> springs, const Incidence& at,
+                                 std::span<const std::uint32_t> corners, const Incidence& corners_at,
+                                 std::span<const double> inverse_mass);
+
+/// The matrix on paper, with the pass that fills it.
 class ConstraintMatrix
 {
 public:
     ConstraintMatrix(PlanBuilder& builder, std::string_view effect, const linear::SparseMatrix& pattern,
                      std::uint32_t direction);
+    ConstraintMatrix(PlanBuilder& builder, std::string_view effect, const ConstraintTerms& terms,
+                     std::uint32_t direction, std::uint32_t gradient);
     const std::shared_ptr<linear::DeviceMatrix>& matrix() const { return matrix_; }
     void record(PlanBuilder& builder) const;
 
@@ -78,7 +94,8 @@ private:
     std::string effect_;
     std::shared_ptr<linear::DeviceMatrix> matrix_;
     std::uint32_t pair_ = kNoBuffer, weight_ = kNoBuffer, direction_ = kNoBuffer, values_ = kNoBuffer;
-    std::uint32_t entries_ = 0;
+    std::uint32_t start_ = kNoBuffer, gradient_ = kNoBuffer; ///< only with rows of four corners
+    std::uint32_t entries_ = 0, terms_ = 0;
 };
 
 } // namespace taut

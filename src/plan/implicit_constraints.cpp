@@ -17,19 +17,15 @@
 #include "taut/kernels/constraint_rows.hpp"
 #include "taut/kernels/constraint_spread.hpp"
 #include "taut/kernels/constraint_total.hpp"
-#include "taut/kernels/volume_rows.hpp"
-#include "taut/kernels/volume_spread.hpp"
+#include "taut/kernels/corner_spread.hpp"
 #include "taut/plan/methods.hpp"
 #include "taut/plan/records.hpp"
-#include "taut/plan/solid_constraints.hpp"
+#include "taut/plan/redundant_rows.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/runtime/base/shown.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -53,68 +49,34 @@ std::uint32_t groups_of(const PlanBuilder& b, const ImplicitConstraints& c)
     return linear::group_count_for(c.rows.all(), b.paper()->info());
 }
 
-/// Places at rest by plan vertex.
-std::vector<glm::dvec3> rest_of(const PlanBuilder& b)
-{
-    std::vector<glm::dvec3> out(b.plan.vertex_count);
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (std::uint32_t v = 0; v < b.scene.bodies[body].mesh.positions.size(); ++v)
-            out[b.vertex(body, v)] = b.scene.bodies[body].mesh.positions[v];
-    return out;
-}
-
-/// Sum of w |g|^2 of a tetrahedron, m^4/kg: its diagonal without compliance.
-double weight_of(const PlanBuilder& b, const VolumeElement& e, std::span<const glm::dvec3> x)
-{
-    const auto gradient = volume_gradient(e.vertex, x);
-    double sum = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-        sum += b.inverse_mass[e.vertex[k]] * glm::dot(gradient[k], gradient[k]);
-    return sum;
-}
-
-/// Every tetrahedron of a body has some compliance: with the rows of its edges it has more rows than freedom.
-std::vector<VolumeElement> volumes_of_all(const PlanBuilder& b)
+/// Rigid springs of different lengths between the same vertices cannot all be held.
+void warn_of_contradictions(PlanBuilder& b, const ImplicitConstraints& c)
 {
     const double h = b.plan.timestep / b.plan.substeps;
-    const std::vector<glm::dvec3> rest = rest_of(b);
-    std::vector<VolumeElement> out;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (VolumeElement e : acting_volumes(b, body))
-        {
-            e.compliance = std::max(e.compliance, kRegularisation * h * h * weight_of(b, e, rest));
-            out.push_back(e);
-        }
-    return out;
-}
-
-void add_volume_buffers(PlanBuilder& b, ImplicitConstraints& c)
-{
-    VolumeRows& v = c.rows.volumes;
-    const Incidence at = incidence_of(b.plan.vertex_count, c.volumes);
-    check_row_trips(b, at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
-    with_real(b.plan.precision, [&](auto zero) {
-        using Real = decltype(zero);
-        v.records = b.add_buffer<layout::VolumeConstraint<Real>>(kEffect, "rows of tetrahedra",
-                                                                 records_of(c.volumes, volume_record<Real>));
-    });
-    v.start = b.add_buffer<std::uint32_t>(kEffect, "tetrahedra at a vertex, start", at.start);
-    v.incident = b.add_buffer<std::uint32_t>(kEffect, "tetrahedra at a vertex", at.entries);
-    v.gradient =
-        b.add_buffer(kEffect, "gradients of tetrahedra", std::uint64_t(v.count) * 12 * b.real_size());
+    const RedundantRows parts = redundant_rows(c.elements, b.inverse_mass);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < c.elements.size(); ++k)
+    {
+        const double w = b.inverse_mass[c.elements[k].a] + b.inverse_mass[c.elements[k].b];
+        count += parts.contradictory[k] && c.compliances[k] <= kContradiction * h * h * w;
+    }
+    if (count > 0)
+        b.plan.warnings.push_back({"conflict", count,
+                                   std::to_string(count) + " springs without compliance join two vertices "
+                                                           "that another of another length joins too"});
 }
 
 void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
 {
     c.at = incidence_of(b.plan.vertex_count, c.elements);
     c.rows.count = static_cast<std::uint32_t>(c.elements.size());
-    c.volumes = volumes_of_all(b);
-    c.rows.volumes.count = static_cast<std::uint32_t>(c.volumes.size());
-    if (!c.volumes.empty())
-        add_volume_buffers(b, c);
+    c.corners = corner_set(b);
+    c.rows.corners.count = static_cast<std::uint32_t>(c.corners.size()); // groups are of all rows
+    c.rows.corners = add_corner_buffers(b, kEffect, c.corners, groups_of(b, c));
     check_row_trips(b, c.at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
     const std::uint64_t vec = 4 * b.real_size();
     c.compliances = row_compliances(b, c.elements);
+    warn_of_contradictions(b, c);
     c.rows.records = add_row_records(b, kEffect, c.elements, c.compliances);
     c.rows.start = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex, start", c.at.start);
     c.rows.incident = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex", c.at.entries);
@@ -124,6 +86,18 @@ void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
         c.multiplier = b.add_buffer(kEffect, "multipliers of the substep", c.rows.all() * b.real_size());
 }
 
+void make_matrix(PlanBuilder& b, ImplicitConstraints& c)
+{
+    const std::vector<std::uint32_t> corners = c.corners.corners();
+    if (corners.empty())
+        c.matrix.emplace(b, kEffect, constraint_pattern(c.elements, c.at, b.inverse_mass), c.rows.direction);
+    else
+        c.matrix.emplace(b, kEffect,
+                         constraint_terms(c.elements, c.at, corners,
+                                          incidence_of(b.plan.vertex_count, corners, 4), b.inverse_mass),
+                         c.rows.direction, c.rows.corners.gradient);
+}
+
 BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
 {
     return with_real(b.plan.precision, [&](auto zero) {
@@ -131,11 +105,8 @@ BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
         for (std::size_t k = 0; k < c.elements.size(); ++k)
             values.push_back(
                 static_cast<decltype(zero)>(inverse_diagonal(b, c.elements[k], c.compliances[k])));
-        const double h = b.plan.timestep / b.plan.substeps;
-        const std::vector<glm::dvec3> rest = rest_of(b);
-        for (const VolumeElement& e : c.volumes)
-            values.push_back(static_cast<decltype(zero)>(std::clamp(
-                1 / (weight_of(b, e, rest) + std::min(e.compliance / (h * h), 1e30)), 1e-30, 1e30)));
+        for (const double value : c.corners.inverse)
+            values.push_back(static_cast<decltype(zero)>(value));
         const BufferPtr buffer =
             b.paper()->make_buffer(values.size() * sizeof(zero), "constraint inverse", BufferUse::device);
         b.paper()->write(buffer, 0, std::as_bytes(std::span(values)));
@@ -166,13 +137,14 @@ void check_constrained_lengths(const Scene& scene)
 void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
 {
     check_constrained_lengths(scene);
-    bool forces = false;
+    bool forces = false, rows = false;
     for (std::size_t body = 0; body < scene.bodies.size(); ++body)
     {
         const std::string where = "bodies[" + std::to_string(body) + "]";
         for (const StretchElement& e : stretch_elements(scene.bodies[body]))
         {
             forces = forces || acts_as_force(scene, e);
+            rows = rows || may_be_constrained(scene, e);
             if (acts_as_force(scene, e) && !(e.compliance > 0))
                 throw Error(ErrorCode::unsupported,
                             where + ": the spring between the vertices " + std::to_string(e.a) + " and " +
@@ -180,20 +152,13 @@ void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
                                 " is rigid, but method.constrained leaves it a spring; give it a finite "
                                 "stiffness, or take method.constrained \"all\"");
         }
-        if (holds_volumes(scene.bodies[body]) && scene.method.linear_operator != "matrix_free")
-            throw Error(ErrorCode::unsupported,
-                        where + ".material holds volumes of tetrahedra, but method.linear_operator is \"" +
-                            scene.method.linear_operator +
-                            "\", and only \"matrix_free\" has rows of tetrahedra; take that, or set "
-                            "volume_stiffness to 0");
-        // With stiff constraints hinges gain energy (hard case F17).
-        if (scene.bodies[body].material.bending_stiffness > 0 && !scene.bodies[body].mesh.triangles.empty())
-            throw Error(ErrorCode::unsupported,
-                        where + ".material.bending_stiffness is " +
-                            shown(scene.bodies[body].material.bending_stiffness) +
-                            ", but method.type \"implicit_constraints\" has no hinges "
-                            "yet; set it to 0");
     }
+    for (std::size_t body = 0; body < scene.bodies.size() && !rows; ++body)
+        if (!bend_elements(scene.bodies[body]).empty())
+            throw Error(ErrorCode::unsupported,
+                        "bodies[" + std::to_string(body) +
+                            "].material has bending_stiffness, but the scene no spring that is a constraint, "
+                            "and hinges alone are not solved; give it a stretch_stiffness");
     if (forces && scene.method.integrator != "semi_implicit")
         throw Error(ErrorCode::unsupported, "method.integrator is \"" + scene.method.integrator +
                                                 "\", but forces beside constraints are stepped by "
@@ -204,6 +169,7 @@ std::vector<double> row_compliances(const PlanBuilder& b, std::span<const Stretc
 {
     const double given = b.scene.method.constraint_compliance, h = b.plan.timestep / b.plan.substeps;
     const bool rigid = method_of(b.scene) == MethodKind::acad;
+    const RedundantRows parts = redundant_rows(springs, b.inverse_mass);
     std::vector<double> out;
     std::size_t first = 0;
     for (std::size_t body = 0; body + 1 < b.plan.body_start.size(); ++body)
@@ -215,11 +181,15 @@ std::vector<double> row_compliances(const PlanBuilder& b, std::span<const Stretc
         std::set<std::pair<std::uint32_t, std::uint32_t>> different;
         for (; last < springs.size() && springs[last].a < b.plan.body_start[body + 1]; ++last)
             different.insert(std::minmax(springs[last].a, springs[last].b));
-        const double floor = different.size() > 3 * free ? kRegularisation * h * h : 0;
+        const bool all = different.size() > 3 * free;
         for (; first < last; ++first)
         {
             const StretchElement& e = springs[first];
             const double own = given >= 0 ? given : rigid ? 0 : e.compliance;
+            const double share = parts.contradictory[first]          ? kContradiction
+                                 : all || parts.redundant[first] ? kRegularisation
+                                                                 : 0;
+            const double floor = share * h * h;
             out.push_back(std::max(own, floor * (b.inverse_mass[e.a] + b.inverse_mass[e.b])));
         }
     }
@@ -275,8 +245,7 @@ void prepare_implicit_constraints(PlanBuilder& b)
     std::shared_ptr<const linear::Operator> system;
     if (b.scene.method.linear_operator == "assembled")
     {
-        c->matrix.emplace(b, kEffect, constraint_pattern(c->elements, c->at, b.inverse_mass),
-                          c->rows.direction);
+        make_matrix(b, *c);
         system = c->matrix->matrix();
     }
     else
@@ -289,26 +258,6 @@ void prepare_implicit_constraints(PlanBuilder& b)
         b.plan.kept.push_back(c->multiplier);
     b.implicit_constraints = std::move(c);
 }
-
-namespace {
-
-void record_volume_rows(PlanBuilder& b, const ImplicitConstraints& c, const Moment& moment)
-{
-    const VolumeRows& v = c.rows.volumes;
-    const linear::Grid grid = linear::make_grid(v.count, groups_of(b, c));
-    std::vector<Use> uses = {
-        {v.records},        {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.step_values, 0},
-        {b.plan.events, 0}, {v.gradient, 3},      {c.solve->b()}};
-    const bool kept = c.multiplier != kNoBuffer;
-    if (kept)
-        uses.push_back({c.multiplier});
-    b.dispatch(
-        kEffect, "volume_rows", kept ? "kept" : "", uses,
-        kernels::volume_rows::Params{v.count, grid.chunk, c.rows.count, moment.iteration > 0, moment.last},
-        groups_of(b, c), v.count);
-}
-
-} // namespace
 
 void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
 {
@@ -329,10 +278,10 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
         uses.push_back({c.multiplier});
     const std::uint32_t chunk = linear::make_grid(count, groups).chunk;
     b.dispatch(kEffect, "constraint_rows", c.multiplier != kNoBuffer ? "kept" : "", uses,
-               kernels::constraint_rows::Params{count, chunk, moment.iteration > 0, moment.last}, groups,
-               count);
-    if (!c.volumes.empty())
-        record_volume_rows(b, c, moment);
+               kernels::constraint_rows::Params{count, chunk, moment.iteration > 0, moment.last,
+                                                b.plan.iterations == 1},
+               groups, count);
+    record_corner_rows(b, kEffect, c.corners, c.rows, *c.solve, c.multiplier, groups, moment);
     if (c.matrix)
         c.matrix->record(b);
     c.solve->record(b);
@@ -341,13 +290,13 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
                          {b.plan.position}, {b.plan.delta},        {c.solve->state(), 0}};
     b.dispatch(kEffect, "constraint_spread", "apply", moved,
                kernels::constraint_spread::Params{grid.count, grid.chunk}, groups, grid.count);
-    if (c.volumes.empty())
+    const CornerRows& v = c.rows.corners;
+    if (v.count == 0)
         return;
-    const VolumeRows& v = c.rows.volumes;
     const Use also[] = {{v.start},         {v.incident, 24}, {v.gradient, 24},     {c.solve->x(), 24},
                         {b.plan.position}, {b.plan.delta},   {c.solve->state(), 0}};
-    b.dispatch(kEffect, "volume_spread", "apply", also,
-               kernels::volume_spread::Params{grid.count, grid.chunk, count}, groups, grid.count);
+    b.dispatch(kEffect, "corner_spread", "apply", also,
+               kernels::corner_spread::Params{grid.count, grid.chunk, count}, groups, grid.count);
 }
 
 } // namespace taut

@@ -2,6 +2,7 @@
 // Internal to src/plan: springs as implicit constraints (docs/methods/implicit_constraints.md).
 
 #include "taut/plan/constraint_system.hpp"
+#include "taut/plan/corner_rows.hpp"
 #include "taut/plan/solve.hpp"
 
 #include <optional>
@@ -13,7 +14,7 @@ struct ImplicitConstraints
 {
     std::vector<StretchElement> elements; ///< the constrained springs, in plan vertices
     std::vector<double> compliances;      ///< m/N, of each as a row
-    std::vector<VolumeElement> volumes;   ///< held tetrahedra, likewise; compliance as a row
+    CornerSet corners;                    ///< tetrahedra and hinges
     Incidence at;
     ConstraintRows rows;
     std::uint32_t multiplier = kNoBuffer; ///< real a row; with more than one solve a substep
@@ -29,11 +30,13 @@ void check_constrained_lengths(const Scene& resolved);
 void check_implicit_constraints(const Scene& resolved, const DeviceTraits&);
 
 /// The compliance [m/N] of each spring as a row: the scene's, or where that is "material" the spring's own
-/// (under acad none: beyond the threshold its own would be softer than the spring). A body with more
-/// different rows than its vertices have directions to move in has at least kRegularisation of what makes a
-/// row's diagonal: its system is singular, and in motion nothing solves it.
+/// (under acad none: beyond the threshold its own would be softer than the spring). Rows of a
+/// body with more different ones than its vertices have directions to move in, and redundant ones elsewhere
+/// (redundant_rows.hpp), have at least kRegularisation of what makes a row's diagonal: their system is
+/// singular, and in motion nothing solves it. Rows that contradict each other have kContradiction of it:
+/// what pulls against each other must stay small beside what carries, or float does not solve it.
 std::vector<double> row_compliances(const PlanBuilder& builder, std::span<const StretchElement> springs);
-inline constexpr double kRegularisation = 1e-4;
+inline constexpr double kContradiction = 1e-2;
 /// kg: one over the diagonal of A in the row of a spring.
 double inverse_diagonal(const PlanBuilder& builder, const StretchElement& spring, double compliance);
 /// layout::Spring<real> a spring, as constraint_rows.comp reads them.

@@ -12,7 +12,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,20 +19,6 @@ namespace taut {
 namespace {
 
 constexpr std::uint32_t kMostSubsteps = 1000; // as a scene may ask for
-
-/// Sizes of the gradients of a hinge's angle at its four corners, 1/m; zeros without an angle.
-std::array<double, 4> gradient_sizes(const BendElement& h, std::span<const glm::dvec3> x)
-{
-    const glm::dvec3 e = x[h.edge1] - x[h.edge0], a = x[h.wing0] - x[h.edge0], b = x[h.wing1] - x[h.edge0];
-    const glm::dvec3 n1 = glm::cross(e, a), n2 = glm::cross(b, e);
-    const double ee = glm::dot(e, e), area1 = glm::dot(n1, n1), area2 = glm::dot(n2, n2);
-    if (!(ee > 0) || !(area1 > 0) || !(area2 > 0))
-        return {};
-    const glm::dvec3 g2 = n1 * (-std::sqrt(ee) / area1), g3 = n2 * (-std::sqrt(ee) / area2);
-    const double s2 = glm::dot(a, e) / ee, s3 = glm::dot(b, e) / ee;
-    return {glm::length(g2 * (s2 - 1) + g3 * (s3 - 1)), glm::length(g2 * s2 + g3 * s3), glm::length(g2),
-            glm::length(g3)};
-}
 
 std::vector<bool> held_by_pins(const Body& body)
 {
@@ -45,6 +30,19 @@ std::vector<bool> held_by_pins(const Body& body)
 }
 
 } // namespace
+
+std::array<double, 4> hinge_gradient_sizes(const BendElement& h, std::span<const glm::dvec3> x)
+{
+    const glm::dvec3 e = x[h.edge1] - x[h.edge0], a = x[h.wing0] - x[h.edge0], b = x[h.wing1] - x[h.edge0];
+    const glm::dvec3 n1 = glm::cross(e, a), n2 = glm::cross(b, e);
+    const double ee = glm::dot(e, e), area1 = glm::dot(n1, n1), area2 = glm::dot(n2, n2);
+    if (!(ee > 0) || !(area1 > 0) || !(area2 > 0))
+        return {};
+    const glm::dvec3 g2 = n1 * (-std::sqrt(ee) / area1), g3 = n2 * (-std::sqrt(ee) / area2);
+    const double s2 = glm::dot(a, e) / ee, s3 = glm::dot(b, e) / ee;
+    return {glm::length(g2 * (s2 - 1) + g3 * (s3 - 1)), glm::length(g2 * s2 + g3 * s3), glm::length(g2),
+            glm::length(g3)};
+}
 
 bool acts_as_force(const Scene& scene, const StretchElement& spring)
 {
@@ -62,7 +60,7 @@ std::vector<double> stiffness_rows(const std::vector<StretchElement>& springs,
             stiff[v] += 2 / s.compliance;
     for (const BendElement& h : hinges)
     {
-        const std::array<double, 4> size = gradient_sizes(h, x);
+        const std::array<double, 4> size = hinge_gradient_sizes(h, x);
         const double sum = size[0] + size[1] + size[2] + size[3];
         const std::uint32_t vertex[4] = {h.edge0, h.edge1, h.wing0, h.wing1};
         for (std::size_t c = 0; c < 4; ++c)
@@ -98,7 +96,9 @@ RateBounds rate_bounds(const Scene& resolved)
     {
         auto springs = stretch_elements(body);
         std::erase_if(springs, [&](const StretchElement& e) { return !acts_as_force(resolved, e); });
-        const auto hinges = bend_elements(body);
+        const auto hinges = method_of(resolved) == MethodKind::implicit_constraints
+                                ? std::vector<BendElement>()
+                                : bend_elements(body); // rows there
         const auto mass = vertex_masses(body);
         const auto held = held_by_pins(body);
         for (const auto* x : {&body.mesh.positions, &body.start_positions})

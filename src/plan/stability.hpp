@@ -5,6 +5,7 @@
 #include "taut/plan/material.hpp"
 #include "taut/plan/methods.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,10 @@ namespace taut {
 
 /// Whether a method moves a spring by its force; implicit_constraints does not where it is a constraint.
 bool acts_as_force(const Scene& scene, const StretchElement& spring);
+
+/// Sizes of the gradients of a hinge's angle at its corners (both ends of the edge, both wings), 1/m; zeros
+/// without an angle. Indexes `x` [m].
+std::array<double, 4> hinge_gradient_sizes(const BendElement& hinge, std::span<const glm::dvec3> x);
 
 /// Bounds (Gershgorin, by rows) on the largest eigenvalues of M^-1 K and M^-1 D over the vertices that move.
 struct RateBounds

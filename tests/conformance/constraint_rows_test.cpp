@@ -38,10 +38,12 @@ TEMPLATE_TEST_CASE("constraint_rows forms directions and what is left of each le
     if (dealt.count > 1000)
         return;
     const bool kept = GENERATE(false, true);
-    const std::uint32_t further = GENERATE(0u, 1u);
-    CAPTURE(dealt.count, dealt.groups, kept, further);
+    const std::uint32_t further = GENERATE(0u, 1u), swing = GENERATE(0u, 1u);
+    CAPTURE(dealt.count, dealt.groups, kept, further, swing);
     Random random(40 + dealt.count);
     RowNet<Real> net = random_row_net<Real>(random, dealt.count + 3); // three stay as they are
+    for (std::uint32_t r = 2; r < net.rows(); r += 5) // short for how far their ends move
+        net.row[r].rest_length = random.uniform<Real>(0.005, 0.1);
     const std::uint32_t counted = plant(net);
     const std::vector<Real> multiplier = random_reals<Real>(random, net.rows(), -1e-3, 1e-3);
 
@@ -57,7 +59,7 @@ TEMPLATE_TEST_CASE("constraint_rows forms directions and what is left of each le
             {"b", bytes_of(std::vector<Real>(net.rows(), Real(7)))},
             {"multiplier", bytes_of(multiplier)}};
     c.launches = {make_launch(kernels::constraint_rows::info(kept ? "kept" : "", c.precision),
-                              kernels::constraint_rows::Params{dealt.count, dealt.chunk(), further, 1},
+                              kernels::constraint_rows::Params{dealt.count, dealt.chunk(), further, 1, swing},
                               dealt.dispatched())};
     c.events[TAUT_EVENT_DEGENERATE] = counted;
     for (std::uint32_t r = 0; r < net.rows(); ++r)
@@ -80,6 +82,8 @@ TEMPLATE_TEST_CASE("constraint_rows forms directions and what is left of each le
         const double soft = compliance * rate * rate;
         const double change = glm::dot(n, moved), rest = static_cast<double>(s.rest_length);
         const double lambda = kept && further ? static_cast<double>(multiplier[r]) : 0;
+        const bool swings = usable && glm::length(moved - n * change) > 0.3 * rest;
+        c.events[TAUT_EVENT_SPEED_CLAMP] += swing != 0 && swings ? 1 : 0;
         const double value = length - rest + (further ? 0 : change) + (share - 1) * change - soft * lambda;
         const double size = glm::length(wide3(net.position[s.a])) + glm::length(wide3(net.position[s.b])) +
                             glm::length(wide3(net.delta[s.a])) + glm::length(wide3(net.delta[s.b]));

@@ -47,7 +47,9 @@ void set_method(Scene& scene, MethodKind method)
     switch (method)
     {
     case MethodKind::implicit_euler: m.substeps = 4, m.iterations = 2; break;
-    case MethodKind::implicit_constraints: m.substeps = 5, m.iterations = 2; break;
+    case MethodKind::implicit_constraints:
+        m.substeps = 5, m.iterations = 2, m.linear_operator = "matrix_free";
+        break;
     case MethodKind::pbd: m.iterations = 2; break;
     case MethodKind::vbd: m.substeps = 5, m.iterations = 4; break;
     case MethodKind::mass_spring:
@@ -60,8 +62,6 @@ void set_method(Scene& scene, MethodKind method)
             body.material.model = "springs";
         if (!find_method(method).volumes)
             body.material.volume_stiffness = 0;
-        if (method == MethodKind::implicit_constraints && is_solid(body.shape.kind))
-            m.linear_operator = "matrix_free"; // rows of tetrahedra have no matrix
     }
 }
 

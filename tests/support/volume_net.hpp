@@ -1,6 +1,6 @@
 #pragma once
 // Random tetrahedra as rows of implicit constraints behind those of springs, with the tetrahedra at each
-// vertex: what the tests of kernels/constraint/volume_* share.
+// vertex: what the tests of kernels/constraint/volume_rows and corner_* share.
 
 #include "support/linear_groups.hpp"
 

@@ -1,6 +1,6 @@
-// What the multipliers x of the rows of tetrahedra move each vertex by, beside what rows of springs do
-// (constraint_spread, which runs before): spread += w J^T x, gathered from the tetrahedra at the vertex in
-// their order; with APPLY the correction itself, delta -= w J^T x.
+// What the multipliers x of the rows of four corners (tetrahedra, then hinges) move each vertex by, beside
+// what rows of springs do (constraint_spread, which runs before): spread += w J^T x, gathered from the rows
+// at the vertex in their order; with APPLY the correction itself, delta -= w J^T x.
 //
 // Based on: Hong et al., as constraint_rows; Va, Choi, Hong, as volume_rows.
 // Departures: none.
@@ -13,12 +13,12 @@ PARAMS
 {
     uint count; // vertices
     uint chunk; // of them a group
-    uint first; // row of the first tetrahedron
+    uint first; // number of the first such row in x
 };
 
 READ(0, uint, start);    // vertices + 1
-READ(1, uint, incident); // 4 * tetrahedron + corner
-READ(2, rvec4, gradient); // 3 a tetrahedron
+READ(1, uint, incident); // 4 * row + corner
+READ(2, rvec4, gradient); // 3 a row
 READ(3, real, x);
 READ(4, rvec4, position); // w = inverse mass
 #if APPLY
@@ -29,9 +29,9 @@ UPDATE(5, rvec4, spread);
 #endif
 
 /// The gradient of corner 0 is what the others leave.
-rvec3 gradient_of(uint tetrahedron, uint corner)
+rvec3 gradient_of(uint row, uint corner)
 {
-    uint at = 3u * tetrahedron;
+    uint at = 3u * row;
     if (corner != 0u)
         return rvec3(gradient[at + corner - 1u]);
     return -((rvec3(gradient[at]) + rvec3(gradient[at + 1u])) + rvec3(gradient[at + 2u]));

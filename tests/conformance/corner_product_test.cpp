@@ -1,11 +1,11 @@
-#include "taut/kernels/volume_product.hpp"
+#include "taut/kernels/corner_product.hpp"
 
 #include "support/volume_net.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("volume_product is what the moves of all corners do to each volume", "", float, double)
+TEMPLATE_TEST_CASE("corner_product is what the moves of all corners do to each volume", "", float, double)
 {
     using Real = TestType;
     const Dealt dealt = GENERATE(from_range(deals()));
@@ -21,7 +21,7 @@ TEMPLATE_TEST_CASE("volume_product is what the moves of all corners do to each v
         b.push_back(random.uniform<Real>(-10, 10));
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"tetrahedron", bytes_of(net.row)},
+    c.in = {{"corners", bytes_of(net.row)},
             {"gradient", bytes_of(net.gradient)},
             {"spread", bytes_of(spread)},
             {"x", bytes_of(net.x)},
@@ -29,8 +29,8 @@ TEMPLATE_TEST_CASE("volume_product is what the moves of all corners do to each v
             {"partials", bytes_of(std::vector<Real>(dealt.groups, Real(7)))},
             {"b", bytes_of(b)}};
     c.launches = {
-        make_launch(kernels::volume_product::info(variant, c.precision),
-                    kernels::volume_product::Params{dealt.count, dealt.chunk(), net.first, dealt.groups},
+        make_launch(kernels::corner_product::info(variant, c.precision),
+                    kernels::corner_product::Params{dealt.count, dealt.chunk(), net.first, dealt.groups},
                     dealt.dispatched())};
     GroupSums sums(dealt);
     for (std::uint32_t k = 0; k < net.first; ++k)

@@ -1,6 +1,6 @@
-// The rows of tetrahedra in the product A x of implicit constraints, beside those of springs
-// (constraint_product, which runs before): what moves `spread` of its corners do to each volume. Its share of
-// x . A x is added to what each group has there already.
+// The rows of four corners (tetrahedra, then hinges) in the product A x of implicit constraints, beside those
+// of springs (constraint_product, which runs before): what moves `spread` of its corners do to each volume or
+// angle. Its share of x . A x is added to what each group has there already.
 //
 // Based on: Hong et al., as constraint_rows; Va, Choi, Hong, as volume_rows.
 // Departures: none.
@@ -13,14 +13,14 @@
 
 PARAMS
 {
-    uint count; // tetrahedra
+    uint count; // rows of four corners
     uint chunk; // of them a group
     uint first; // row of the first of them
     uint groups;
 };
 
-READ(0, VolumeConstraint, tetrahedron);
-READ(1, rvec4, gradient); // 3 a tetrahedron; w = what compliance adds to the diagonal
+READ(0, VolumeConstraint, corners); // of hinges too, whose records begin with four corners as well
+READ(1, rvec4, gradient); // 3 a row; w = what compliance adds to the diagonal
 READ(2, rvec4, spread);   // a vertex
 READ(3, real, x);
 UPDATE(4, real, y);
@@ -42,7 +42,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);
     EACH_BEGIN(begin, end)
-    VolumeConstraint t = tetrahedron[i];
+    VolumeConstraint t = corners[i];
     rvec3 origin = rvec3(spread[t.a]);
     rvec4 g1 = gradient[3u * i];
     real change = dot(rvec3(g1), rvec3(spread[t.b]) - origin);

@@ -1,11 +1,11 @@
-#include "taut/kernels/volume_spread.hpp"
+#include "taut/kernels/corner_spread.hpp"
 
 #include "support/volume_net.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("volume_spread adds what the rows of tetrahedra move each vertex by", "", float, double)
+TEMPLATE_TEST_CASE("corner_spread adds what the rows of tetrahedra move each vertex by", "", float, double)
 {
     using Real = TestType;
     const Dealt dealt = GENERATE(from_range(deals()));
@@ -27,8 +27,8 @@ TEMPLATE_TEST_CASE("volume_spread adds what the rows of tetrahedra move each ver
             {"gradient", bytes_of(net.gradient)}, {"x", bytes_of(net.x)},
             {"position", bytes_of(net.position)}, {"delta", bytes_of(net.delta)},
             {"spread", bytes_of(spread)},         {"state", bytes_of(std::vector{state})}};
-    c.launches = {make_launch(kernels::volume_spread::info(apply ? "apply" : "", c.precision),
-                              kernels::volume_spread::Params{dealt.count, dealt.chunk(), net.first},
+    c.launches = {make_launch(kernels::corner_spread::info(apply ? "apply" : "", c.precision),
+                              kernels::corner_spread::Params{dealt.count, dealt.chunk(), net.first},
                               dealt.dispatched())};
     Field& out = c.expected[apply ? "delta" : "spread"];
     for (std::uint32_t v = 0; v < net.vertices(); ++v)
