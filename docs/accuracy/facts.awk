@@ -115,21 +115,18 @@ function say_precision(name,    p, q, best) {
     return "at " substeps[best] " substeps " short(100 * error[best]) " % in float, " short(100 * error[twin]) \
            " % in double, which costs " short(cost[twin] / cost[best]) " times as much"
 }
-# Up to which ratio a method's error stays within 10 %.
-function say_ratio(problem, name,    p, held, next_one, text) {
-    held = ""; next_one = 0
+# Up to which ratio a method's error stays within 10 %. What has no result is named and passed over.
+function say_ratio(problem, name,    p, held, above, gap, gaps, text) {
+    held = ""; above = 0; gap = 0; gaps = ""
     for (p = first[problem]; p <= last[problem]; ++p) {
         if (method[p] != name || details[p] != "") continue
-        if (!next_one && error[p] != "" && error[p] + 0 <= 0.1) held = ratio[p]
-        else if (!next_one) next_one = p
+        if (error[p] == "") { if (!gap) gap = p; gaps = gaps (gaps == "" ? "" : ", ") ratio[p] }
+        else if (!above && error[p] + 0 <= 0.1) held = ratio[p]
+        else if (!above) above = p
     }
-    if (held == "" && !next_one) return "no setting"
-    text = held == "" ? "not within 10 % at all" : "within 10 % up to " held
-    if (next_one) {
-        if (error[next_one] != "") text = text "; at " ratio[next_one] " " short(100 * error[next_one]) " %"
-        else if (refused[next_one] != "") text = text "; at " ratio[next_one] " refused (" refused[next_one] ")"
-        else text = text "; at " ratio[next_one] " without a result: " reason[next_one]
-    }
+    text = held != "" ? "within 10 % up to " held : above ? "above 10 % from the start" : "no result"
+    if (above) text = text "; at " ratio[above] " " short(100 * error[above]) " %"
+    if (gap) text = text "; nothing at " gaps (refused[gap] != "" ? " (refused: " refused[gap] ")" : ": " reason[gap])
     return text
 }
 END {

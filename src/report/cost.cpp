@@ -193,7 +193,8 @@ private:
     void measure_error(Trial& trial, CostPoint& out)
     {
         const std::vector<glm::dvec3>& goal = out_.reference.frames.back();
-        const Motion motion = at_rest() ? trial.settle({weights_, &goal, options_.rest_seconds})
+        const bool displaced = out_.metric == "e_disp";
+        const Motion motion = at_rest() ? trial.settle({weights_, &goal, options_.rest_seconds, displaced})
                                         : trial.trajectory(out_.frames);
         out.simulated_seconds = static_cast<double>(motion.steps) * scene_.timestep;
         out.status = motion.status;
@@ -205,7 +206,8 @@ private:
         if (out_.metric == "e_L")
             out.error = out.error_l;
         else if (at_rest())
-            out.error = displacement_error(weights_, motion.frames.back(), goal, reference.front());
+            out.error = displacement_error(weights_, motion.frames.back(), goal, reference.front()) +
+                        motion.wander / distance_by_mass(weights_, goal, reference.front());
         else
             out.error = trajectory_error(weights_, motion.frames, reference);
         if (out_.metric == "e_traj" && reference.size() > 6)

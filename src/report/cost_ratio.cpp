@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <sstream>
 
 namespace taut {
@@ -120,20 +121,35 @@ std::vector<std::string> ratio_sentences(const RatioStudy& study)
     const std::string what = std::string(ratio_word(study.kind)) + " ratio of ";
     for (const Row& row : rows_of(study))
     {
-        std::size_t held = 0; // the unbroken beginning that is good
-        while (held < row.points.size() && row.points[held]->error && *row.points[held]->error <= kGood)
-            ++held;
-        std::string text = row.name + ": ";
-        text += held == 0 ? "above 10 % from the start"
-                          : "within 10 % up to a " + what + number(row.ratios[held - 1]);
-        if (held < row.points.size())
+        // What has no result says nothing either way: it is named, and passed over.
+        std::optional<double> held;
+        const CostPoint *above = nullptr, *gap = nullptr;
+        std::string gaps, first_above;
+        for (std::size_t i = 0; i < row.points.size(); ++i)
         {
-            const CostPoint& next = *row.points[held];
-            text += "; at " + number(row.ratios[held]) + " ";
-            text += next.error             ? "the error is " + number(100 * *next.error) + " %"
-                    : next.refused.empty() ? "there is none: " + next.reason
-                                           : "it refuses (" + next.refused + ")";
+            const CostPoint& point = *row.points[i];
+            if (!point.error)
+            {
+                gap = gap ? gap : &point;
+                gaps += (gaps.empty() ? "" : ", ") + number(row.ratios[i]);
+            }
+            else if (!above && *point.error <= kGood)
+                held = row.ratios[i];
+            else if (!above)
+            {
+                above = &point;
+                first_above = number(row.ratios[i]);
+            }
         }
+        std::string text = row.name + ": ";
+        text += held    ? "within 10 % up to a " + what + number(*held)
+                : above ? "above 10 % from the start"
+                        : "no result";
+        if (above)
+            text += "; at " + first_above + " the error is " + number(100 * *above->error) + " %";
+        if (gap)
+            text += "; nothing at " + gaps +
+                    (gap->refused.empty() ? ": " + gap->reason : ": it refuses (" + gap->refused + ")");
         out.push_back(text + ".");
     }
     return out;

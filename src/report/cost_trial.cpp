@@ -123,6 +123,12 @@ Motion Trial::settle(const RestRule& rule)
         out.rests = wandered <= bound;
     }
     out.frames.push_back(x_);
+    if (!out.rests && rule.loose && bound > 0 &&
+        wandered <= kLooseRest * distance_by_mass(rule.weights, x_, out.frames[0]))
+    {
+        out.rests = true;
+        out.wander = wandered;
+    }
     if (!out.rests)
         out.reason =
             "not at rest after " + std::to_string(static_cast<int>(rule.seconds)) + " simulated seconds";

@@ -13,7 +13,10 @@ struct Motion
     std::string reason; ///< why it is not sound, or not at rest
     std::size_t steps = 0;
     bool rests = false; ///< settle() only
+    double wander = 0;  ///< m, mass-weighted: of a rest within kLooseRest alone, to be added to its error
 };
+
+inline constexpr double kLooseRest = 1e-3; ///< of |x - x_0|
 
 struct Timing
 {
@@ -29,6 +32,8 @@ struct RestRule
     ErrorWeights weights;
     const std::vector<glm::dvec3>* reference = nullptr; ///< x*; null: only the first bound
     double seconds = 30;                                ///< simulated, at most
+    /// At the end of that time kLooseRest will do: float shakes in place where displacements are small.
+    bool loose = false;
 };
 
 class Trial

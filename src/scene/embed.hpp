@@ -14,7 +14,7 @@ struct Embedding
 {
     Mesh surface;                           ///< at rest, world, m
     std::vector<std::uint32_t> tetrahedron; ///< one per vertex of the surface: an index of Mesh::tetrahedra
-    std::vector<glm::dvec4> weights;        ///< one per vertex: of its corners, sum 1; outside some are negative
+    std::vector<glm::dvec4> weights;        ///< one per vertex, of its corners: sum 1; negative outside
     bool used() const { return !tetrahedron.empty(); }
 };
 
