@@ -67,7 +67,7 @@ std::uint64_t frames_of(const CompareCommand& command, const Scene& scene)
     return static_cast<std::uint64_t>(std::max(std::ceil(scene.duration / scene.timestep - 1e-6), 0.0));
 }
 
-/// The last frame of every variant that ran, labelled, line by line, under one camera. False: nothing can draw.
+/// The last frame of every variant that ran, labelled, under one camera, in lines. False: nothing can draw.
 bool draw(const std::vector<Variant>& variants, const std::vector<CompareRow>& rows, double time,
           const fs::path& file)
 {
@@ -82,7 +82,8 @@ bool draw(const std::vector<Variant>& variants, const std::vector<CompareRow>& r
     try
     {
         const auto tiles = static_cast<std::uint32_t>(moments.size());
-        const std::uint32_t lines = (tiles + kMostInARow - 1) / kMostInARow, columns = (tiles + lines - 1) / lines;
+        const std::uint32_t lines = (tiles + kMostInARow - 1) / kMostInARow;
+        const std::uint32_t columns = (tiles + lines - 1) / lines;
         Image sheet = make_image(kWidth * columns, kHeight * lines, {255, 255, 255});
         std::uint32_t tile = 0;
         for (std::size_t k = 0; k < rows.size(); ++k)

@@ -206,10 +206,11 @@ private:
         if (out_.metric == "e_L")
             out.error = out.error_l;
         else if (at_rest())
-            out.error = displacement_error(weights_, motion.frames.back(), goal, reference.front()) +
-                        motion.wander / distance_by_mass(weights_, goal, reference.front());
+            out.error = displacement_error(weights_, motion.frames.back(), goal, reference.front());
         else
             out.error = trajectory_error(weights_, motion.frames, reference);
+        if (displaced && out.error)
+            *out.error += motion.wander / distance_by_mass(weights_, goal, reference.front());
         if (out_.metric == "e_traj" && reference.size() > 6)
             out.error_smoothed = trajectory_error(weights_, smoothed(motion.frames), smoothed(reference));
     }

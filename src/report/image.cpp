@@ -83,8 +83,10 @@ void label(Image& image, std::string_view text, std::uint32_t x, std::uint32_t y
         return from + static_cast<std::uint32_t>(units * static_cast<float>(size) + 0.5f);
     };
     for (std::size_t k = 0; k < 4 * static_cast<std::size_t>(quads); k += 4)
-        fill(image, at(x, corners[k].x), at(y, corners[k].y), at(x, corners[k + 2].x), at(y, corners[k + 2].y),
-             colour);
+    {
+        const FontVertex &from = corners[k], &to = corners[k + 2];
+        fill(image, at(x, from.x), at(y, from.y), at(x, to.x), at(y, to.y), colour);
+    }
 }
 
 void write_png(const std::filesystem::path& file, const Image& image)

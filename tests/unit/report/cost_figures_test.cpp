@@ -153,8 +153,9 @@ TEST_CASE("sentences about ratios say where 10 % ends and why", "[figures]")
     CHECK(sentences[0] ==
           "xpbd, 4 substeps x 1 iteration in float: within 10 % up to a stiffness ratio of 10; "
           "at 100 the error is 30 %.");
-    CHECK(sentences[1] == "vbd, 4 substeps x 1 iteration in float: within 10 % up to a stiffness ratio of 100; "
-                          "nothing at 10: it refuses (unsupported).");
+    CHECK(sentences[1] ==
+          "vbd, 4 substeps x 1 iteration in float: within 10 % up to a stiffness ratio of 100; "
+          "nothing at 10: it refuses (unsupported).");
     CHECK(ratio_plot(study).gaps.size() == 1);
 }
 
