@@ -26,7 +26,8 @@ namespace taut::hard {
 
 using Words = std::set<std::string>;
 
-/// TAUT_HARD_SHORT (as ctest sets it): OpenGL is left out, and the robustness map stays on native executors.
+/// TAUT_HARD_SHORT (as ctest sets it): OpenGL is left out, and of the robustness map Vulkan runs
+/// only what compares bits.
 inline bool short_run()
 {
     const char* wanted = std::getenv("TAUT_HARD_SHORT");

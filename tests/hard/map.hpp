@@ -1,5 +1,5 @@
 #pragma once
-// The robustness map: hard cases of cloth x methods. Every cell is run and judged by one rule;
+// The robustness map: hard cases of cloth and solids x methods. Every cell is run and judged by one rule;
 // docs/robustness.md is written from it.
 
 #include "hard/cases.hpp"
@@ -23,6 +23,7 @@ struct Journey
     double fastest = 0;        ///< m/s
     double stretch = 0;        ///< largest (l - L)/L
     double deepest = 0;        ///< m below a collider
+    double volume = 0;         ///< largest |V/V0 - 1|
 };
 
 struct MapCase
@@ -36,17 +37,26 @@ struct MapCase
     MethodSet may_report = 0;
     /// Called before step k; for what changes on the way.
     std::function<void(World&, int)> before_step = {};
+    /// Steps of a short run (TAUT_HARD_SHORT) of a long case; 0 = all.
+    int short_steps = 0;
+    /// In place of one world that is run and judged, for what compares several: the scene with its method,
+    /// the steps that there are. Says what judge says; on every executor, with kStepsElsewhere.
+    std::function<std::string(const Scene&, const std::shared_ptr<Device>&, int)> check = {};
 };
+
+/// Of the executors that do not run the cases whole: of a run that is judged by its end, and of `check`.
+inline constexpr int kStepsSound = 3, kStepsElsewhere = 5;
 
 /// The cases; those on real meshes only where the data is.
 std::vector<MapCase> map_cases();
 
-/// "pass", "refuses: unstable_timestep", "reports: stretch 4.2" or "FAIL: ...".
+/// "pass", "refuses: unstable_timestep", "reports: stretch 4.2" or "FAIL: ...". `whole`: with all steps that
+/// the case has in this run, and judged; else "sound so far".
 std::string verdict(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
-                    int most_steps);
+                    bool whole);
 
 /// Settings under which the map runs a method. Solids are springs under methods without neo-Hookean
-/// tetrahedra, and hold no volumes under those that cannot.
+/// tetrahedra, and hold no volumes under those that cannot (nor, unless asked, within their surface).
 void set_method(Scene& scene, MethodKind method);
 
 } // namespace taut::hard

@@ -228,7 +228,11 @@ std::vector<MapCase> map_cases()
     add_geometry(out);
     add_topology(out);
     add_contact_and_more(out);
+    add_more(out);
+    add_slides(out);
+    add_repeats(out);
     add_solids(out);
+    add_loaded_solids(out);
     return out;
 }
 

@@ -6,31 +6,6 @@
 namespace taut::hard {
 namespace {
 
-constexpr MethodSet kElastic =
-    only(MethodKind::xpbd) | only(MethodKind::vbd) | only(MethodKind::implicit_euler);
-/// Springs that turned inside out are at rest there, and constraints of volume may be at odds with them.
-constexpr MethodSet kLattice = kAllMethods & ~kElastic;
-
-Body block(std::uint32_t n, double modulus = 1e5, double ratio = 0.3)
-{
-    Body body;
-    body.shape.kind = ShapeKind::box;
-    body.shape.box_cells = {n, n, n};
-    body.material = solid_material();
-    body.material.youngs_modulus = modulus;
-    body.material.poissons_ratio = ratio;
-    return body;
-}
-
-Scene scene_of(const Body& body, double damping = 1, const glm::dvec3& gravity = glm::dvec3(0))
-{
-    Scene scene;
-    scene.bodies = {body};
-    scene.damping = damping;
-    scene.gravity = gravity;
-    return resolve(scene);
-}
-
 /// A free cube of 4 x 4 x 4 cells whose vertices start elsewhere.
 template <typename F>
 Scene placed(F&& f, double ratio = 0.3)
@@ -68,7 +43,8 @@ void add_starts(std::vector<MapCase>& out)
     const auto add = [&](const char* id, const char* what, auto place, MethodSet may, double ratio = 0.3) {
         out.push_back({id, what, placed(place, ratio), 300, recovered, may | kLattice});
     };
-    add("B08", "solid, one vertex pushed through its neighbours",
+    add(
+        "B08", "solid, one vertex pushed through its neighbours",
         [](const glm::dvec3& x, Random&) { return glm::length(x) < 1e-9 ? glm::dvec3(0.45, 0.1, 0) : x; }, 0);
     add(
         "B09", "solid mirrored", [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, -x.z); },
@@ -76,9 +52,11 @@ void add_starts(std::vector<MapCase>& out)
     add(
         "B10", "solid flattened to a plane",
         [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, 0.5); }, 0);
-    add("B11", "solid in a line, 1e-6 m of noise",
+    add(
+        "B11", "solid in a line, 1e-6 m of noise",
         [](const glm::dvec3& x, Random& r) { return glm::dvec3(x.x, 0, 0) + noise(r, 1e-6); }, kAllMethods);
-    add("B12", "solid in a point", [](const glm::dvec3&, Random&) { return glm::dvec3(0); }, kAllMethods);
+    add(
+        "B12", "solid in a point", [](const glm::dvec3&, Random&) { return glm::dvec3(0); }, kAllMethods);
     add(
         "B13", "solid scrambled", [](const glm::dvec3&, Random& r) { return noise(r, 0.5); },
         only(MethodKind::vbd) | only(MethodKind::implicit_euler));
@@ -88,11 +66,14 @@ void add_starts(std::vector<MapCase>& out)
     add(
         "B14", "solid a hundred times too small", [](const glm::dvec3& x, Random&) { return 0.01 * x; },
         kAllMethods);
-    add("B15", "solid twisted by 360 degrees", [](const glm::dvec3& x, Random&) { return twisted(x, 360); },
+    add(
+        "B15", "solid twisted by 360 degrees", [](const glm::dvec3& x, Random&) { return twisted(x, 360); },
         only(MethodKind::implicit_euler));
-    add("B15", "solid twisted by 720 degrees, nu 0.45",
+    add(
+        "B15", "solid twisted by 720 degrees, nu 0.45",
         [](const glm::dvec3& x, Random&) { return twisted(x, 720); }, kElastic, 0.45);
-    add("", "solid stretched to ten times its length and let go",
+    add(
+        "", "solid stretched to ten times its length and let go",
         [](const glm::dvec3& x, Random&) { return glm::dvec3(10 * x.x, x.y, x.z); }, kElastic);
 }
 
@@ -116,7 +97,7 @@ void add_materials(std::vector<MapCase>& out)
                    300,
                    [](const Journey& j) { return above("volume", std::abs(j.last.volume.ratio - 1), 0.01); },
                    kSprings | kLattice | kElastic});
-    out.push_back({"", "Young's modulus of 1e2, 1e4, ..., 1e11 Pa in one scene, dropped",
+    out.push_back({"", "Young's modulus of 1e2, 1e5, 1e8, 1e11 Pa in one scene, dropped",
                    [] {
                        Scene scene;
                        for (int k = 2; k <= 11; k += 3)
@@ -131,7 +112,7 @@ void add_materials(std::vector<MapCase>& out)
                        scene.damping = 0.5;
                        return resolve(scene);
                    }(),
-                   120, sound});
+                   120, [](const Journey& j) { return above("depth", j.last.penetration, 0.01); }});
     out.push_back({"C04", "200 single tetrahedra and a cloth",
                    [] {
                        Scene scene = test::hanging(4);
@@ -158,10 +139,10 @@ void add_materials(std::vector<MapCase>& out)
                            for (std::size_t c = 0; c < 4; ++c)
                                if (t[c] == 3)
                                {
-                                   const glm::dvec3 face = (mesh.positions[t[(c + 1) % 4]] +
-                                                            mesh.positions[t[(c + 2) % 4]] +
-                                                            mesh.positions[t[(c + 3) % 4]]) /
-                                                           3.0;
+                                   const glm::dvec3 face =
+                                       (mesh.positions[t[(c + 1) % 4]] + mesh.positions[t[(c + 2) % 4]] +
+                                        mesh.positions[t[(c + 3) % 4]]) /
+                                       3.0;
                                    mesh.positions[3] = face + 1e-6 * (mesh.positions[3] - face);
                                }
                        scene.bodies[0].pins = {hold({60, 61, 62, 63})};
@@ -227,7 +208,8 @@ void add_contacts(std::vector<MapCase>& out)
                        scene.colliders = {low, high};
                        return scene;
                    }(),
-                   120, sound, kAllMethods});
+                   120, [](const Journey& j) { return above("depth", j.last.penetration, 0.01); },
+                   kAllMethods});
     out.push_back({"", "bar twisted by ten turns",
                    [] {
                        Body body = block(2);

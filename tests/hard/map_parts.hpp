@@ -58,8 +58,70 @@ inline Scene hanging(std::uint32_t n, double damping = 0.5)
     return scene;
 }
 
+/// Springs that turned inside out are at rest there, and constraints of volume may be at odds with them:
+/// methods without neo-Hookean tetrahedra.
+inline constexpr MethodSet kElastic =
+    only(MethodKind::xpbd) | only(MethodKind::vbd) | only(MethodKind::implicit_euler);
+inline constexpr MethodSet kLattice = kAllMethods & ~kElastic;
+
+/// A metre of soft rubber in cells along each axis.
+inline Body solid_box(const glm::uvec3& cells, const glm::dvec3& size, double modulus = 1e5,
+                      double ratio = 0.3)
+{
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = cells;
+    body.shape.box_size = size;
+    body.material = solid_material();
+    body.material.youngs_modulus = modulus;
+    body.material.poissons_ratio = ratio;
+    return body;
+}
+
+inline Body block(std::uint32_t n, double modulus = 1e5, double ratio = 0.3)
+{
+    return solid_box({n, n, n}, {1, 1, 1}, modulus, ratio);
+}
+
+inline Scene scene_of(const Body& body, double damping = 1, const glm::dvec3& gravity = glm::dvec3(0))
+{
+    Scene scene;
+    scene.bodies = {body};
+    scene.damping = damping;
+    scene.gravity = gravity;
+    return resolve(scene);
+}
+
+inline Pin hold_face(const char* face)
+{
+    Pin pin;
+    pin.faces = {face};
+    return pin;
+}
+
+inline Collider flat_floor(double height, double friction = 0.5)
+{
+    Collider c;
+    c.kind = ColliderKind::plane;
+    c.point = {0, height, 0};
+    c.friction = friction;
+    return c;
+}
+
+inline glm::dvec3 mean(const std::vector<glm::dvec3>& values)
+{
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& v : values)
+        sum += v;
+    return sum / double(values.size());
+}
+
 /// The cases of the other files.
 void add_contact_and_more(std::vector<MapCase>& out);
+void add_repeats(std::vector<MapCase>& out);
+void add_more(std::vector<MapCase>& out);
+void add_slides(std::vector<MapCase>& out);
 void add_solids(std::vector<MapCase>& out);
+void add_loaded_solids(std::vector<MapCase>& out);
 
 } // namespace taut::hard

@@ -1,4 +1,4 @@
-// F8: every hard case of cloth under every method: it passes, is refused in words, or says that it misses.
+// F8: every hard case under every method: it passes, is refused in words, or says that it misses.
 
 #include "hard/map.hpp"
 
@@ -14,6 +14,7 @@ void look(const World& world, Journey& out)
     out.fastest = std::max(out.fastest, report.max_speed);
     out.stretch = std::max(out.stretch, report.max_stretch);
     out.deepest = std::max(out.deepest, report.penetration);
+    out.volume = std::max(out.volume, std::abs(report.volume.ratio - 1));
     out.last = report;
 }
 
@@ -60,39 +61,59 @@ void set_method(Scene& scene, MethodKind method)
     {
         if (!find_method(method).elastic && is_solid(body.shape.kind))
             body.material.model = "springs";
-        if (!find_method(method).volumes)
+        if (!find_method(method).volumes && body.material.volume != "surface")
             body.material.volume_stiffness = 0;
     }
 }
 
+namespace {
+
+/// Runs a world of the case and looks at it on the way.
+std::string judged_run(const MapCase& hard_case, const Scene& scene, const std::shared_ptr<Device>& device,
+                       int steps, bool judged)
+{
+    World world(scene, device);
+    Journey journey{world, world.positions(), measure(world), {}};
+    journey.scale = energy_scale(world, journey.first);
+    journey.highest_energy = energy(journey.first);
+    const int every = steps > 5000 ? 1000 : 10;
+    for (int k = 0; k < steps; ++k)
+    {
+        if (hard_case.before_step)
+            hard_case.before_step(world, k);
+        world.step();
+        if (k < 5 || k % every == every - 1 || k + 1 == steps)
+            look(world, journey);
+    }
+    const std::string wrong = unsound(world, journey.last);
+    if (!wrong.empty())
+        return wrong;
+    return judged ? hard_case.judge(journey) : "sound so far";
+}
+
+bool is_verdict(const std::string& text)
+{
+    return text.rfind("FAIL", 0) == 0 || text.rfind("stops", 0) == 0 || text.rfind("sound", 0) == 0;
+}
+
+} // namespace
+
 std::string verdict(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
-                    int most_steps)
+                    bool whole)
 {
     Scene scene = hard_case.scene;
     set_method(scene, method);
+    const int all = short_run() && hard_case.short_steps > 0 ? hard_case.short_steps : hard_case.steps;
     try
     {
-        World world(scene, device);
-        Journey journey{world, world.positions(), measure(world), {}};
-        journey.scale = energy_scale(world, journey.first);
-        journey.highest_energy = energy(journey.first);
-        const int steps = std::min(hard_case.steps, most_steps);
-        for (int k = 0; k < steps; ++k)
-        {
-            if (hard_case.before_step)
-                hard_case.before_step(world, k);
-            world.step();
-            if (k < 5 || k % 10 == 9 || k + 1 == steps)
-                look(world, journey);
-        }
-        const std::string wrong = unsound(world, journey.last);
-        if (!wrong.empty())
-            return wrong;
-        if (steps < hard_case.steps)
-            return "sound so far";
-        const std::string missed = hard_case.judge(journey);
+        const std::string missed =
+            hard_case.check
+                ? hard_case.check(scene, device, whole ? all : std::min(all, kStepsElsewhere))
+                : judged_run(hard_case, scene, device, whole ? all : std::min(all, kStepsSound), whole);
         if (missed.empty())
             return "pass";
+        if (is_verdict(missed))
+            return missed;
         return ((hard_case.may_report & only(method)) != 0 ? "reports: " : "FAIL: ") + missed;
     }
     catch (const Error& error)
@@ -127,21 +148,34 @@ std::string page(const std::vector<MapCase>& cases, const Table& table)
 
 } // namespace
 
+namespace {
+
+bool compares_bits(const MapCase& c) { return c.check && (c.id[0] == 'G' || c.id == "C04"); }
+
+} // namespace
+
 TEST_CASE("F8: the robustness map has no FAIL [hard]")
 {
-    const std::vector<MapCase> cases = map_cases();
+    std::vector<MapCase> cases = map_cases();
+    if (const char* id = std::getenv("TAUT_MAP_ONLY")) // rows of one case, for whoever works on it
+        std::erase_if(cases, [&](const MapCase& c) { return c.id != id; });
     for (const std::string& selector : test_devices())
     {
-        if (short_run() && !selector.starts_with("cpu"))
+        if (short_run() && selector.starts_with("opengl"))
             continue;
+        const bool only_checks = short_run() && !selector.starts_with("cpu");
         const auto device = test_device(selector);
         const bool whole = selector == "cpu:serial";
         Table table(cases.size());
         for (std::size_t c = 0; c < cases.size(); ++c)
             for (std::size_t m = 0; m < kMethodNames.size(); ++m)
             {
+                if (only_checks && !compares_bits(cases[c]))
+                    continue;
+                if (short_run() && !whole && cases[c].short_steps > 0)
+                    continue;
                 const auto method = static_cast<MethodKind>(m);
-                table[c].push_back(verdict(cases[c], method, device, whole ? cases[c].steps : 3));
+                table[c].push_back(verdict(cases[c], method, device, whole));
                 INFO(selector << ", " << kMethodNames[m] << ", " << cases[c].id << " " << cases[c].what);
                 CHECK(table[c].back().rfind("FAIL", 0) != 0);
                 if (table[c].back().rfind("FAIL", 0) == 0)

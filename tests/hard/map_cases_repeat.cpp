@@ -1,0 +1,237 @@
+// The cases of the robustness map that compare runs bit by bit, and the hour of hanging cloth (methods 2.G,
+// C04, C10).
+
+#include "hard/map_parts.hpp"
+
+#include "taut/world/sleep.hpp"
+
+namespace taut::hard {
+namespace {
+
+using Check = std::string (*)(const Scene&, const std::shared_ptr<Device>&, int);
+
+/// Methods that solve one linear system for all bodies: its sums join them.
+constexpr MethodSet kOneSystem = only(MethodKind::implicit_euler) | kLinearised;
+
+/// Two bodies, a corner that is drawn away, a ball, a floor, friction, wind, forces: whatever could remember.
+Scene lively_cloth()
+{
+    Scene scene = hanging(4, 0.1);
+    Body& body = scene.bodies[0];
+    body.material.stretch_stiffness = 500;
+    body.material.drag = 1.2;
+    body.pins[0] = hold({0});
+    body.pins.push_back(hold({4}));
+    body.pins[1].motion = {{0, {0, 0, 0}}, {0.15, {0.3, 0, 0}}, {2, {0.3, 0, 0.5}}};
+    scene.bodies.push_back(test::chain(7, 100, 0.01, 0.5).bodies[0]);
+    Collider ball;
+    ball.point = {0, -0.2, -0.27};
+    ball.radius = 0.25;
+    ball.friction = 0.3;
+    scene.colliders = {ball, flat_floor(-0.52)};
+    scene.wind.density = 1.2;
+    scene.wind.velocity = {1, 0, -3};
+    scene.external_forces = true;
+    scene.method.linear_iterations = 12; // bits are compared, not answers
+    return scene;
+}
+
+/// A block whose upper face is drawn aside and that lies on a floor.
+Scene lively_solid()
+{
+    Body body = block(2, 2e4);
+    body.pins = {hold_face("top")};
+    body.pins[0].motion = {{0, {0, 0, 0}}, {0.2, {0.2, -0.1, 0}}};
+    Scene scene = scene_of(body, 0.1, {0, -9.81, 0});
+    scene.colliders = {flat_floor(-0.51)};
+    scene.external_forces = true;
+    scene.method.linear_iterations = 12;
+    return scene;
+}
+
+bool same(const World& a, const World& b)
+{
+    const WorldState x = a.state(), y = b.state();
+    return same_state(x, y) && x.kept == y.kept && x.force == y.force;
+}
+
+std::string unless(bool good, const char* text) { return good ? "" : text; }
+
+/// G05: a force that is no number is refused, and nothing of the world has changed.
+std::string refused_force(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    World world(scene, device), straight(scene, device);
+    for (World* w : {&world, &straight})
+    {
+        w->set_force(7, {0.1, 0, 0});
+        run(*w, steps - 1);
+    }
+    const std::string word = refusal_of([&] { world.set_force(7, {0, kNaN, 0}); });
+    const bool kept = same(world, straight);
+    run(world, 3);
+    run(straight, 3);
+    return first_of(unless(word == "bad_input", "a force that is no number is not refused"),
+                    unless(kept, "the refused force has changed the state"),
+                    unless(same(world, straight), "the refused force has changed what follows"));
+}
+
+/// G06.
+std::string repeats(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    World once(scene, device), twice(scene, device);
+    run(once, steps);
+    run(twice, steps);
+    return unless(finite(once.positions()) && same(once, twice), "two runs end in different bits");
+}
+
+/// G09: with what the method keeps, among it flags and multipliers of constraints.
+std::string continues(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    World whole(scene, device), half(scene, device), rest(scene, device);
+    run(whole, steps);
+    run(half, steps / 2);
+    const double active = half.active_share();
+    rest.restore(half.state());
+    run(rest, steps - steps / 2);
+    return first_of(unless(same(whole, rest), "a restored run ends in different bits"),
+                    // Cloth of acad is there with springs of both kinds, or nothing was tested.
+                    unless(active < 0 || scene.bodies.size() < 2 || (active > 0 && active < 1),
+                           "no spring or every spring is active when the state is saved"));
+}
+
+/// G08: with all effects that there are, and with those alone that the scene calls for.
+std::string unused(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    World with(scene, device);
+    WorldOptions only_those;
+    only_those.plan.available_effects = {
+        "friction"}; // has no passes of its own, so most plans do not list it
+    for (const EffectCost& effect : with.plan().effects)
+        only_those.plan.available_effects.push_back(effect.name);
+    World without(scene, device, only_those);
+    run(with, steps);
+    run(without, steps);
+    return first_of(unless(same(with, without), "effects that nobody called for change bits"),
+                    unless(with.plan().bytes_allocated() == without.plan().bytes_allocated(),
+                           "effects that nobody called for cost bytes"));
+}
+
+/// The first body alone, and three of it beside the others: the largest difference of copies, m.
+struct Crowd
+{
+    double copies = 0, solo = 0;
+};
+
+Crowd crowded(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    Scene alone_scene = scene, crowd = scene;
+    alone_scene.bodies.resize(1);
+    crowd.bodies.insert(crowd.bodies.begin(), 2, scene.bodies[0]);
+    World single(alone_scene, device), all(crowd, device);
+    run(single, steps);
+    run(all, steps);
+    const auto x = single.positions(), y = all.positions();
+    Crowd out;
+    for (std::size_t v = 0; v < 3 * x.size(); ++v)
+    {
+        out.copies = std::max(out.copies, glm::distance(y[v], y[v % x.size()]));
+        out.solo = std::max(out.solo, glm::distance(y[v], x[v % x.size()]));
+    }
+    return out;
+}
+
+std::string copies(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    return above("difference of copies", crowded(scene, device, steps).copies, 0);
+}
+
+std::string as_alone(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    return above("difference to the body alone", crowded(scene, device, steps).solo, 0);
+}
+
+/// C10: hung blocks fall asleep, cost nothing, and the one that a ball comes near wakes.
+std::string sleeps(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+{
+    SleepWorld world(scene, device);
+    for (int k = 0; k < steps; ++k)
+        world.step();
+    if (steps < 300)
+        return unless(finite(world.positions()), "FAIL: a value that is not finite");
+    const bool asleep = world.asleep() == scene.bodies.size(), free = world.awake().plan().passes.empty();
+    while (world.time() < 9)
+        world.step();
+    return first_of(unless(asleep, "a body at rest does not sleep"), unless(free, "sleep costs passes"),
+                    unless(!world.asleep(0), "a ball comes and the body sleeps on"),
+                    unless(world.asleep(1) && world.asleep(2), "a body that nothing comes near has woken"));
+}
+
+Scene hung_islands()
+{
+    Scene scene;
+    for (int k = 0; k < 3; ++k)
+    {
+        Body body = block(1, 2e4);
+        body.transform.translate = {3.0 * k, 0, 0};
+        body.pins = {hold_face("top")};
+        scene.bodies.push_back(body);
+    }
+    Collider ball;
+    ball.point = {0, 0, 9};
+    ball.radius = 0.3;
+    ball.motion = {{7, {0, 0, 0}}, {9, {0, 0, -8.4}}};
+    scene.colliders = {ball};
+    scene.damping = 4;
+    return resolve(scene);
+}
+
+} // namespace
+
+void add_repeats(std::vector<MapCase>& out)
+{
+    const Scene cloth = lively_cloth(), solid = lively_solid();
+    const auto add = [&](const char* id, const std::string& what, const Scene& scene, Check check,
+                         MethodSet may_report = 0) {
+        out.push_back({id, what, scene, 60, sound, may_report, {}, 0, check});
+    };
+    for (const bool soft : {false, true})
+    {
+        const Scene& scene = soft ? solid : cloth;
+        const std::string of = soft ? "solid: " : "cloth: ";
+        add("G05", of + "a force that is no number", scene, refused_force);
+        add("G06", of + "run twice, the same bits", scene, repeats);
+        add("G07", of + "three copies, the same bits", scene, copies);
+        add("C04", of + "beside others the bits of a body alone", scene, as_alone, kOneSystem);
+        add("G08", of + "effects that nobody calls for change no bit", scene, unused);
+        add("G09", of + "saved and restored, the same bits", scene, continues);
+    }
+    out.push_back({"C10",
+                   "three hung solids sleep, one wakes for a ball",
+                   hung_islands(),
+                   400,
+                   sound,
+                   0,
+                   {},
+                   0,
+                   sleeps});
+    Scene hour = hanging(3, 1);
+    hour.method.linear_iterations = 20;
+    out.push_back({"G02",
+                   "an hour of hanging cloth, 216,000 steps",
+                   hour,
+                   216000,
+                   [](const Journey& j) {
+                       return first_of(above("speed / sqrt(g D)",
+                                             j.last.max_speed / std::sqrt(9.81 * std::sqrt(2.0)), 1e-4),
+                                       above("movement of the pins",
+                                             std::max(glm::distance(j.start[0], j.world.positions()[0]),
+                                                      glm::distance(j.start[3], j.world.positions()[3])),
+                                             0),
+                                       above("stretch", j.last.max_stretch, 0.05));
+                   },
+                   0,
+                   {},
+                   1200});
+}
+
+} // namespace taut::hard
