@@ -147,7 +147,10 @@ std::string copies(const Scene& scene, const std::shared_ptr<Device>& device, in
 
 std::string as_alone(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
-    return above("difference to the body alone", crowded(scene, device, steps).solo, 0);
+    Scene solved = scene;
+    if (steps >= 60) // this one is about answers where a system joins the bodies
+        solved.method.linear_iterations = 100;
+    return above("difference to the body alone", crowded(solved, device, steps).solo, 0);
 }
 
 /// C10: hung blocks fall asleep, cost nothing, and the one that a ball comes near wakes.
