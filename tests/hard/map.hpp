@@ -37,7 +37,7 @@ struct MapCase
     MethodSet may_report = 0;
     /// Called before step k; for what changes on the way.
     std::function<void(World&, int)> before_step = {};
-    /// Steps of a short run (TAUT_HARD_SHORT) of a long case; 0 = all.
+    /// Steps of a short run (TAUT_HARD_SHORT) of a long case; 0 = all; < 0: a few, and nothing is judged.
     int short_steps = 0;
     /// In place of one world that is run and judged, for what compares several: the scene with its method,
     /// the steps that there are. Says what judge says; on every executor, with kStepsElsewhere.

@@ -134,7 +134,7 @@ void add_friction(std::vector<MapCase>& out, bool solid)
              sound,
              0,
              {},
-             0,
+             solid && mu < 0.5 ? -1 : 0,
              check});
     }
 }
