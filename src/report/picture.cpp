@@ -318,7 +318,11 @@ void Pictures::add_colliders(std::vector<Surface>& surfaces, double time, const 
     {
         const ColliderFrame frame = frame_at(collider, time);
         if (collider.kind == ColliderKind::plane)
-            surfaces.push_back(plane_surface(frame.centre, frame.y, shot));
+        {
+            // From behind it would hide everything: all that moves is in front of it.
+            if (glm::dot(frame.y, glm::dvec3(shot.camera.eye) - frame.centre) > 0)
+                surfaces.push_back(plane_surface(frame.centre, frame.y, shot));
+        }
         else if (collider.kind == ColliderKind::cuboid)
             surfaces.push_back(cuboid_surface(frame, collider.half_size));
         else if (collider.kind == ColliderKind::capsule)
