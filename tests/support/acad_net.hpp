@@ -25,4 +25,19 @@ inline void check_words(const Buffers& out, const char* name, const std::vector<
     CHECK(values_of<std::uint32_t>(out.at(name)) == expected);
 }
 
+/// Rows member by member: in double a record ends in four bytes of padding that nobody has to copy.
+template <typename Real>
+void check_rows(const Buffers& out, const char* name, const std::vector<layout::Spring<Real>>& expected)
+{
+    const auto got = values_of<layout::Spring<Real>>(out.at(name));
+    REQUIRE(got.size() == expected.size());
+    std::size_t wrong = 0;
+    for (std::size_t r = 0; r < got.size(); ++r)
+        wrong += got[r].a != expected[r].a || got[r].b != expected[r].b ||
+                 got[r].rest_length != expected[r].rest_length || got[r].stiffness != expected[r].stiffness ||
+                 got[r].damping != expected[r].damping || got[r].kind != expected[r].kind;
+    INFO("buffer " << name);
+    CHECK(wrong == 0);
+}
+
 } // namespace taut::conformance
