@@ -53,6 +53,8 @@ CostReference newton(const Question& q, std::string& refusal)
     out.frames = {q.model.start, solved.positions};
     out.text = "Newton in fp64 on the same mesh and energy, residual " + number(solved.relative_residual) +
                " of the weight";
+    if (solved.correction > 0)
+        out.text += " (rounding of its forces; a further step moves " + number(solved.correction) + " m)";
     const Motion settled = settled_run(q, MethodKind::xpbd, 20); // only a second start for Newton
     const StaticReference second =
         settled.rests ? solve_static(q.model, settled.frames.back()) : StaticReference{};

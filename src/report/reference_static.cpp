@@ -49,8 +49,10 @@ public:
 
 private:
     bool factor(Curvature curvature, double shift);
+    Eigen::VectorXd force(const State& g) const;
     bool step(const State& g);
     bool stagnates(const State& g);
+    bool resolved(const State& g);
     bool search(const State& g, const Eigen::VectorXd& direction);
     void polish(const State& g);
     bool leave_saddle();
@@ -59,7 +61,8 @@ private:
     const PhysicalModel& model_;
     reference::StaticEnergy energy_;
     StaticOptions options_;
-    State x_;
+    State x_, start_;
+    double correction_ = 0; // m, what a further step would move where rounding ended the search
     double scale_ = 0; // N, what the residual is relative to
     double shift_ = kShiftStart;
     double max_move_ = 0;
@@ -76,6 +79,7 @@ Newton::Newton(const PhysicalModel& model, const std::vector<glm::dvec3>& start,
 {
     for (const glm::dvec3& x : start)
         x_.push_back({x.x, x.y, x.z});
+    start_ = x_;
     scale_ = total_weight(model);
     if (!(scale_ > 0))
         scale_ = largest_component(energy_.gradient(x_));
@@ -129,19 +133,25 @@ bool Newton::search(const State& g, const Eigen::VectorXd& direction)
     return false;
 }
 
-bool Newton::step(const State& g)
+Eigen::VectorXd Newton::force(const State& g) const
 {
-    Eigen::VectorXd force(energy_.unknowns());
+    Eigen::VectorXd out(energy_.unknowns());
     for (std::size_t i = 0; i < x_.size(); ++i)
         if (const int u = energy_.unknown(i); u >= 0)
         {
             const Vec<double> f = narrow(g[i]);
-            force.segment<3>(u) = -Eigen::Vector3d(f.x, f.y, f.z);
+            out.segment<3>(u) = -Eigen::Vector3d(f.x, f.y, f.z);
         }
+    return out;
+}
+
+bool Newton::step(const State& g)
+{
+    const Eigen::VectorXd downhill = force(g);
     for (int tries = 0; tries < 40; ++tries)
     {
         if ((factor(Curvature::exact, shift_) || factor(Curvature::projected, shift_)) &&
-            search(g, cholesky_.solve(force)))
+            search(g, cholesky_.solve(downhill)))
             return true;
         shift_ *= 16;
         if (shift_ > 1e18)
@@ -158,6 +168,20 @@ bool Newton::stagnates(const State& g)
     idle_ = idle ? idle_ + 1 : 0;
     lowest_ = std::min(lowest_, residual);
     return idle_ == 10;
+}
+
+/// Where forces are so large that rounding hides the weight (1e11 N/m at 1 m: 1e-8 N), the places may still
+/// be known: true if a whole Newton step would move nothing by more than `resolution`.
+bool Newton::resolved(const State& g)
+{
+    if (!(options_.resolution > 0) || !factor(Curvature::exact, kShiftFloor))
+        return false;
+    const Eigen::VectorXd further = cholesky_.solve(force(g));
+    double come = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i)
+        come = std::max(come, distance(x_[i], start_[i]));
+    correction_ = further.lpNorm<Eigen::Infinity>();
+    return correction_ <= options_.resolution * come;
 }
 
 /// One more step: from the tolerance to what the number format resolves.
@@ -196,6 +220,7 @@ StaticReference Newton::result() const
     out.residual = largest_component(energy_.gradient(x_));
     out.relative_residual = scale_ > 0 ? out.residual / scale_ : 0;
     out.energy = static_cast<double>(energy_.value(x_));
+    out.correction = correction_;
     out.iterations = factorisations_;
     bool first = true;
     for (const StretchElement& s : model_.springs)
@@ -231,6 +256,10 @@ StaticReference Newton::run()
         }
         else if (stagnates(g))
         {
+            converged = resolved(g);
+            stable = converged && factor(Curvature::exact, kShiftStable);
+            if (converged)
+                break;
             reason = "rounding: the residual cannot fall further, the forces are too large beside the weight";
             break;
         }

@@ -12,6 +12,9 @@ namespace taut {
 struct StaticOptions
 {
     double tolerance = 1e-12;         ///< of |force|_inf, in units of the total weight
+    /// Where rounding hides the weight behind the forces, a state counts as converged too when a whole Newton
+    /// step would move nothing by more than this, in units of the way from the start. 0: forces alone count.
+    double resolution = 1e-9;
     std::uint32_t iterations = 3000;  ///< factorisations at most
     /// From a saddle (a flat sheet under compression) go on to a stable state by a small nudge.
     bool leave_saddles = true;
@@ -27,6 +30,7 @@ struct StaticReference
     double residual = 0;          ///< N, largest force component on a free vertex
     double relative_residual = 0; ///< residual over total weight (over the largest elastic force at the start
                                   ///< when nothing has weight)
+    double correction = 0;        ///< m, largest component of a further Newton step; 0 when forces converged
     double energy = 0;            ///< J, elastic and gravity
     double largest_stretch = 0;   ///< (l - L)/L over springs with L > 0, signed
     std::uint32_t iterations = 0;

@@ -93,6 +93,29 @@ TEST_CASE("a hanging chain of springs is longer by m g n (n+1) / (2 k)", "[refer
     CHECK(at_rest.largest_stretch == Approx(0.01 * 9.81 * n / 1000 / 0.1).epsilon(1e-10));
 }
 
+TEST_CASE("links of 1e5 and 1e11 N/m by turns hang where they must, though rounding hides the weight",
+          "[reference]")
+{
+    const std::uint32_t n = 20;
+    PhysicalModel model = make_model(samples::spring_chain(n, 0.01, 1e5));
+    for (std::uint32_t i = 1; i < n; i += 2)
+        model.springs[i].compliance = 1e-11;
+    const StaticReference at_rest = solve_static(model, model.start);
+    REQUIRE(at_rest.converged);
+    CHECK(at_rest.stable);
+    double extension = 0; // of each link under the weight below it
+    for (std::uint32_t i = 0; i < n; ++i)
+    {
+        extension += 0.01 * 9.81 * (n - i) * model.springs[i].compliance;
+        const double found = -at_rest.positions[i + 1].y - 0.1 * (i + 1);
+        CHECK(found == Approx(extension).epsilon(1e-9));
+    }
+    CHECK(at_rest.correction < 1e-9 * extension);
+    StaticOptions forces_alone;
+    forces_alone.resolution = 0;
+    CHECK(solve_static(model, model.start, forces_alone).reason.find("rounding") == 0);
+}
+
 TEST_CASE("a clamped stretched net sags as far and holds as much energy as published", "[reference]")
 {
     struct Golden { std::uint32_t n; double sigma, sag, energy; };
@@ -250,6 +273,7 @@ TEST_CASE("a tolerance below what the number format resolves ends with a reason,
     const PhysicalModel model = make_model(samples::scene_of(hanging_cloth(6, 1e7, 1e-4)));
     StaticOptions options;
     options.tolerance = 1e-24;
+    options.resolution = 0;
     const StaticReference out = solve_static(model, model.start, options);
     CHECK_FALSE(out.converged);
     CHECK(out.reason.find("rounding") == 0);
