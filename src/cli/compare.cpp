@@ -4,6 +4,7 @@
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/output.hpp"
+#include "taut/cli/run_result.hpp"
 #include "taut/report/image.hpp"
 #include "taut/report/picture.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
@@ -126,7 +127,10 @@ Json to_json(const CompareRow& row)
     }
     json["energy"] = row.report.kinetic_energy + row.report.potential_energy;
     json["highest_energy"] = row.highest_energy;
+    json["primal_residual"] = known(row.residuals.primal);
+    json["dual_residual"] = known(row.residuals.dual);
     json["difference"] = row.difference ? Json(*row.difference) : Json();
+    json["series"] = looks_json(row.looks);
     return json;
 }
 
@@ -152,6 +156,7 @@ int compare_variants(const CompareCommand& command)
     if (!command.folder.empty())
     {
         write_file(command.folder / "compare.csv", compare_csv(rows));
+        write_file(command.folder / "compare_series.csv", compare_looks_csv(rows));
         write_file(command.folder / "compare.md", compare_markdown(rows));
         write_file(command.folder / "compare.json", to_text(json));
         if (!command.no_picture)
@@ -176,7 +181,7 @@ void add_compare(CLI::App& app, Command& chosen)
     add_device_option(*command, options->device);
     command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)");
     command->add_option("--out", options->folder,
-                        "Folder for compare.csv, compare.md, compare.json and compare.png");
+                        "Folder for compare.csv, .md, .json and .png, and compare_series.csv");
     command->add_flag("--no-picture", options->no_picture, "Draw no picture");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return compare_variants(*options); }; });

@@ -28,6 +28,11 @@ std::string to_text(const Json& json)
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json known(double value)
+{
+    return value < 0 ? Json(nullptr) : Json(value);
+}
+
 std::string table(const std::vector<std::vector<std::string>>& rows)
 {
     std::vector<std::size_t> widths;

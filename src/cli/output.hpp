@@ -19,6 +19,9 @@ void make_folder(const std::filesystem::path& folder, const std::string& option 
 /// Indented, with a line end. Text that is not UTF-8 is replaced, numbers that are not finite become null.
 std::string to_text(const Json& json);
 
+/// What a report does not know is below zero there, and null for the reader.
+Json known(double value);
+
 /// Columns of equal width, the first to the left and the others to the right. rows[0] is the head.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 

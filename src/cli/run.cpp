@@ -8,6 +8,7 @@
 #include "taut/cli/progress.hpp"
 #include "taut/cli/run_result.hpp"
 #include "taut/cli/simulation.hpp"
+#include "taut/report/residuals.hpp"
 #include "taut/report/warnings.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -79,13 +80,18 @@ public:
           frames_(frames),
           every_(mesh_interval(options, simulation.scene())),
           moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
-          meshes_(shown_scene(simulation.scene()), options.folder)
-    {}
+          meshes_(shown_scene(simulation.scene()), options.folder),
+          looks_(frames)
+    {
+        if (simulation.solvers() > 0)
+            springs_ = scene_springs(simulation.scene());
+    }
 
     /// Up to the last frame, an interruption or a value that is not finite.
     void run(const InterruptGuard& guard)
     {
         Progress progress(frames_);
+        look();
         keep();
         while (done_ < frames_ && !guard.interrupted() && finite_)
         {
@@ -105,6 +111,7 @@ public:
     /// The smallest V / V0 of all frames.
     double volume_min() const { return volume_min_; }
     const std::vector<Moment>& moments() const { return moments_; }
+    const std::vector<Look>& looks() const { return looks_.list(); }
 
 private:
     void step()
@@ -118,6 +125,20 @@ private:
             volume_min_ =
                 std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).least);
         finite_ = simulation_.events().non_finite == 0;
+        if (finite_ && looks_.due(done_))
+            look();
+    }
+
+    /// Of methods that solve linear systems, which neither sleep nor let springs flow.
+    void look()
+    {
+        if (simulation_.solvers() == 0)
+            return;
+        if (simulation_.torn() != looked_torn_)
+            springs_ = scene_springs(simulation_.scene());
+        looked_torn_ = simulation_.torn();
+        looks_.add(done_, simulation_.time(), largest_stretch(springs_, simulation_.positions()),
+                   simulation_.active_share(), simulation_.solver_report());
     }
 
     /// The mesh and the moment of a frame, where they are due.
@@ -159,6 +180,9 @@ private:
     std::uint64_t torn_ = 0;
     bool has_volume_ = measure_volume(simulation_.scene(), simulation_.positions()).any;
     double volume_min_ = measure_volume(simulation_.scene(), simulation_.positions()).least;
+    Looks looks_;
+    std::vector<StretchElement> springs_; ///< as of `looked_torn_`
+    std::uint64_t looked_torn_ = 0;
     std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
 };
 
@@ -180,20 +204,6 @@ std::vector<EffectTime> time_passes(World& world)
     return passes;
 }
 
-/// Residuals need multipliers, which a run does not keep. So they are measured on a copy of the world
-/// that keeps them and goes one frame further.
-void measure_residuals(const World& world, const std::shared_ptr<Device>& device, StepReport& report)
-{
-    WorldOptions options;
-    options.plan.residuals = true;
-    World copy(world.scene(), device, options);
-    copy.restore(world.state());
-    copy.step();
-    const StepReport further = measure(copy);
-    report.primal_residual = further.primal_residual;
-    report.dual_residual = further.dual_residual;
-}
-
 RunResult describe(const RunCommand& options, const World& world, const Runner& runner)
 {
     RunResult result;
@@ -207,6 +217,7 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.colours = world.plan().colour_counts();
     result.solvers = world.plan().solvers.size();
     result.report = measure(world);
+    result.looks = runner.looks();
     result.volume_min = runner.volume_min();
     result.step_ms = runner.step_ms();
     for (const PlanWarning& warning : world.plan().warnings)
@@ -215,7 +226,21 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     return result;
 }
 
-/// A hybrid run: who did what. The world that is measured did not run, so it counted nothing.
+/// Where the world that is measured did not run: it counted nothing.
+void describe_counts(const Simulation& simulation, RunResult& result)
+{
+    if (simulation.is_whole())
+        return;
+    const Events events = simulation.events();
+    add_warnings(events, result.report.warnings);
+    result.report.solver = simulation.solver_report();
+    count(Warning::iteration_limit, result.report.solver.limited, result.report.warnings);
+    count(Warning::solve_failed, result.report.solver.failed, result.report.warnings);
+    if (events.non_finite > 0)
+        result.report.status = Status::non_finite;
+}
+
+/// A hybrid run: who did what.
 void describe_parts(const Simulation& simulation, RunResult& result)
 {
     result.parts = simulation.parts();
@@ -223,10 +248,6 @@ void describe_parts(const Simulation& simulation, RunResult& result)
         return;
     result.device.executor = "hybrid";
     result.device.name = result.parts[0].device.name + " and " + result.parts[1].device.name;
-    const Events events = simulation.events();
-    add_warnings(events, result.report.warnings);
-    if (events.non_finite > 0)
-        result.report.status = Status::non_finite;
 }
 
 void draw(const RunCommand& options, const World& world, const std::shared_ptr<Device>& device,
@@ -250,6 +271,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     World& world = simulation->whole();
     const auto device = world.device().shared_from_this();
     RunResult result = describe(options, world, runner);
+    describe_counts(*simulation, result);
     describe_parts(*simulation, result);
     result.asleep = simulation->asleep();
     result.frames_wanted = frames;
@@ -259,7 +281,9 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
         draw(options, world, device, runner, result);
     if (result.report.status == Status::completed && !guard.interrupted())
     {
-        measure_residuals(world, device, result.report);
+        const Residuals left = residuals_ahead(world);
+        result.report.primal_residual = left.primal;
+        result.report.dual_residual = left.dual;
         if (result.parts.empty())
             result.passes = time_passes(world);
     }

@@ -20,8 +20,11 @@ double percentile(std::vector<double> values, double share)
     return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-/// What a report does not know is below zero there, and null for the reader.
-Json known(double value) { return value < 0 ? Json(nullptr) : Json(value); }
+template <class Value>
+Json or_null(const std::optional<Value>& value)
+{
+    return value ? Json(*value) : Json();
+}
 
 std::string hex(std::uint64_t value)
 {
@@ -70,6 +73,18 @@ std::string residuals(const StepReport& report)
 
 } // namespace
 
+Json looks_json(const std::vector<Look>& looks)
+{
+    Json list = Json::array();
+    for (const Look& look : looks)
+        list.push_back({{"frame", look.frame},
+                        {"time", look.time},
+                        {"max_stretch", look.max_stretch},
+                        {"active_share", or_null(look.active_share)},
+                        {"linear_iterations", or_null(look.linear_iterations)}});
+    return list;
+}
+
 Json to_json(const RunResult& result)
 {
     const StepReport& report = result.report;
@@ -100,6 +115,7 @@ Json to_json(const RunResult& result)
     json["dual_residual"] = known(report.dual_residual);
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = known(report.active_share);
+    json["series"] = result.solvers > 0 ? looks_json(result.looks) : Json(nullptr);
     json["torn"] = report.torn;
     if (result.asleep)
         json["asleep"] = *result.asleep;

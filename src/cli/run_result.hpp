@@ -2,7 +2,7 @@
 // What `taut run` found out, and how it prints that.
 
 #include "taut/cli/output.hpp"
-#include "taut/report/report.hpp"
+#include "taut/report/looks.hpp"
 #include "taut/world/hybrid.hpp"
 
 #include <optional>
@@ -23,6 +23,7 @@ struct RunResult
     std::map<std::string, std::uint64_t> constraints, colours; ///< by kind
     std::size_t solvers = 0; ///< linear systems of a step
     StepReport report;
+    std::vector<Look> looks; ///< of methods that solve linear systems
     double volume_min = 1; ///< smallest V / V0 of all frames, of scenes with solids
     std::vector<double> step_ms;       ///< wall time of each frame, ms
     std::vector<EffectTime> passes;    ///< device time of one frame by effect; empty after an interruption
@@ -34,6 +35,7 @@ struct RunResult
 };
 
 /// The keys are documented in docs/program.md.
+Json looks_json(const std::vector<Look>& looks);
 Json to_json(const RunResult& result);
 
 /// For people: a few lines.

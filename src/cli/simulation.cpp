@@ -23,6 +23,9 @@ public:
     double time() const override { return world_.time(); }
     std::vector<glm::dvec3> positions() const override { return world_.positions(); }
     Events events() const override { return world_.events(); }
+    SolverReport solver_report() const override { return world_.solver_report(); }
+    double active_share() const override { return world_.active_share(); }
+    std::size_t solvers() const override { return world_.plan().solvers.size(); }
     std::uint64_t torn() const override { return world_.torn(); }
     World& whole() override { return world_; }
 
@@ -45,11 +48,14 @@ public:
     double time() const override { return hybrid_.time(); }
     std::vector<glm::dvec3> positions() const override { return hybrid_.positions(); }
     Events events() const override { return hybrid_.events(); }
+    SolverReport solver_report() const override { return hybrid_.solver_report(); }
+    std::size_t solvers() const override { return whole_.plan().solvers.size(); }
     World& whole() override
     {
         hybrid_.copy_into(whole_);
         return whole_;
     }
+    bool is_whole() const override { return false; }
     std::vector<HybridPart> parts() const override { return hybrid_.parts(); }
 
 private:
@@ -74,12 +80,15 @@ public:
     double time() const override { return sleep_.time(); }
     std::vector<glm::dvec3> positions() const override { return sleep_.positions(); }
     Events events() const override { return sleep_.events(); }
+    SolverReport solver_report() const override { return {}; } // such methods cannot sleep
+    std::size_t solvers() const override { return 0; }
     std::optional<std::size_t> asleep() const override { return sleep_.asleep(); }
     World& whole() override
     {
         sleep_.copy_into(whole_);
         return whole_;
     }
+    bool is_whole() const override { return false; }
 
 private:
     World whole_;

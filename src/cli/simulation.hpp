@@ -19,10 +19,16 @@ public:
     virtual double time() const = 0;
     virtual std::vector<glm::dvec3> positions() const = 0;
     virtual Events events() const = 0;
+    virtual SolverReport solver_report() const = 0;
+    virtual double active_share() const { return -1; } ///< as World::active_share
+    /// Linear systems that the method solves in a substep.
+    virtual std::size_t solvers() const = 0;
     /// As World::torn; scene() and positions() change with it.
     virtual std::uint64_t torn() const { return 0; }
-    /// A world in the state of the simulation, for reports and pictures. Stays the simulation's.
+    /// A world in the state of the simulation, for reports and pictures. Stays the simulation's. Where it is
+    /// not the one that runs, it counts nothing: events() and solver_report() are those of the run.
     virtual World& whole() = 0;
+    virtual bool is_whole() const { return true; } ///< whether whole() is the world that runs
     virtual std::vector<HybridPart> parts() const { return {}; } ///< empty on one device
     virtual std::optional<std::size_t> asleep() const { return {}; } ///< bodies, where they may sleep
 };

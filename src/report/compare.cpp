@@ -12,8 +12,6 @@ namespace {
 
 using Clockwork = std::chrono::steady_clock;
 
-constexpr std::uint64_t kLooks = 60; ///< frames that are measured, spread over the run
-
 double median(std::vector<double> values)
 {
     if (values.empty())
@@ -23,9 +21,13 @@ double median(std::vector<double> values)
     return values[values.size() / 2];
 }
 
-void look(const World& world, CompareRow& row)
+void look(const World& world, std::uint64_t frame, Looks& looks, CompareRow& row)
 {
     row.report = measure(world);
+    std::optional<SolverReport> solved;
+    if (!world.plan().solvers.empty())
+        solved = row.report.solver;
+    looks.add(frame, row.report.time, row.report.max_stretch, row.report.active_share, solved);
     row.worst_stretch = std::max(row.worst_stretch, row.report.max_stretch);
     row.worst_rms_stretch = std::max(row.worst_rms_stretch, row.report.rms_stretch);
     row.smallest_volume = std::min(row.smallest_volume, row.report.volume.least);
@@ -35,8 +37,8 @@ void look(const World& world, CompareRow& row)
 
 void run(World& world, std::uint64_t frames, CompareRow& row)
 {
-    const std::uint64_t every = std::max<std::uint64_t>(frames / kLooks, 1);
-    look(world, row);
+    Looks looks(frames);
+    look(world, 0, looks, row);
     row.highest_energy = row.report.kinetic_energy + row.report.potential_energy;
     std::vector<double> times;
     for (std::uint64_t k = 1; k <= frames && row.report.status == Status::completed; ++k)
@@ -45,9 +47,12 @@ void run(World& world, std::uint64_t frames, CompareRow& row)
         world.step();
         world.device().wait();
         times.push_back(std::chrono::duration<double, std::milli>(Clockwork::now() - start).count());
-        if (k % every == 0 || k == frames)
-            look(world, row);
+        if (looks.due(k))
+            look(world, k, looks, row);
     }
+    row.looks = looks.list();
+    if (row.report.status == Status::completed)
+        row.residuals = residuals_ahead(world);
     row.step_ms = median(std::move(times));
     row.positions = world.positions();
 }
@@ -78,13 +83,24 @@ std::vector<std::string> head(bool volume)
                                     "rms strain at the end %"};
     if (volume)
         out.insert(out.end(), {"least volume %", "volume at the end %", "inverted"});
-    out.insert(out.end(), {"energy at the end J", "difference e_L %", "status"});
+    out.insert(out.end(), {"energy at the end J", "residual", "dual residual", "difference e_L %", "status"});
     return out;
 }
 
 bool any_volume(const std::vector<CompareRow>& rows)
 {
     return std::any_of(rows.begin(), rows.end(), [](const CompareRow& row) { return row.report.volume.any; });
+}
+
+/// Nothing where there is none.
+std::string residual(double value) { return value < 0 ? "" : shown(value, 2); }
+
+std::string csv_line(const std::vector<std::string>& cells_of_row)
+{
+    std::string text;
+    for (const std::string& cell : cells_of_row)
+        text += (text.empty() ? "" : ",") + csv_cell(cell);
+    return text + "\n";
 }
 
 /// The cells of a row; `percent` of strains. `volume`: a row of the table has one.
@@ -106,7 +122,8 @@ std::vector<std::string> cells(const CompareRow& row, bool volume)
         out.insert(out.end(), {shown(percent * row.smallest_volume, 4), shown(percent * r.volume.ratio, 4),
                                std::to_string(r.volume.inverted)});
     out.insert(out.end(),
-               {shown(r.kinetic_energy + r.potential_energy, 4),
+               {shown(r.kinetic_energy + r.potential_energy, 4), residual(row.residuals.primal),
+                residual(row.residuals.dual),
                 row.difference ? shown(percent * *row.difference, 3) : "", std::string(to_string(r.status))});
     return out;
 }
@@ -153,16 +170,23 @@ std::string compare_markdown(const std::vector<CompareRow>& rows)
 
 std::string compare_csv(const std::vector<CompareRow>& rows)
 {
-    const auto line = [](const std::vector<std::string>& cells_of_row) {
-        std::string text;
-        for (const std::string& cell : cells_of_row)
-            text += (text.empty() ? "" : ",") + csv_cell(cell);
-        return text + "\n";
-    };
     const bool volume = any_volume(rows);
-    std::string text = line(head(volume));
+    std::string text = csv_line(head(volume));
     for (const CompareRow& row : rows)
-        text += line(cells(row, volume));
+        text += csv_line(cells(row, volume));
+    return text;
+}
+
+std::string compare_looks_csv(const std::vector<CompareRow>& rows)
+{
+    std::string text = csv_line({"variant", "frame", "time s", "largest strain %", "active share %",
+                                 "linear iterations since the look before"});
+    for (const CompareRow& row : rows)
+        for (const Look& look : row.looks)
+            text += csv_line({row.label, std::to_string(look.frame), shown(look.time, 6),
+                              shown(100 * look.max_stretch, 4),
+                              look.active_share ? shown(100 * *look.active_share, 4) : "",
+                              look.linear_iterations ? std::to_string(*look.linear_iterations) : ""});
     return text;
 }
 

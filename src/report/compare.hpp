@@ -1,7 +1,8 @@
 #pragma once
 // Variants of one scene side by side: what each costs, how far it stretches, where it ends.
 
-#include "taut/report/report.hpp"
+#include "taut/report/looks.hpp"
+#include "taut/report/residuals.hpp"
 
 #include <memory>
 #include <optional>
@@ -26,6 +27,8 @@ struct CompareRow
     double worst_rms_stretch = 0; ///< the same of the root mean square of tension
     double smallest_volume = 1;   ///< V / V0, of all frames looked at; of scenes with volumes
     double highest_energy = 0;    ///< J, kinetic and potential
+    Residuals residuals;          ///< of one step further; -1 where there is none
+    std::vector<Look> looks;      ///< at the frames that were measured
     double step_ms = 0;           ///< median wall time of a step, waiting included
     /// e_L of the last frame against the first variant that ran; empty where vertices do not correspond.
     std::optional<double> difference;
@@ -39,5 +42,7 @@ std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint6
 /// A table in Markdown, and the same as CSV.
 std::string compare_markdown(const std::vector<CompareRow>& rows);
 std::string compare_csv(const std::vector<CompareRow>& rows);
+/// The looks of all variants that ran, a line each, as CSV.
+std::string compare_looks_csv(const std::vector<CompareRow>& rows);
 
 } // namespace taut

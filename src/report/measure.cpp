@@ -6,134 +6,21 @@
 
 #include "taut/plan/methods.hpp"
 #include "taut/report/contact.hpp"
-#include "taut/report/hinge.hpp"
-#include "taut/report/model.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/warnings.hpp"
+#include "taut/report/world_view.hpp"
 
 #include <glm/geometric.hpp>
 
-#define TAUT_HOST
-#include "taut/kernels/shared/layouts.h"
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace taut {
 namespace {
 
-using DistanceRecord = layout::DistanceConstraint<double>;
-using BendingRecord = layout::BendingConstraint<double>;
-
-DistanceRecord widen(const layout::DistanceConstraint<float>& c)
-{
-    return {c.a, c.b, c.rest_length, c.compliance};
-}
-BendingRecord widen(const layout::BendingConstraint<float>& c)
-{
-    return {c.edge0, c.edge1, c.wing0, c.wing1, c.rest_angle, c.compliance};
-}
-DistanceRecord widen(const DistanceRecord& c) { return c; }
-BendingRecord widen(const BendingRecord& c) { return c; }
-
-template <typename Narrow>
-auto decode_as(const std::vector<std::byte>& bytes)
-{
-    std::vector<decltype(widen(Narrow{}))> out(bytes.size() / sizeof(Narrow));
-    for (std::size_t k = 0; k < out.size(); ++k)
-    {
-        Narrow record;
-        std::memcpy(&record, bytes.data() + k * sizeof(Narrow), sizeof(Narrow));
-        out[k] = widen(record);
-    }
-    return out;
-}
-
-/// What the methods without constraint records move by: the model's own elements.
-std::vector<DistanceRecord> records_of(const std::vector<StretchElement>& springs)
-{
-    std::vector<DistanceRecord> out;
-    for (const StretchElement& e : springs)
-        out.push_back({e.a, e.b, e.rest_length, e.compliance});
-    return out;
-}
-std::vector<BendingRecord> records_of(const std::vector<BendElement>& hinges)
-{
-    std::vector<BendingRecord> out;
-    for (const BendElement& e : hinges)
-        out.push_back({e.edge0, e.edge1, e.wing0, e.wing1, e.rest_angle, e.compliance});
-    return out;
-}
-
-void to_scene(DistanceRecord& c, const std::vector<std::uint32_t>& original)
-{
-    c.a = original[c.a];
-    c.b = original[c.b];
-}
-void to_scene(BendingRecord& c, const std::vector<std::uint32_t>& original)
-{
-    for (std::uint32_t* v : {&c.edge0, &c.edge1, &c.wing0, &c.wing1})
-        *v = original[*v];
-}
-
-/// A buffer as the device got it, or as it is now where it changes on the device (plasticity).
-std::vector<std::byte> contents(const World& world, std::uint32_t buffer)
-{
-    const auto& kept = world.plan().kept;
-    const auto at = static_cast<std::size_t>(std::find(kept.begin(), kept.end(), buffer) - kept.begin());
-    return at == kept.size() ? world.plan().buffers[buffer].initial : world.state().kept[at];
-}
-
-/// The records of a constraint kind as the device has them, else those of the model; vertices scene-wide.
-template <template <typename> typename Record>
-std::vector<Record<double>> records(const World& world, std::string_view kind,
-                                    std::vector<Record<double>> of_model)
-{
-    const Plan& plan = world.plan();
-    for (const ConstraintSet& set : plan.constraints)
-        if (set.kind == kind)
-        {
-            const auto bytes = contents(world, set.buffer);
-            auto out = plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
-                                                            : decode_as<Record<float>>(bytes);
-            for (Record<double>& record : out)
-                to_scene(record, plan.original);
-            return out;
-        }
-    return of_model;
-}
-
-/// A world's state with its model. Vertices scene-wide.
-struct View
-{
-    explicit View(const World& w)
-        : world(w),
-          plan(w.plan()),
-          model(make_model(w.scene())),
-          x(w.positions()),
-          v(w.velocities()),
-          distance(records<layout::DistanceConstraint>(world, "distance", records_of(model.springs))),
-          bending(records<layout::BendingConstraint>(world, "bending", records_of(model.hinges)))
-    {}
-
-    double length(const DistanceRecord& c) const { return glm::length(x[c.a] - x[c.b]); }
-    reference::HingeAngle<double> angle(const BendingRecord& c) const
-    {
-        std::array<reference::Vec<double>, 4> corners;
-        const std::uint32_t ids[] = {c.edge0, c.edge1, c.wing0, c.wing1};
-        for (std::size_t k = 0; k < 4; ++k)
-            corners[k] = {x[ids[k]].x, x[ids[k]].y, x[ids[k]].z};
-        return reference::hinge_angle(corners);
-    }
-
-    const World& world;
-    const Plan& plan;
-    PhysicalModel model;
-    std::vector<glm::dvec3> x, v;
-    std::vector<DistanceRecord> distance;
-    std::vector<BendingRecord> bending;
-};
+using reference::BendingRecord;
+using reference::DistanceRecord;
+using reference::View;
 
 void measure_stretch(const View& view, StepReport& out)
 {
@@ -278,13 +165,17 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
     return worst;
 }
 
-/// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2): what its Newton steps left. -1 with
-/// dampers, whose force depends on the way, not on the place.
+/// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2): what its iterations left. -1
+/// with dampers, whose force depends on the way, not on the place, and where elements flow, whose rest shapes
+/// the model does not know.
 double implicit_residual(const View& view)
 {
     const bool damped = std::any_of(view.model.springs.begin(), view.model.springs.end(),
                                     [](const StretchElement& e) { return e.damping > 0; });
-    if (view.plan.predicted == kNoBuffer || view.world.steps() == 0 || damped)
+    const auto& bodies = view.world.scene().bodies;
+    const bool flows = std::any_of(bodies.begin(), bodies.end(),
+                                   [](const Body& body) { return body.material.plastic_yield > 0; });
+    if (view.plan.predicted == kNoBuffer || view.world.steps() == 0 || damped || flows)
         return -1;
     const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
@@ -312,9 +203,10 @@ void measure_residuals(const View& view, StepReport& out)
     const bool limited = // by forces that are on no record
         std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
                     [](const EffectCost& e) { return e.name == "strain_limit" || e.name == "attachment"; });
-    if (method_of(view.world.scene()) == MethodKind::implicit_euler && !limited)
+    const MethodKind kind = method_of(view.world.scene());
+    if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
         out.primal_residual = implicit_residual(view);
-    const bool by_multipliers = method_of(view.world.scene()) == MethodKind::xpbd && kept;
+    const bool by_multipliers = kind == MethodKind::xpbd && kept;
     if (!by_multipliers || limited || view.plan.predicted == kNoBuffer || view.world.steps() == 0)
         return;
     const double h = view.plan.timestep / view.plan.substeps;

@@ -81,4 +81,14 @@ void add(Events& sum, const Events& more)
     sum.conflicts += more.conflicts;
 }
 
+void add(SolverReport& sum, const SolverReport& more)
+{
+    sum.last = more.solves > 0 || sum.solves == 0 ? more.last : sum.last;
+    sum.solves += more.solves;
+    sum.iterations += more.iterations;
+    sum.most = std::max(sum.most, more.most);
+    sum.limited += more.limited;
+    sum.failed += more.failed;
+}
+
 } // namespace taut

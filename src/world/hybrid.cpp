@@ -8,6 +8,7 @@
 #include "taut/world/hybrid.hpp"
 
 #include "taut/plan/material.hpp"
+#include "taut/plan/methods.hpp"
 #include "taut/world/carry.hpp"
 
 #include <algorithm>
@@ -34,6 +35,25 @@ std::uint64_t work_of(const Body& body)
            2 * body.mesh.tetrahedra.size();
 }
 
+Events less(Events all, const Events& part)
+{
+    all.non_finite -= part.non_finite;
+    all.speed_clamped -= part.speed_clamped;
+    all.degenerate -= part.degenerate;
+    all.conflicts -= part.conflicts;
+    return all;
+}
+
+/// The longest solve stays: the steps that are taken back are those that come next.
+SolverReport less(SolverReport all, const SolverReport& part)
+{
+    all.solves -= part.solves;
+    all.iterations -= part.iterations;
+    all.limited -= part.limited;
+    all.failed -= part.failed;
+    return all;
+}
+
 /// One side: a device and the world of its bodies, if it has any.
 struct Side
 {
@@ -41,6 +61,14 @@ struct Side
     std::vector<std::uint32_t> bodies;
     std::unique_ptr<World> world;
     double milliseconds = 0;
+    Events timed_events; ///< what the timed steps of `world` counted, which were taken back
+    SolverReport timed_solves;
+
+    Events events() const { return world ? less(world->events(), timed_events) : Events{}; }
+    SolverReport solver_report() const
+    {
+        return world ? less(world->solver_report(), timed_solves) : SolverReport{};
+    }
 };
 
 } // namespace
@@ -73,6 +101,7 @@ struct HybridWorld::Impl
     std::vector<std::uint32_t> first; ///< scene-wide vertex of each body, and the total
     std::uint64_t steps = 0, divisions = 0;
     Events before; ///< of worlds that a division ended
+    SolverReport solved_before; ///< the same of their solves
 
     std::vector<std::uint32_t> vertices(const Side& side) const
     {
@@ -97,6 +126,8 @@ void HybridWorld::Impl::assign(const std::vector<bool>& to_first)
         side.bodies.clear();
         side.world.reset();
         side.milliseconds = 0;
+        side.timed_events = {};
+        side.timed_solves = {};
         for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
             if (to_first[b] == (s == 0))
                 side.bodies.push_back(b);
@@ -113,6 +144,8 @@ void HybridWorld::Impl::time_both()
         if (!side.world)
             continue;
         const WorldState state = side.world->state();
+        const Events events = side.events();
+        const SolverReport solved = side.solver_report();
         for (int turn = 0; turn <= kTimedSteps; ++turn)
         {
             const auto start = Clockwork::now();
@@ -123,6 +156,8 @@ void HybridWorld::Impl::time_both()
                 side.milliseconds = turn == 1 ? took : std::min(side.milliseconds, took);
         }
         side.world->restore(state);
+        side.timed_events = less(side.world->events(), events);
+        side.timed_solves = less(side.world->solver_report(), solved);
     }
 }
 
@@ -164,7 +199,10 @@ void HybridWorld::Impl::rebalance()
     if (now == old || predicted(now) > kWorthMoving * predicted(old))
         return;
     for (const Side& side : sides)
-        add(before, side.world->events());
+    {
+        add(before, side.events());
+        add(solved_before, side.solver_report());
+    }
     const Carried state = carried();
     assign(now);
     for (Side& side : sides)
@@ -188,6 +226,9 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
             throw Error(ErrorCode::unsupported,
                         "a hybrid world cannot tear cloth, whose number of vertices changes; use one "
                         "device, or leave tear_strain out");
+    // The stiffest body may be on one side only; both take its substeps.
+    if (const auto substeps = find_method(method_of(my.scene)).substeps)
+        my.scene.method.substeps = substeps(my.scene).count;
     my.options = options;
     my.sides[0].device = std::move(one);
     my.sides[1].device = std::move(other);
@@ -202,6 +243,7 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
     my.time_both();
     my.rebalance();
     my.before = {};
+    my.solved_before = {};
 }
 
 HybridWorld::~HybridWorld() = default;
@@ -255,8 +297,16 @@ Events HybridWorld::events() const
 {
     Events sum = impl_->before;
     for (const Side& side : impl_->sides)
+        add(sum, side.events());
+    return sum;
+}
+
+SolverReport HybridWorld::solver_report() const
+{
+    SolverReport sum = impl_->solved_before;
+    for (const Side& side : impl_->sides)
         if (side.world)
-            add(sum, side.world->events());
+            add(sum, side.solver_report());
     return sum;
 }
 

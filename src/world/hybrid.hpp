@@ -23,7 +23,8 @@ struct HybridPart
 };
 
 /// Steps a scene on two devices. A body moves as it would alone, so results are those of one device within
-/// the tolerance between devices: bit for bit between the software executors.
+/// the tolerance between devices: bit for bit between the software executors. Methods that solve one linear
+/// system for all bodies (implicit_euler, implicit_constraints, acad) agree to the tolerance of that solve.
 class HybridWorld
 {
 public:
@@ -43,6 +44,8 @@ public:
     std::vector<glm::dvec3> positions() const;  ///< m, in the order of the scene
     std::vector<glm::dvec3> velocities() const; ///< m/s
     Events events() const;                      ///< of both, and of what ran before a new division
+    /// Of both, in the same way; a substep has a solve on each device that has bodies.
+    SolverReport solver_report() const;
     std::vector<HybridPart> parts() const;
     std::uint64_t divisions() const; ///< how often bodies changed sides, the first division not counted
 

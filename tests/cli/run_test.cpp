@@ -278,6 +278,68 @@ TEST_CASE("a hybrid run says which device did what, and ends where one device en
     CHECK(folder.taut({"run", scene, "--device", "hybrid:nowhere", "--json"}).status == 3);
 }
 
+TEST_CASE("a run of a method that solves linear systems has a series over its frames")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const auto report_of = [&](const std::string& device, const std::string& method, const char* frames) {
+        const Result result = folder.taut({"run", scene, "--device", device, "--frames", frames,
+                                           "--no-picture", "--out", folder / "o", "--json", "--set",
+                                           "method.type=" + method, "--set", "method.stability=substep"});
+        INFO(result.err);
+        REQUIRE(result.status == 0);
+        return program::parse(result.out);
+    };
+    CHECK(report_of("cpu:serial", "xpbd", "3")["series"].is_null());
+    const auto acad = report_of("cpu:serial", "acad", "150");
+    REQUIRE(acad["series"].size() == 76); // every second frame, and the start
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < acad["series"].size(); ++k)
+    {
+        const auto& look = acad["series"][k];
+        CHECK(look["frame"] == 2 * k);
+        CHECK(look["time"].get<double>() == Approx(static_cast<double>(2 * k) / 60).margin(1e-9));
+        CHECK(look["active_share"].get<double>() >= 0);
+        CHECK(look["active_share"].get<double>() <= 1);
+        sum += look["linear_iterations"].get<std::uint64_t>();
+    }
+    CHECK(sum == acad["solver"]["iterations"]);
+    CHECK(acad["series"].back()["active_share"] == acad["active_share"]);
+    CHECK(acad["series"].back()["max_stretch"] == acad["max_stretch"]);
+    const auto implicit = report_of("cpu:serial", "implicit_euler", "5");
+    REQUIRE(implicit["series"].size() == 6);
+    CHECK(implicit["series"][5]["active_share"].is_null());
+    CHECK(implicit["series"][5]["linear_iterations"].get<int>() > 0);
+}
+
+TEST_CASE("a hybrid run and one whose bodies sleep report what was counted")
+{
+    const Folder folder;
+    const std::string scene = folder.file("two.json", scenes::two_bodies());
+    const auto report_of = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"run",          scene,   "--frames",    "5", "--no-picture",
+                                          "--out",        folder / "o", "--json", "--set",
+                                          "method.substeps=2"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Result result = folder.taut(words);
+        INFO(result.err);
+        REQUIRE(result.status == 0);
+        return program::parse(result.out);
+    };
+    const auto hybrid = report_of({"--device", "hybrid:cpu:serial", "--set", "method.type=implicit_euler"});
+    CHECK(hybrid["solver"]["solves"].get<int>() >= 5 * 2);
+    CHECK(hybrid["solver"]["solves"].get<int>() <= 5 * 2 * 2);
+    CHECK(hybrid["solver"]["last_status"] != "");
+    CHECK(hybrid["primal_residual"].get<double>() >= 0);
+    CHECK(hybrid["series"].size() == 6);
+    const std::vector<std::string> slow = {"--device", "cpu:serial", "--set", "max_speed=0.01"};
+    std::vector<std::string> asleep = slow;
+    asleep.push_back("--sleep");
+    const auto awake = report_of(slow);
+    REQUIRE(awake["warnings"].contains("speed_clamp"));
+    CHECK(report_of(asleep)["warnings"] == awake["warnings"]);
+}
+
 TEST_CASE("meshes and pictures of a solid show the surface that it carries")
 {
     const Folder folder;

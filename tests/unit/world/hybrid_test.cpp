@@ -95,6 +95,68 @@ TEST_CASE("a hybrid world works beside every device")
     }
 }
 
+TEST_CASE("a hybrid world counts the solves of both sides, without those of its timed steps")
+{
+    Scene scene = several_cloths();
+    scene.method.type = "implicit_euler";
+    scene.method.substeps = 2;
+    scene.method.precision = "double";
+    scene.method.linear_tolerance = 1e-9;
+    scene.method.linear_iterations = 1000;
+    for (const std::uint64_t every : {0, 3})
+    {
+        HybridOptions options;
+        options.measure_every = every;
+        HybridWorld hybrid(scene, Device::open("cpu:serial"), Device::open("cpu"), options);
+        CHECK(hybrid.solver_report().solves == 0);
+        CHECK(hybrid.solver_report().iterations == 0);
+        World one(scene, Device::open("cpu:serial"));
+        std::uint64_t expected = 0;
+        for (int step = 0; step < 8; ++step)
+        {
+            hybrid.step();
+            one.step();
+            for (const HybridPart& part : hybrid.parts())
+                expected += part.bodies.empty() ? 0 : scene.method.substeps;
+        }
+        const SolverReport both = hybrid.solver_report(), alone = one.solver_report();
+        CHECK(both.solves == expected);
+        CHECK(alone.solves == 8 * scene.method.substeps);
+        CHECK(both.iterations > 0);
+        CHECK(both.most > 0);
+        CHECK(both.most <= both.iterations);
+        CHECK(both.failed == 0);
+        CHECK(both.last == Status::converged);
+        double worst = 0;
+        const auto got = hybrid.positions(), want = one.positions();
+        for (std::size_t v = 0; v < got.size(); ++v)
+            worst = std::max(worst, glm::length(got[v] - want[v]));
+        CHECK(worst < 1e-6); // one system for all bodies: to the tolerance of the solve
+    }
+}
+
+TEST_CASE("both sides of a hybrid world take the substeps of the stiffest body")
+{
+    Scene scene = several_cloths();
+    scene.method.type = "mass_spring";
+    scene.method.stability = "substep";
+    scene.method.substeps = 1;
+    scene.bodies[2].material.stretch_stiffness = 50;
+    for (const std::size_t body : {0, 1, 3})
+        scene.bodies[body].material.stretch_stiffness = body == 1 ? 4000 : 50;
+    HybridOptions options;
+    options.measure_every = 0;
+    HybridWorld hybrid(scene, Device::open("cpu:serial"), Device::open("cpu"), options);
+    World one(scene, Device::open("cpu:serial"));
+    REQUIRE(one.plan().substeps > 1);
+    for (int step = 0; step < 10; ++step)
+    {
+        hybrid.step();
+        one.step();
+    }
+    CHECK(hybrid.positions() == one.positions());
+}
+
 TEST_CASE("what cannot be divided is refused or stays whole")
 {
     Scene empty;

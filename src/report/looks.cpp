@@ -1,0 +1,52 @@
+#include "taut/report/looks.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace taut {
+
+void Looks::add(std::uint64_t frame, double time, double max_stretch, double active_share,
+                const std::optional<SolverReport>& solved)
+{
+    Look look{frame, time, max_stretch};
+    if (active_share >= 0)
+        look.active_share = active_share;
+    if (solved)
+    {
+        look.linear_iterations = solved->iterations - iterations_;
+        iterations_ = solved->iterations;
+    }
+    list_.push_back(look);
+}
+
+std::vector<StretchElement> scene_springs(const Scene& resolved)
+{
+    std::vector<StretchElement> out;
+    std::uint32_t first = 0;
+    for (const Body& body : resolved.bodies)
+    {
+        for (StretchElement e : stretch_elements(body))
+        {
+            e.a += first;
+            e.b += first;
+            out.push_back(e);
+        }
+        first += static_cast<std::uint32_t>(body.mesh.positions.size());
+    }
+    return out;
+}
+
+double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x)
+{
+    std::optional<double> out;
+    for (const StretchElement& e : springs)
+        if (e.rest_length > 0)
+        {
+            const double stretch = (glm::distance(x[e.a], x[e.b]) - e.rest_length) / e.rest_length;
+            out = out ? std::max(*out, stretch) : stretch;
+        }
+    return out.value_or(0);
+}
+
+} // namespace taut

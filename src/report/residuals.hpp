@@ -1,0 +1,19 @@
+#pragma once
+// What the last substep of a step left unsolved, asked of a world that does not keep what it takes to know.
+
+#include "taut/report/report.hpp"
+
+namespace taut {
+
+/// As StepReport::primal_residual and dual_residual; -1 where there is none.
+struct Residuals
+{
+    double primal = -1, dual = -1;
+};
+
+/// Residuals of xpbd need multipliers, which a run does not keep. So they are those of a copy that keeps them
+/// and goes one step further; the world itself stays as it is. -1 under methods without any, without making a
+/// copy. Throws Error{bad_input} for a world that holds a value that is not finite.
+Residuals residuals_ahead(const World& world);
+
+} // namespace taut

@@ -1,0 +1,112 @@
+#include "taut/report/world_view.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace taut::reference {
+namespace {
+
+DistanceRecord widen(const layout::DistanceConstraint<float>& c)
+{
+    return {c.a, c.b, c.rest_length, c.compliance};
+}
+BendingRecord widen(const layout::BendingConstraint<float>& c)
+{
+    return {c.edge0, c.edge1, c.wing0, c.wing1, c.rest_angle, c.compliance};
+}
+DistanceRecord widen(const DistanceRecord& c) { return c; }
+BendingRecord widen(const BendingRecord& c) { return c; }
+
+template <typename Narrow>
+auto decode_as(const std::vector<std::byte>& bytes)
+{
+    std::vector<decltype(widen(Narrow{}))> out(bytes.size() / sizeof(Narrow));
+    for (std::size_t k = 0; k < out.size(); ++k)
+    {
+        Narrow record;
+        std::memcpy(&record, bytes.data() + k * sizeof(Narrow), sizeof(Narrow));
+        out[k] = widen(record);
+    }
+    return out;
+}
+
+/// What the methods without constraint records move by: the model's own elements.
+std::vector<DistanceRecord> records_of(const std::vector<StretchElement>& springs)
+{
+    std::vector<DistanceRecord> out;
+    for (const StretchElement& e : springs)
+        out.push_back({e.a, e.b, e.rest_length, e.compliance});
+    return out;
+}
+std::vector<BendingRecord> records_of(const std::vector<BendElement>& hinges)
+{
+    std::vector<BendingRecord> out;
+    for (const BendElement& e : hinges)
+        out.push_back({e.edge0, e.edge1, e.wing0, e.wing1, e.rest_angle, e.compliance});
+    return out;
+}
+
+void to_scene(DistanceRecord& c, const std::vector<std::uint32_t>& original)
+{
+    c.a = original[c.a];
+    c.b = original[c.b];
+}
+void to_scene(BendingRecord& c, const std::vector<std::uint32_t>& original)
+{
+    for (std::uint32_t* v : {&c.edge0, &c.edge1, &c.wing0, &c.wing1})
+        *v = original[*v];
+}
+
+/// A buffer as the device got it, or as it is now where it changes on the device (plasticity).
+std::vector<std::byte> contents(const World& world, std::uint32_t buffer)
+{
+    const auto& kept = world.plan().kept;
+    const auto at = static_cast<std::size_t>(std::find(kept.begin(), kept.end(), buffer) - kept.begin());
+    return at == kept.size() ? world.plan().buffers[buffer].initial : world.state().kept[at];
+}
+
+/// The records of a constraint kind as the device has them, else those of the model; vertices scene-wide.
+template <template <typename> typename Record>
+std::vector<Record<double>> records(const World& world, std::string_view kind,
+                                    std::vector<Record<double>> of_model)
+{
+    const Plan& plan = world.plan();
+    for (const ConstraintSet& set : plan.constraints)
+        if (set.kind == kind)
+        {
+            const auto bytes = contents(world, set.buffer);
+            auto out = plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
+                                                            : decode_as<Record<float>>(bytes);
+            for (Record<double>& record : out)
+                to_scene(record, plan.original);
+            return out;
+        }
+    return of_model;
+}
+
+} // namespace
+
+View::View(const World& w)
+    : world(w),
+      plan(w.plan()),
+      model(make_model(w.scene())),
+      x(w.positions()),
+      v(w.velocities()),
+      distance(records<layout::DistanceConstraint>(world, "distance", records_of(model.springs))),
+      bending(records<layout::BendingConstraint>(world, "bending", records_of(model.hinges)))
+{}
+
+double View::length(const DistanceRecord& c) const { return glm::length(x[c.a] - x[c.b]); }
+
+HingeAngle<double> View::angle(const BendingRecord& c) const
+{
+    std::array<Vec<double>, 4> corners;
+    const std::uint32_t ids[] = {c.edge0, c.edge1, c.wing0, c.wing1};
+    for (std::size_t k = 0; k < 4; ++k)
+        corners[k] = {x[ids[k]].x, x[ids[k]].y, x[ids[k]].z};
+    return hinge_angle(corners);
+}
+
+} // namespace taut::reference

@@ -1,0 +1,123 @@
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+
+#include "taut/report/compare.hpp"
+
+#include <algorithm>
+
+using namespace taut;
+
+namespace {
+
+/// 36 vertices that hang by two corners, one of them pulled to the side.
+Scene hanging(const std::string& method)
+{
+    Scene scene = resolve(parse_scene(R"({"taut": 1, "duration": 1,
+        "method": {"type": ")" + method + R"(", "substeps": 2, "precision": "double"},
+        "bodies": [{"grid": {"cells": [5, 5]}, "material": {"stretch_stiffness": 200},
+                    "pins": [{"corners": ["top_left"]},
+                             {"corners": ["top_right"],
+                              "motion": [{"time": 0}, {"time": 0.5, "translate": [0.2, 0, 0]}]}]}]})"));
+    scene.method.stability = "substep";
+    return scene;
+}
+
+Residuals residual(const std::string& method, std::uint32_t iterations)
+{
+    Scene scene = hanging(method);
+    scene.method.iterations = iterations;
+    World world(scene, test_device("cpu:serial"));
+    for (int step = 0; step < 5; ++step)
+        world.step();
+    return residuals_ahead(world);
+}
+
+std::size_t lines(const std::string& text)
+{
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+} // namespace
+
+TEST_CASE("what iterations leave unsolved falls to nothing, and other methods have no residual", "[compare]")
+{
+    for (const std::string method : {"vbd", "implicit_euler"})
+    {
+        CAPTURE(method);
+        const double coarse = residual(method, 1).primal;
+        const double fine = residual(method, method == "vbd" ? 1000 : 30).primal;
+        CHECK(coarse > 1e-3);
+        CHECK(fine < 1e-6 * coarse);
+    }
+    for (const std::string method : {"pbd", "mass_spring", "implicit_constraints", "acad"})
+        CHECK(residuals_ahead(World(hanging(method), test_device("cpu:serial"))).primal == -1);
+    // Of xpbd only the dual one does: its gradients are those of the places on the way (Macklin 2016, 4).
+    const Residuals one = residual("xpbd", 1), many = residual("xpbd", 400);
+    CHECK(one.primal >= 0);
+    CHECK(one.dual > 1e-3);
+    CHECK(many.dual < 1e-6 * one.dual);
+}
+
+TEST_CASE("asking for residuals leaves the world as it is", "[compare]")
+{
+    World world(hanging("xpbd"), test_device("cpu:serial"));
+    world.step();
+    const auto before = world.positions();
+    CHECK(residuals_ahead(world).dual >= 0);
+    CHECK(world.positions() == before);
+    CHECK(world.steps() == 1);
+}
+
+TEST_CASE("compare tabulates residuals and keeps a series over the frames", "[compare]")
+{
+    const auto device = test_device("cpu:serial");
+    const auto rows = compare(
+        {{"x", hanging("xpbd"), device}, {"a", hanging("acad"), device}, {"p", hanging("pbd"), device}}, 130);
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[0].residuals.primal >= 0);
+    CHECK(rows[0].residuals.dual >= 0);
+    CHECK(rows[1].residuals.primal == -1);
+    for (const CompareRow& row : rows)
+        CHECK(row.looks.size() == 66); // every second frame, and the start
+    std::uint64_t sum = 0;
+    for (const Look& look : rows[1].looks)
+        sum += look.linear_iterations.value();
+    CHECK(sum == rows[1].report.solver.iterations);
+    CHECK(rows[1].looks.back().active_share.value() == rows[1].report.active_share);
+    CHECK_FALSE(rows[0].looks.back().active_share.has_value());
+    CHECK_FALSE(rows[0].looks.back().linear_iterations.has_value());
+    double worst = rows[1].looks[0].max_stretch;
+    for (const Look& look : rows[1].looks)
+        worst = std::max(worst, look.max_stretch);
+    CHECK(rows[1].worst_stretch == std::max(worst, 0.0));
+    const std::string table = compare_csv(rows);
+    CHECK(table.find(",residual,dual residual,") != std::string::npos);
+    CHECK(table.find("\np,pbd,cpu:serial,") != std::string::npos);
+    const std::string series = compare_looks_csv(rows);
+    CHECK(lines(series) == 1 + 3 * 66);
+    CHECK(series.find("\nx,130,") != std::string::npos);
+}
+
+TEST_CASE("looks are at most 121 however long a run is, with start and end", "[compare]")
+{
+    for (const std::uint64_t frames : {0u, 1u, 59u, 60u, 119u, 120u, 1000u, 123457u})
+    {
+        Looks looks(frames);
+        std::uint64_t due = 0;
+        for (std::uint64_t f = 0; f <= frames; ++f)
+            due += looks.due(f);
+        CHECK(looks.due(0));
+        CHECK(looks.due(frames));
+        CHECK(due <= 121);
+        CHECK(due >= std::min<std::uint64_t>(frames + 1, 60));
+    }
+}
+
+TEST_CASE("the largest stretch is that of the report", "[compare]")
+{
+    World world(hanging("mass_spring"), test_device("cpu:serial"));
+    for (int step = 0; step < 7; ++step)
+        world.step();
+    CHECK(largest_stretch(scene_springs(world.scene()), world.positions()) == measure(world).max_stretch);
+    CHECK(largest_stretch({}, {}) == 0);
+}
