@@ -1,6 +1,7 @@
 // Vertices against half-spaces. One invocation per vertex; loops over the planes.
 // The functions and their sources: shared/contact.glsl.
 // Bytes per element: 32 read, 16 written (float); friction_kept 16 more each way per collider.
+//! lanes
 //! variant friction FRICTION=1
 //! variant friction_kept FRICTION=1 KEPT=1
 #include "shared/portable.glsl"
@@ -33,7 +34,7 @@ KERNEL(count)
     rvec4 guess = delta[i];
     rvec3 d = rvec3(guess);
     real gap_kept = guess.w;
-    bool moves = p.w > real(0);
+    rbool moves = p.w > real(0);
     for (uint j = 0u; j < colliders; ++j)
     {
         PlaneCollider c = plane[j];
@@ -43,9 +44,9 @@ KERNEL(count)
         real before = (dot(n, x) - surface) - gap_kept;
         real gap = before + (dot(n, d) - part);
         real push = max(allowed_gap(before, step_values[0].depenetration) - gap, real(0));
-        if (report != 0u && !moves && push > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_CONFLICT);
-        push = moves ? push : real(0);
+        if (report != 0u)
+            COUNT_EVENT_IF(!moves && push > real(0), events, TAUT_EVENT_CONFLICT);
+        push = SELECT(moves, push, real(0));
         d += n * push;
 #if FRICTION
         rvec3 slide = (d - n * dot(n, d));
@@ -63,5 +64,5 @@ KERNEL(count)
 #endif
 #endif
     }
-    delta[i] = moves ? rvec4(d, gap_kept) : guess;
+    delta[i] = SELECT(moves, rvec4(d, gap_kept), guess);
 }

@@ -5,6 +5,7 @@
 // where the vertex came from, the nearest surface point decides; if the segment enters and ends on the
 // other side or outside again, the point of entry does.
 // Bytes per element: 32 read, 16 written (float); friction_kept 16 more each way per collider.
+//! lanes
 //! variant friction FRICTION=1
 //! variant friction_kept FRICTION=1 KEPT=1
 #include "shared/portable.glsl"
@@ -37,7 +38,7 @@ KERNEL(count)
     rvec4 guess = delta[i];
     rvec3 d = rvec3(guess);
     real gap_kept = guess.w;
-    bool moves = p.w > real(0);
+    rbool moves = p.w > real(0);
     for (uint j = 0u; j < colliders; ++j)
     {
         SphereCollider c = sphere[j];
@@ -52,20 +53,20 @@ KERNEL(count)
         real square = dot(travel, travel);
         real discriminant = along * along - square * outside;
         real root = sqrt(max(discriminant, real(0)));
-        real entry = square > real(0) ? max((-along - root) / square, real(0)) : real(2);
+        real entry = SELECT(square > real(0), max((-along - root) / square, real(0)), real(2));
         // A vertex at rest on the surface lies a rounding inside as often as outside; both came from there.
-        bool came_from_outside = outside >= REAL(-1e-3) * r * r && along < real(0);
-        bool enters = came_from_outside && discriminant > real(0) && entry <= real(1);
-        bool far_side = enters && !(dot(a, e) > real(0) && dot(e, e) < r * r);
-        rvec3 towards = far_side ? a + travel * entry : e;
+        rbool came_from_outside = outside >= REAL(-1e-3) * r * r && along < real(0);
+        rbool enters = came_from_outside && discriminant > real(0) && entry <= real(1);
+        rbool far_side = enters && !(dot(a, e) > real(0) && dot(e, e) < r * r);
+        rvec3 towards = SELECT(far_side, a + travel * entry, e);
         real size = length(towards);
         // A vertex exactly at the centre leaves upwards: any direction is as good.
-        rvec3 n = size > real(0) ? towards / size : rvec3(real(0), real(1), real(0));
+        rvec3 n = SELECT(size > real(0), towards / size, rvec3(real(0), real(1), real(0)));
         real gap = dot(n, e) - r;
         real push = max(allowed_gap(sqrt(dot(a, a)) - r, step_values[0].depenetration) - gap, real(0));
-        if (report != 0u && !moves && push > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_CONFLICT);
-        push = moves ? push : real(0);
+        if (report != 0u)
+            COUNT_EVENT_IF(!moves && push > real(0), events, TAUT_EVENT_CONFLICT);
+        push = SELECT(moves, push, real(0));
         d += n * push;
 #if FRICTION
         rvec3 slide = d - shift;
@@ -82,5 +83,5 @@ KERNEL(count)
 #endif
 #endif
     }
-    delta[i] = moves ? rvec4(d, gap_kept) : guess;
+    delta[i] = SELECT(moves, rvec4(d, gap_kept), guess);
 }

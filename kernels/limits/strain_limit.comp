@@ -6,6 +6,7 @@
 // Departures: springs go by colours, and both ends give way by their inverse masses; works on displacements
 //   of the substep, so the velocity follows.
 // Bytes per element: 16 spring + 64 read + 32 written (float).
+//! lanes
 //! variant tail TAIL=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
@@ -25,7 +26,7 @@ READ(3, uint, table);          // as in distance.comp
 UPDATE(2, rvec4, delta);
 #endif
 
-void project(uint k)
+void project(ELEMENT k)
 {
     DistanceConstraint c = constraint[k];
     rvec4 xa = position[c.a];
@@ -35,10 +36,11 @@ void project(uint k)
     rvec4 d = (xa - xb) + (da - db);
     real len = length(rvec3(d));
     real denominator = (xa.w + xb.w) * len;
-    bool beyond = len > c.rest_length && denominator > REAL(1e-30); // smaller would overflow
+    rbool beyond = len > c.rest_length && denominator > REAL(1e-30); // smaller would overflow
     real scale = (c.rest_length - len) / denominator;
-    scale = beyond ? scale : real(0);
-    rvec4 push = d * rvec4(scale, scale, scale, real(0));
+    scale = SELECT(beyond, scale, real(0));
+    rvec4 push = d * scale;
+    push.w = real(0); // delta keeps its own
     delta[c.a] = da + push * xa.w;
     delta[c.b] = db - push * xb.w;
 }

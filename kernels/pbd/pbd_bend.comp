@@ -4,6 +4,7 @@
 // Based on: Mueller, Heidelberger, Hennix, Ratcliff. Position Based Dynamics. VRIPHYS 2006, section 4.4.
 // Departures: see shared/pbd.glsl and shared/hinge.glsl.
 // Bytes per element: 24 constraint + 128 read + 64 written (float).
+//! lanes
 //! variant tail TAIL=1
 //! variant slots SLOTS=1
 #include "shared/portable.glsl"
@@ -31,7 +32,7 @@ WRITE(4, rvec4, correction); // displacement per inverse mass, kg m: correction[
 UPDATE(2, rvec4, delta);
 #endif
 
-void project(uint k)
+void project(ELEMENT k)
 {
     BendingConstraint c = constraint[k];
     rvec4 p0 = position[c.edge0];
@@ -54,8 +55,9 @@ void project(uint k)
     delta[c.wing0] = d2 + rvec4(wanted.wing0 * p2.w, real(0));
     delta[c.wing1] = d3 + rvec4(wanted.wing1 * p3.w, real(0));
 #endif
-    if (report != 0u && !wanted.shaped && p0.w + p1.w + p2.w + p3.w > real(0))
-        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    if (report != 0u)
+        COUNT_EVENT_IF(!wanted.shaped && p0.w + p1.w + p2.w + p3.w > real(0), events,
+                       TAUT_EVENT_DEGENERATE);
 }
 
 #include "shared/sweep.glsl"

@@ -5,6 +5,7 @@
 //   Fratarcangeli, Pellacini. Scalable Partitioning for Parallel Position Based Dynamics. 2015: colours.
 // Departures: see shared/pbd.glsl; works on displacements of the substep (`delta`).
 // Bytes per element: 16 constraint + 64 read + 32 written (float); slots: 16 written.
+//! lanes
 //! variant tail TAIL=1
 //! variant slots SLOTS=1
 #include "shared/portable.glsl"
@@ -33,7 +34,7 @@ WRITE(4, rvec4, correction); // displacement of end a per inverse mass, kg m; th
 UPDATE(2, rvec4, delta);
 #endif
 
-void project(uint k)
+void project(ELEMENT k)
 {
     DistanceConstraint c = constraint[k];
     rvec4 xa = position[c.a];
@@ -47,8 +48,9 @@ void project(uint k)
     delta[c.a] = da + wanted.push * xa.w;
     delta[c.b] = db - wanted.push * xb.w;
 #endif
-    if (report != 0u && !wanted.usable && xa.w + xb.w > real(0) && c.rest_length > real(0))
-        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    if (report != 0u)
+        COUNT_EVENT_IF(!wanted.usable && xa.w + xb.w > real(0) && c.rest_length > real(0), events,
+                       TAUT_EVENT_DEGENERATE);
 }
 
 #include "shared/sweep.glsl"

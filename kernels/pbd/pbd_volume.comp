@@ -5,6 +5,7 @@
 //   Position-Based Dynamics. Electronics 12(10), 2023: C = V - V0 with the signed volume.
 // Departures: see shared/pbd.glsl; works on displacements of the substep (`delta`).
 // Bytes per element: 24 constraint + 128 read + 64 written (float).
+//! lanes
 //! variant tail TAIL=1
 //! variant slots SLOTS=1
 #include "shared/portable.glsl"
@@ -32,7 +33,7 @@ WRITE(4, rvec4, correction); // displacement per inverse mass, kg m: correction[
 UPDATE(2, rvec4, delta);
 #endif
 
-void project(uint k)
+void project(ELEMENT k)
 {
     VolumeConstraint c = constraint[k];
     rvec4 p0 = position[c.a];
@@ -55,8 +56,9 @@ void project(uint k)
     delta[c.c] = d2 + rvec4(wanted.c * p2.w, real(0));
     delta[c.d] = d3 + rvec4(wanted.d * p3.w, real(0));
 #endif
-    if (report != 0u && !wanted.usable && p0.w + p1.w + p2.w + p3.w > real(0))
-        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    if (report != 0u)
+        COUNT_EVENT_IF(!wanted.usable && p0.w + p1.w + p2.w + p3.w > real(0), events,
+                       TAUT_EVENT_DEGENERATE);
 }
 
 #include "shared/sweep.glsl"

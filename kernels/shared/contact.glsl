@@ -23,7 +23,7 @@ rvec4 friction_taken(rvec4 taken, rvec3 slide, real push, real friction)
     real limit = friction * height;
     rvec3 whole = slide + rvec3(taken);
     real size = length(whole);
-    return rvec4(size > limit ? whole * (limit / size) : whole, height);
+    return rvec4(SELECT(size > limit, whole * (limit / size), whole), height);
 }
 
 #endif

@@ -17,7 +17,7 @@
 struct SpringPush
 {
     rvec4 push; // kg m, w = 0
-    bool usable;
+    rbool usable;
 };
 
 SpringPush spring_push(DistanceConstraint c, rvec4 xa, rvec4 xb, rvec4 da, rvec4 db, real share)
@@ -28,8 +28,9 @@ SpringPush spring_push(DistanceConstraint c, rvec4 xa, rvec4 xb, rvec4 da, rvec4
     real denominator = (xa.w + xb.w) * len;
     out_push.usable = denominator > REAL(1e-30); // coincident or held ends have none; smaller would overflow
     real scale = (c.rest_length - len) * share / denominator;
-    scale = out_push.usable ? scale : real(0);
-    out_push.push = rvec4(rvec3(d) * scale, real(0)); // a product with zero may lose its sign
+    scale = SELECT(out_push.usable, scale, real(0));
+    out_push.push = d * scale;
+    out_push.push.w = real(0);
     return out_push;
 }
 
@@ -37,7 +38,7 @@ SpringPush spring_push(DistanceConstraint c, rvec4 xa, rvec4 xb, rvec4 da, rvec4
 struct HingePush
 {
     rvec3 edge0, edge1, wing0, wing1; // kg m
-    bool shaped;
+    rbool shaped;
 };
 
 HingePush hinge_push(BendingConstraint c, rvec4 p0, rvec4 p1, rvec4 p2, rvec4 p3,
@@ -48,9 +49,9 @@ HingePush hinge_push(BendingConstraint c, rvec4 p0, rvec4 p1, rvec4 p2, rvec4 p3
                                    rvec3(p3 - p0) + rvec3(d3 - d0));
     real weight = p0.w * dot(hinge.edge0, hinge.edge0) + p1.w * dot(hinge.edge1, hinge.edge1) +
                   p2.w * dot(hinge.wing0, hinge.wing0) + p3.w * dot(hinge.wing1, hinge.wing1);
-    bool usable = hinge.shaped && weight > real(0); // held vertices alone may carry the gradient
-    real scale = angle_difference(hinge.angle, c.rest_angle) * -share / (usable ? weight : real(1));
-    scale = usable ? scale : real(0);
+    rbool usable = hinge.shaped && weight > real(0); // held vertices alone may carry the gradient
+    real scale = angle_difference(hinge.angle, c.rest_angle) * -share / SELECT(usable, weight, real(1));
+    scale = SELECT(usable, scale, real(0));
     out_push.edge0 = hinge.edge0 * scale;
     out_push.edge1 = hinge.edge1 * scale;
     out_push.wing0 = hinge.wing0 * scale;
@@ -63,7 +64,7 @@ HingePush hinge_push(BendingConstraint c, rvec4 p0, rvec4 p1, rvec4 p2, rvec4 p3
 struct VolumePush
 {
     rvec3 a, b, c, d; // kg m
-    bool usable;
+    rbool usable;
 };
 
 /// A nearly collapsed tetrahedron has hardly a gradient and would be thrown far beyond the body: its corners
@@ -91,9 +92,9 @@ VolumePush volume_push(VolumeConstraint c, rvec4 p0, rvec4 p1, rvec4 p2, rvec4 p
     real reach = max(dot(e1, e1), max(dot(e2, e2), dot(e3, e3)));
     out_push.usable = weight > REAL(1e-30) && fastest > REAL(1e-30); // smaller would overflow
     real missing = c.rest_volume * real(6) - dot(e1, g1);
-    real scale = missing * share / (out_push.usable ? weight : real(1));
-    real limit = sqrt(reach / (out_push.usable ? fastest : real(1)));
-    scale = out_push.usable ? min(max(scale, -limit), limit) : real(0);
+    real scale = missing * share / SELECT(out_push.usable, weight, real(1));
+    real limit = sqrt(reach / SELECT(out_push.usable, fastest, real(1)));
+    scale = SELECT(out_push.usable, min(max(scale, -limit), limit), real(0));
     out_push.a = g0 * scale;
     out_push.b = g1 * scale;
     out_push.c = g2 * scale;

@@ -22,6 +22,17 @@ struct Index
 TAUT_LANE Index operator+(uint a, Index b) { return {a + b.first, b.count}; }
 TAUT_LANE Index operator+(Index a, uint b) { return b + a; }
 
+/// factor * element + offset for the elements of a block: one of several places that each element has.
+struct Steps
+{
+    Index where;
+    uint factor;
+    uint offset = 0;
+};
+
+TAUT_LANE Steps operator*(uint factor, Index where) { return {where, factor}; }
+TAUT_LANE Steps operator+(Steps a, uint b) { return {a.where, a.factor, a.offset + b}; }
+
 /// A number per element that a read-only buffer holds, to index with. It stays where it is until it is
 /// wanted: loading it again is cheaper than taking a vector register apart.
 struct Uint
@@ -48,6 +59,12 @@ struct Neighbours
         : first(const_cast<std::byte*>(base) + index.first * bytes),
           stride(bytes),
           where(index)
+    {}
+    TAUT_LANE Neighbours(const std::byte* base, Steps steps, std::size_t bytes)
+        : first(const_cast<std::byte*>(base) +
+                (std::size_t{steps.factor} * steps.where.first + steps.offset) * bytes),
+          stride(steps.factor * bytes),
+          where(steps.where)
     {}
     TAUT_LANE std::byte* operator[](uint element) const { return first + where.behind(element) * stride; }
 };
@@ -126,6 +143,15 @@ TAUT_LANE void store(std::byte* base, const Uint& where, const Vec4& value)
 TAUT_LANE void store(std::byte* base, const Uint& where, Real value)
 {
     store_real(Scattered(base, where, 4), value);
+}
+
+TAUT_LANE Rows rows_at(const std::byte* base, const Steps& where)
+{
+    return load_rows(Neighbours(base, where, 16));
+}
+TAUT_LANE void store(std::byte* base, const Steps& where, const Vec4& value)
+{
+    store_rows(Neighbours(base, where, 16), value.rows);
 }
 
 // Neighbours in memory, unless the block is short.

@@ -148,6 +148,7 @@ struct Update
 
     TAUT_LANE Ref<T, Index> operator[](Index where) const { return {base, where}; }
     TAUT_LANE Ref<T, Uint> operator[](const Uint& where) const { return {base, where}; }
+    TAUT_LANE Ref<T, Steps> operator[](Steps where) const { return {base, where}; }
 };
 
 /// A copy: what no store can change stays in registers through the loop.
