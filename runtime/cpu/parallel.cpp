@@ -4,6 +4,7 @@
 #include "taut/runtime/cpu/runner.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 namespace taut::cpu {
@@ -11,11 +12,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kWorthSharing = 8'000;       ///< ns of work between two barriers below which nobody is asked
-constexpr double kSmallestChunk = 2'000;      ///< ns; claiming a chunk costs about 0.1 us when contended
-constexpr std::uint32_t kLeastElements = 512; ///< of a chunk of cheap elements
+constexpr double kWorthSharing = 2'000;       ///< ns of work between two barriers below which nobody is asked
+constexpr double kSmallestChunk = 1'000;      ///< ns; handing one over costs about 0.3 us
+constexpr double kSpareChunk = 2'000;         ///< ns; claiming one more costs about 0.1 us
+constexpr std::uint32_t kLeastElements = 128; ///< of a chunk of cheap elements
 constexpr std::uint32_t kChunksPerThread = 4;
-constexpr std::uint32_t kChunkMultiple = 64; ///< elements; keeps the cuts off shared cache lines
+constexpr std::uint32_t kChunkMultiple = 16;  ///< elements; keeps the cuts off shared cache lines
 
 /// Keeps the books on sharing. Time that the workers took off the caller is credit, time that the caller
 /// spent waking them and waiting for them is debt. In debt the caller works alone for a while, as
@@ -109,14 +111,23 @@ private:
         bool sample;
     };
 
+    /// Into how many chunks: one a thread, or several where they are long enough for the quick to help
+    /// the slow.
+    static double pieces(double nanoseconds, unsigned threads)
+    {
+        const double rounds = std::floor(nanoseconds / (kSpareChunk * threads));
+        if (rounds >= 2)
+            return threads * std::min<double>(rounds, kChunksPerThread);
+        return std::clamp(std::floor(nanoseconds / kSmallestChunk), 1.0, static_cast<double>(threads));
+    }
+
     static std::uint32_t chunk_size(const Share& share, unsigned threads)
     {
         const double cost = std::max(share.pass->cost.nanoseconds(), 0.01);
-        const double least = std::min(kSmallestChunk / cost, 1e6) + 1;
-        std::uint64_t size = share.elements / (threads * kChunksPerThread) + 1;
-        size = std::max(size, static_cast<std::uint64_t>(least));
+        const double exact = share.elements / pieces(share.elements * cost, threads);
+        std::uint64_t size = static_cast<std::uint64_t>(std::ceil(exact));
         // One element of a work-group kernel or of a costly kernel may be a chunk of its own.
-        if (cost * kLeastElements <= 10 * kSmallestChunk)
+        if (cost * kLeastElements <= 10 * kSpareChunk)
             size = std::max<std::uint64_t>(size, kLeastElements);
         if (size >= kChunkMultiple)
             size = (size + kChunkMultiple - 1) / kChunkMultiple * kChunkMultiple;

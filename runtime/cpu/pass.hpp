@@ -38,15 +38,16 @@ private:
     bool measured_ = false;
 };
 
-struct Pass
+/// What every thread reads lies apart from `cost`, which the caller's thread writes in every run.
+struct alignas(64) Pass
 {
     NativeKernel native = nullptr;
     const void* params = nullptr;
-    std::array<void*, kMaxBindings> buffers{};
-    std::uint32_t count = 0;                 ///< elements or groups; the largest possible if indirect
     const std::uint32_t* indirect = nullptr; ///< group counts x, y, z; null for a direct dispatch
+    std::uint32_t count = 0;                 ///< elements or groups; the largest possible if indirect
     std::uint32_t per_group = 1;             ///< elements that one indirect group stands for
     ElementCost cost;
+    alignas(64) std::array<void*, kMaxBindings> buffers{};
 
     /// Elements (or groups) to run now. Reads the indirect counts, so only after the barrier before.
     std::uint32_t elements() const

@@ -148,52 +148,61 @@ bool Pool::await_work()
 
 // ---------------------------------------------------------------- the caller
 
+/// Chunk 0 is claimed already. A plain store lets the caller begin at once. A worker that is just falling
+/// asleep may miss it: then the caller does more itself, or finds the sleeper after its first chunk.
 void Pool::publish(Job& job, std::uint32_t chunks)
 {
-    job_ = &job;
+    if (job_ != &job)
+        job_ = &job;
     finished_.store(0, std::memory_order_relaxed);
     const std::uint64_t number = (ticket_.load(std::memory_order_relaxed) >> (2 * kField)) + 1;
-    ticket_.store(number << (2 * kField) | chunks);
+    ticket_.store(number << (2 * kField) | std::uint64_t{1} << kField | chunks, std::memory_order_release);
 }
 
-void Pool::wake(std::uint32_t useful)
+double Pool::wake(std::uint32_t useful)
 {
-    const std::uint32_t sleepers = sleepers_.load();
+    const std::uint32_t sleepers = sleepers_.load(std::memory_order_relaxed);
     if (sleepers == 0 || useful == 0)
-        return;
+        return 0;
+    const Clock::time_point begin = Clock::now();
     bell_.fetch_add(1);
     if (useful >= sleepers)
         bell_.notify_all();
     else
         for (std::uint32_t i = 0; i < useful; ++i)
             bell_.notify_one();
+    return nanoseconds(Clock::now() - begin);
 }
 
-void Pool::await_workers(std::uint32_t claimed)
+double Pool::await_workers(std::uint32_t claimed)
 {
     const auto done = [&] { return finished_.load(std::memory_order_acquire) == claimed; };
-    if (spin_until(done))
-        return;
-    for (std::uint32_t seen = finished_.load(std::memory_order_acquire); seen != claimed;
-         seen = finished_.load(std::memory_order_acquire))
-        finished_.wait(seen, std::memory_order_acquire);
+    if (done())
+        return 0;
+    const Clock::time_point begin = Clock::now();
+    if (!spin_until(done))
+        for (std::uint32_t seen = finished_.load(std::memory_order_acquire); seen != claimed;
+             seen = finished_.load(std::memory_order_acquire))
+            finished_.wait(seen, std::memory_order_acquire);
+    return nanoseconds(Clock::now() - begin);
 }
 
 Pool::Outcome Pool::run(Job& job, std::uint32_t chunks)
 {
     assert(chunks <= kMaxChunks);
-    const Clock::time_point begin = Clock::now();
+    if (chunks == 0)
+        return {};
     publish(job, chunks);
-    wake(chunks > 0 ? chunks - 1 : 0);
-    const Clock::time_point started = Clock::now();
-
-    std::uint32_t own = 0;
-    for (; const auto chunk = claim(true); ++own)
+    double lost = wake(chunks - 1);
+    run_chunk(0, true);
+    std::uint32_t own = 1;
+    for (auto chunk = claim(true); chunk; chunk = claim(true), ++own)
+    {
+        if (own == 1)
+            lost += wake(back_of(ticket_.load(std::memory_order_relaxed)) - *chunk);
         run_chunk(*chunk, true);
-
-    const Clock::time_point own_done = Clock::now();
-    await_workers(chunks - own);
-    const double lost = nanoseconds((started - begin) + (Clock::now() - own_done));
+    }
+    lost += await_workers(chunks - own);
     if (error_)
         std::rethrow_exception(std::exchange(error_, nullptr));
     return {chunks - own, lost};

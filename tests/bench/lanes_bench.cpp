@@ -1,8 +1,8 @@
 // taut_lanes_bench: ns per element of kernels with the line "//! lanes", one at a time and eight at a time.
 // Prints the table of docs/lanes.md. Exit status 1 when the two ways differ in one bit.
 //
-// A native kernel is called for a range of elements, so no device is involved. Ranges of seven make no block of
-// eight: all of it runs one at a time, with a seventh of a call more per element.
+// A native kernel is called for a range of elements, so no device is involved. Ranges of seven make no block
+// of eight: all of it runs one at a time, with a seventh of a call more per element.
 
 #include "taut/plan/plan.hpp"
 #include "taut/scene/scene.hpp"

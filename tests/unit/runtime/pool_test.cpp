@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 using namespace taut;
@@ -27,6 +28,25 @@ TEST_CASE("a pool runs every chunk of every job once, whatever the number of wor
             all = all && tally.runs[chunk] == 25 * static_cast<int>(199 - chunk);
         CHECK(all);
     }
+}
+
+TEST_CASE("the first chunk of a job is the caller's, and `own` says on which thread a chunk runs")
+{
+    struct Watcher final : cpu::Job
+    {
+        std::thread::id caller = std::this_thread::get_id();
+        std::atomic<int> wrong = 0;
+        void run_chunk(std::uint32_t chunk, bool own) override
+        {
+            const bool here = std::this_thread::get_id() == caller;
+            wrong += own != here || (chunk == 0 && !here);
+        }
+    };
+    cpu::Pool pool(2);
+    Watcher watcher;
+    for (std::uint32_t job = 0; job < 2000; ++job)
+        pool.run(watcher, 1 + job % 7);
+    CHECK(watcher.wrong == 0);
 }
 
 TEST_CASE("what a chunk throws reaches the caller after all chunks stopped, and the pool lives on")
