@@ -3,8 +3,9 @@
 #include "taut/cli/command.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/plan/plan.hpp"
+#include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/scene/scene.hpp"
+#include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
 
 #include <algorithm>
@@ -27,6 +28,8 @@ std::vector<SceneIssue> find_issues(const std::string& file)
     {
         const Scene scene = load_scene(file);
         issues = check(scene);
+        for (const SceneIssue& unread : unread_keys(scene.method, given_method_keys(file, {})))
+            issues.push_back(unread);
         if (any_error(issues))
             return issues;
         // resolve() repeats the warnings of check().

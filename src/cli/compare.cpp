@@ -3,6 +3,7 @@
 #include "taut/report/compare.hpp"
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
+#include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/run_result.hpp"
 #include "taut/report/image.hpp"
@@ -179,7 +180,8 @@ void add_compare(CLI::App& app, Command& chosen)
         "\"label: method.type=acad; method.substeps=20\", once a variant; device=D names its device");
     command->add_option("--set", options->settings, "A value of the scene for all variants: gravity=[0,0,0]");
     add_device_option(*command, options->device);
-    command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)");
+    command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)")
+        ->check(whole_number(0));
     command->add_option("--out", options->folder,
                         "Folder for compare.csv, .md, .json and .png, and compare_series.csv");
     command->add_flag("--no-picture", options->no_picture, "Draw no picture");

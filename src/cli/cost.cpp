@@ -2,6 +2,7 @@
 
 #include "taut/report/cost.hpp"
 #include "taut/cli/device_option.hpp"
+#include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/study.hpp"
 #include "taut/report/ablation.hpp"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 namespace fs = std::filesystem;
@@ -28,8 +30,7 @@ struct CostCommand
     std::vector<std::uint32_t> substeps, iterations;
     std::vector<std::string> precisions, methods;
     std::string rank;
-    std::optional<std::uint32_t> frames;
-    std::optional<double> rest_seconds, timing_seconds, reference_steps;
+    StudyLimits limits;
     std::string ratio;
     std::vector<double> ratios;
     bool at_rest = false, moving = false, conserved = false, ablation = false, json = false;
@@ -56,10 +57,10 @@ CostOptions study_options(const CostCommand& command)
     options.basis = command.rank == "cpu"    ? CostBasis::cpu
                     : command.rank == "work" ? CostBasis::sweeps
                                              : CostBasis::wall;
-    options.frames = command.frames.value_or(0);
-    options.rest_seconds = command.rest_seconds.value_or(options.rest_seconds);
-    options.timing_seconds = command.timing_seconds.value_or(options.timing_seconds);
-    options.reference_steps = command.reference_steps.value_or(options.reference_steps);
+    options.frames = command.limits.frames.value_or(0);
+    options.rest_seconds = command.limits.rest_seconds.value_or(options.rest_seconds);
+    options.timing_seconds = command.limits.timing_seconds.value_or(options.timing_seconds);
+    options.reference_steps = command.limits.reference_steps.value_or(options.reference_steps);
     if (command.at_rest)
         options.kind = CostKind::at_rest;
     if (command.moving)
@@ -131,7 +132,7 @@ CostOptions fixed_work(const CostCommand& command, CostOptions options)
         options.iterations = {1};
     if (command.precisions.empty())
         options.precisions = {Precision::float32};
-    options.timing_seconds = command.timing_seconds.value_or(0);
+    options.timing_seconds = command.limits.timing_seconds.value_or(0);
     return options;
 }
 
@@ -183,7 +184,7 @@ int conserved(const CostCommand& command, const Scene& scene, CostOptions option
 int ablation(const CostCommand& command, const Scene& scene, const std::vector<SceneIssue>& issues)
 {
     const double whole = std::max(std::ceil(scene.duration / scene.timestep - 1e-6), 1.0);
-    const std::uint64_t asked = command.frames.value_or(0);
+    const std::uint64_t asked = command.limits.frames.value_or(0);
     StudyProgress progress;
     const Ablation study =
         run_ablation(scene, open_device(command.device),
@@ -239,8 +240,12 @@ void add_cost(CLI::App& app, Command& chosen)
         ->delimiter(',');
     command->add_option("--rank", options->rank, "What cheaper means (default: wall)")
         ->check(CLI::IsMember({"wall", "cpu", "work"}));
-    command->add_option("--substeps", options->substeps, "To try (default: 1,2,5,10,20,50)")->delimiter(',');
-    command->add_option("--iterations", options->iterations, "To try (default: 1,2,5,10)")->delimiter(',');
+    command->add_option("--substeps", options->substeps, "To try (default: 1,2,5,10,20,50)")
+        ->delimiter(',')
+        ->check(whole_number(1, 1000));
+    command->add_option("--iterations", options->iterations, "To try (default: 1,2,5,10)")
+        ->delimiter(',')
+        ->check(whole_number(1, 1000));
     add_precisions_option(*command, options->precisions);
     add_kind_options(*command, options->at_rest, options->moving, "Compare");
     auto* ratio = command->add_option("--ratio", options->ratio,
@@ -248,6 +253,7 @@ void add_cost(CLI::App& app, Command& chosen)
     ratio->check(CLI::IsMember({"mass", "stiffness"}));
     command->add_option("--ratios", options->ratios, "To try (default: 1,10,... to 1e5 or 1e6)")
         ->delimiter(',')
+        ->check(number_between(0, std::numeric_limits<double>::infinity(), Ends::open))
         ->needs(ratio);
     auto* kept = command->add_flag("--conserved", options->conserved,
                                    "Instead: energy and momentum against time, of a scene that keeps them");
@@ -259,14 +265,8 @@ void add_cost(CLI::App& app, Command& chosen)
     for (const char* other :
          {"--methods", "--substeps", "--iterations", "--precision", "--static", "--moving"})
         without->excludes(command->get_option(other));
-    command->add_option("--frames", options->frames,
-                        "Moving: frames compared at most (default: the scene's)");
-    command->add_option("--rest-seconds", options->rest_seconds,
-                        "Static: simulated seconds at most until rest (default: 30)");
-    command->add_option("--timing-seconds", options->timing_seconds,
-                        "Wall seconds after which a setting is not repeated (default: 2)");
-    command->add_option("--reference-steps", options->reference_steps,
-                        "Moving: steps times elements that the reference R3 may take (default: 1.5e9)");
+    add_limit_options(*command, options->limits,
+                      "Moving: frames compared at most (default: the scene's)");
     command->add_option(
         "--out", options->folder,
         "Folder for cost.csv, cost.json, cost.svg and cost_work.svg; with several methods also "

@@ -1,6 +1,7 @@
 // The program `taut`. Everything that goes wrong ends here in one sentence on standard error.
 
 #include "taut/cli/command.hpp"
+#include "taut/cli/numbers.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/version.hpp"
 
@@ -52,7 +53,7 @@ cli::Command parse(int argc, char** argv, int& status)
         const auto named = [&](CLI::App* command) { return command->get_name() == argv[1]; };
         const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands(named).empty();
         const std::string what =
-            unknown ? "there is no command \"" + std::string(argv[1]) + "\"" : error.what();
+            unknown ? "there is no command \"" + std::string(argv[1]) + "\"" : cli::sentence(error);
         const bool chose = !unknown && argc > 1 && !app.get_subcommands(named).empty();
         const std::string where = chose ? "taut " + std::string(argv[1]) + " --help lists its options"
                                         : "taut --help lists commands";

@@ -4,10 +4,12 @@
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/interrupt.hpp"
 #include "taut/cli/mesh_sequence.hpp"
+#include "taut/cli/numbers.hpp"
 #include "taut/cli/pictures.hpp"
 #include "taut/cli/progress.hpp"
 #include "taut/cli/run_result.hpp"
 #include "taut/cli/simulation.hpp"
+#include "taut/report/method_settings.hpp"
 #include "taut/report/residuals.hpp"
 #include "taut/report/warnings.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
@@ -294,6 +296,9 @@ int run(RunCommand options)
 {
     std::vector<SceneIssue> issues;
     const Scene scene = resolve(load_scene(options.scene, options.settings), &issues);
+    for (const SceneIssue& unread :
+         unread_keys(scene.method, given_method_keys(options.scene, options.settings)))
+        issues.push_back(unread);
     if (options.folder.empty())
         options.folder = fs::path("out") / fs::path(options.scene).stem();
     const InterruptGuard guard; // until the report is written
@@ -316,10 +321,13 @@ void add_run(CLI::App& app, Command& chosen)
     add_device_option(*command, options->device,
                       ", hybrid (the native CPU and the best other device at once), hybrid:DEVICE");
     command->add_option("--set", options->settings, "A value of the scene: method.substeps=20");
-    command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)");
+    command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)")
+        ->check(whole_number(0));
     command->add_option("--out", options->folder, "Folder for what is written (default: out/<scene>)");
-    command->add_option("--every", options->every,
-                        "Frames from one mesh file to the next, 0 = no meshes (default: 30 files a second)");
+    command
+        ->add_option("--every", options->every,
+                     "Frames from one mesh file to the next, 0 = no meshes (default: 30 files a second)")
+        ->check(whole_number(0));
     command->add_flag("--sleep", options->sleep,
                       "Bodies at rest sleep and cost nothing until something moves them");
     command->add_flag("--no-picture", options->no_picture, "Draw no pictures");

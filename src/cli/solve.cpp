@@ -3,6 +3,7 @@
 #include "taut/linear/solve.hpp"
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
+#include "taut/cli/numbers.hpp"
 #include "taut/cli/solve_result.hpp"
 #include "taut/linear/check.hpp"
 #include "taut/linear/matrix_market.hpp"
@@ -10,7 +11,6 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -86,37 +86,6 @@ void prepare_output(const std::string& file, const char* option)
     if (fs::path(file).has_parent_path())
         make_folder(fs::path(file).parent_path(), option);
     check_writable(file);
-}
-
-/// Refuses text that is no number in the open interval from 0 to 1, before it is converted.
-CLI::Validator share()
-{
-    return {[](std::string& text) {
-                double value = 0;
-                const char* const end = text.data() + text.size();
-                const auto [stop, error] = std::from_chars(text.data(), end, value);
-                return error == std::errc() && stop == end && value > 0 && value < 1
-                           ? std::string()
-                           : "\"" + text + "\" is not right: it is a share of |b|, a number between 0 and 1";
-            },
-            ""};
-}
-
-/// Refuses text that is no whole number of `least` to `most`, before it is converted.
-CLI::Validator whole_number(std::uint32_t least, std::uint32_t most)
-{
-    const bool open = most == std::numeric_limits<std::uint32_t>::max();
-    const std::string wanted = std::to_string(least) + (open ? " or more, up to " + std::to_string(most)
-                                                             : " to " + std::to_string(most));
-    return {[=](std::string& text) {
-                std::uint32_t value = 0;
-                const char* const end = text.data() + text.size();
-                const auto [stop, error] = std::from_chars(text.data(), end, value);
-                return error == std::errc() && stop == end && value >= least && value <= most
-                           ? std::string()
-                           : "\"" + text + "\" is not right: give a whole number of " + wanted;
-            },
-            ""};
 }
 
 void take_mean_out(std::vector<double>& x)
@@ -255,11 +224,11 @@ void add_solve(CLI::App& app, Command& chosen)
     command
         ->add_option("--tolerance", options->tolerance,
                      "Of the true |b - A x| / |b|, between 0 and 1 (default: 1e-8)")
-        ->check(share());
+        ->check(number_between(0, 1, Ends::open));
     command
         ->add_option("--max-iterations", options->max_iterations,
                      "At most, 1 or more (default: ten times the unknowns, at least 1,000)")
-        ->check(whole_number(1, std::numeric_limits<std::uint32_t>::max()));
+        ->check(whole_number(1));
     command
         ->add_option("--null-space", options->null_space, "none, or constants: A is singular (default: none)")
         ->check(CLI::IsMember({"none", "constants"}));

@@ -45,6 +45,14 @@ void warn_of(const std::vector<SceneIssue>& issues);
 
 /// --static and --moving, which exclude each other.
 void add_kind_options(CLI::App& command, bool& at_rest, bool& moving, const std::string& verb);
+/// How far a study goes; empty: as the study has it by default.
+struct StudyLimits
+{
+    std::optional<std::uint32_t> frames;
+    std::optional<double> rest_seconds, timing_seconds, reference_steps;
+};
+/// --frames, --rest-seconds, --timing-seconds, --reference-steps; `frames` is what help says of the first.
+void add_limit_options(CLI::App& command, StudyLimits& limits, const std::string& frames);
 /// --precision, a list.
 void add_precisions_option(CLI::App& command, std::vector<std::string>& precisions);
 

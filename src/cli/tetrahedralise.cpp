@@ -2,6 +2,7 @@
 
 #include "taut/cli/command.hpp"
 #include "taut/cli/mesher.hpp"
+#include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/process.hpp"
 #include "taut/plan/surface.hpp"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -171,9 +173,6 @@ void show(const TetrahedraliseCommand& command, const Made& made, const Mesh& so
 
 int tetrahedralise(const TetrahedraliseCommand& command)
 {
-    if (command.limited && !(command.max_volume > 0 && std::isfinite(command.max_volume)))
-        throw Error(ErrorCode::bad_input,
-                    "--max-volume is " + shown(command.max_volume) + "; it must be above 0.");
     const fs::path out = out_file(command);
     double volume = 0;
     const Mesh surface = read_surface(command.surface, volume);
@@ -198,6 +197,7 @@ void add_tetrahedralise(CLI::App& app, Command& chosen)
     CLI::Option* limit =
         command->add_option("--max-volume", options->max_volume,
                             "Largest volume of a tetrahedron, in the cube of the file's unit");
+    limit->check(number_between(0, std::numeric_limits<double>::infinity(), Ends::open));
     command->add_option("--program", options->program, "tetgen or gmsh; default: the first that is installed")
         ->check(CLI::IsMember({"tetgen", "gmsh"}));
     command->add_flag("--json", options->json, "Print one JSON object");

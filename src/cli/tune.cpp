@@ -2,6 +2,7 @@
 
 #include "taut/report/tune.hpp"
 #include "taut/cli/device_option.hpp"
+#include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/study.hpp"
 #include "taut/report/method_settings.hpp"
@@ -19,8 +20,7 @@ struct TuneCommand
     std::vector<std::string> methods, precisions;
     std::string by;
     double error = 0.01;
-    std::optional<std::uint32_t> frames;
-    std::optional<double> rest_seconds, timing_seconds, reference_steps;
+    StudyLimits limits;
     bool at_rest = false, moving = false, prior_only = false, json = false;
 };
 
@@ -38,10 +38,10 @@ TuneOptions tune_options(const TuneCommand& command)
     options.kind = command.at_rest  ? CostKind::at_rest
                    : command.moving ? CostKind::moving
                                     : CostKind::automatic;
-    options.frames = command.frames.value_or(static_cast<std::uint32_t>(options.frames));
-    options.rest_seconds = command.rest_seconds.value_or(options.rest_seconds);
-    options.timing_seconds = command.timing_seconds.value_or(options.timing_seconds);
-    options.reference_steps = command.reference_steps.value_or(options.reference_steps);
+    options.frames = command.limits.frames.value_or(static_cast<std::uint32_t>(options.frames));
+    options.rest_seconds = command.limits.rest_seconds.value_or(options.rest_seconds);
+    options.timing_seconds = command.limits.timing_seconds.value_or(options.timing_seconds);
+    options.reference_steps = command.limits.reference_steps.value_or(options.reference_steps);
     options.prior_only = command.prior_only;
     return options;
 }
@@ -139,19 +139,15 @@ void add_tune(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<TuneCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
-    command->add_option("--error", options->error, "Bound on the error, 0.01 is 1 % (default: 0.01)");
+    command->add_option("--error", options->error, "Bound on the error, 0.01 is 1 % (default: 0.01)")
+        ->check(number_between(0, 1, Ends::open, "; 0.01 is 1 %"));
     command->add_option("--by", options->by, "What the error is of (default: motion)")
         ->check(CLI::IsMember({"motion", "volume"}));
     command->add_option("--methods", options->methods, "To try, or \"all\" (default: all)")->delimiter(',');
     add_precisions_option(*command, options->precisions);
     add_kind_options(*command, options->at_rest, options->moving, "Bound the error of");
-    command->add_option("--frames", options->frames, "Moving: frames compared at most (default: 120)");
-    command->add_option("--rest-seconds", options->rest_seconds,
-                        "Static: simulated seconds at most until rest (default: 30)");
-    command->add_option("--timing-seconds", options->timing_seconds,
-                        "Wall seconds after which a setting is not repeated (default: 2)");
-    command->add_option("--reference-steps", options->reference_steps,
-                        "Moving: steps times elements that a reference R3 may take (default: 1.5e9)");
+    add_limit_options(*command, options->limits,
+                      "Moving: frames compared at most (default: 120)");
     command->add_flag("--prior-only", options->prior_only,
                       "Go by predicted cost alone and time nothing: the same answer on every machine");
     command->add_flag("--json", options->json, "Print the result as one JSON object");

@@ -29,8 +29,10 @@ Json compliance(const MethodSettings& m)
 
 // clang-format off
 constexpr Setting kSettings[] = {
-    {"integrator", only(MethodKind::mass_spring), [](const MethodSettings& m) { return Json(m.integrator); }},
-    {"stability", only(MethodKind::mass_spring) | only(MethodKind::acad),
+    // The others refuse what is not "semi_implicit".
+    {"integrator", only(MethodKind::mass_spring) | kConstraints,
+     [](const MethodSettings& m) { return Json(m.integrator); }},
+    {"stability", only(MethodKind::mass_spring) | kConstraints,
      [](const MethodSettings& m) { return Json(m.stability); }},
     {"scheme", only(MethodKind::mass_spring) | only(MethodKind::pbd),
      [](const MethodSettings& m) { return Json(m.scheme); }},
@@ -76,6 +78,14 @@ std::string counted(std::uint32_t n, const char* what)
     return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
+std::string listed(const std::vector<std::string_view>& words)
+{
+    std::string out;
+    for (std::size_t k = 0; k < words.size(); ++k)
+        out += (k == 0 ? "" : k + 1 < words.size() ? ", " : " and ") + std::string(words[k]);
+    return out;
+}
+
 } // namespace
 
 MethodKind method_named(std::string_view name)
@@ -102,6 +112,37 @@ std::vector<MethodKind> methods_listed(const std::vector<std::string>& names)
 }
 
 bool reads_iterations(MethodKind kind) { return kind != MethodKind::mass_spring; }
+
+std::vector<std::string_view> keys_read(MethodKind kind)
+{
+    std::vector<std::string_view> out;
+    if (reads_iterations(kind))
+        out.push_back("iterations");
+    for (const Setting& setting : kSettings)
+        if (setting.methods & only(kind))
+            out.push_back(setting.key);
+    return out;
+}
+
+std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::vector<std::string>& given)
+{
+    const auto type = std::find(kMethodNames.begin(), kMethodNames.end(), settings.type);
+    std::vector<SceneIssue> out;
+    if (type == kMethodNames.end())
+        return out;
+    const std::vector<std::string_view> read = keys_read(static_cast<MethodKind>(type - kMethodNames.begin()));
+    const auto among = [](const auto& keys, const std::string& key) {
+        return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+    };
+    constexpr std::string_view kCommon[] = {"type", "substeps", "precision"};
+    for (const std::string& key : given)
+        if (!among(kCommon, key) && !among(read, key))
+            out.push_back({false, "method." + key,
+                           "method \"" + settings.type +
+                               "\" does not read it; take it out (beside type, substeps and precision it reads " +
+                               listed(read) + ")"});
+    return out;
+}
 
 std::string settings_details(const MethodSettings& settings)
 {

@@ -385,6 +385,19 @@ Scene load_scene(const std::filesystem::path& file, std::span<const std::string>
     return scene;
 }
 
+std::vector<std::string> given_method_keys(const std::filesystem::path& file,
+                                           std::span<const std::string> settings)
+{
+    nlohmann::json tree = scene_file::parse_json(scene_file::read_file(file, kMaxSceneBytes), file.string());
+    for (const std::string& setting : settings)
+        scene_file::set_value(tree, setting, file.string());
+    std::vector<std::string> keys;
+    if (tree.is_object() && tree.contains("method") && tree["method"].is_object())
+        for (const auto& [key, value] : tree["method"].items())
+            keys.push_back(key);
+    return keys;
+}
+
 Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name)
 {
     return parse_scene(json, directory, name, {});

@@ -4,6 +4,8 @@
 #include "taut/scene/scene.hpp"
 
 #include <span>
+#include <string>
+#include <vector>
 
 namespace taut {
 
@@ -12,5 +14,10 @@ namespace taut {
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> settings);
 Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name,
                   std::span<const std::string> settings);
+
+/// The keys of `method` in a scene file and in `settings`, in alphabetical order; empty without a
+/// method. Throws as load_scene does where the file cannot be read as an object.
+std::vector<std::string> given_method_keys(const std::filesystem::path& file,
+                                           std::span<const std::string> settings);
 
 } // namespace taut

@@ -38,6 +38,43 @@ TEST_CASE("wrong arguments end with status 2 and a sentence")
     check_refused(folder.taut({"run", scene, "another.json"}), 2, "another.json");
 }
 
+TEST_CASE("a number that is not right ends with status 2 and what would be, in every command")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"run", scene, "--frames", "-3"}, "--frames is \"-3\"; it must be a whole number, 0 or more"},
+        {{"run", scene, "--frames", "abc"}, "--frames is \"abc\"; it must be a whole number, 0 or more"},
+        {{"run", scene, "--frames", "99999999999"}, "0 or more, up to 4294967295"},
+        {{"run", scene, "--every", "1.5"}, "--every is \"1.5\"; it must be a whole number, 0 or more"},
+        {{"compare", scene, "--frames=-1"}, "--frames is \"-1\"; it must be a whole number, 0 or more"},
+        {{"cost", scene, "--frames", "0"}, "--frames is \"0\"; it must be a whole number, 1 or more"},
+        {{"cost", scene, "--substeps", "1,a"},
+         "--substeps is \"a\"; it must be a whole number from 1 to 1000"},
+        {{"cost", scene, "--iterations", "0,4"}, "--iterations is \"0\"; it must be a whole number from 1"},
+        {{"cost", scene, "--ratio", "mass", "--ratios", "1,-2"},
+         "--ratios is \"-2\"; it must be a number above 0"},
+        {{"cost", scene, "--rest-seconds", "0.5"}, "it must be a number from 1 to 1e+06"},
+        {{"cost", scene, "--timing-seconds", "nan"},
+         "--timing-seconds is \"nan\"; it must be a number, 0 or more"},
+        {{"tune", scene, "--error", "1%"},
+         "--error is \"1%\"; it must be a number between 0 and 1; 0.01 is 1 %"},
+        {{"tune", scene, "--reference-steps", "1e9x"}, "--reference-steps is \"1e9x\"; it must be a number"},
+        {{"solve", "a.mtx", "--tolerance", "2"}, "--tolerance is \"2\"; it must be a number between 0 and 1"},
+        {{"solve", "a.mtx", "--max-iterations", "0"},
+         "--max-iterations is \"0\"; it must be a whole number, 1"},
+        {{"solve", "a.mtx", "--chebyshev-degree", "17"}, "it must be a whole number from 1 to 16"},
+        {{"tetrahedralise", "a.obj", "--max-volume", "-1"},
+         "--max-volume is \"-1\"; it must be a number above 0"},
+    };
+    for (const auto& [arguments, sentence] : cases)
+    {
+        const Result result = folder.taut(arguments);
+        check_refused(result, 2, sentence);
+        CHECK(result.err.find("convert") == std::string::npos);
+    }
+}
+
 TEST_CASE("a scene that cannot be read or makes no sense ends with status 2, in every command")
 {
     const Folder folder;

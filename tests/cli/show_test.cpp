@@ -71,6 +71,28 @@ TEST_CASE("check says which field is wrong, and ends with 0 only when nothing is
     CHECK(folder.taut({"check", folder / "none.json"}).status == 2);
 }
 
+TEST_CASE("check and run name keys that the method does not read, and go on")
+{
+    const Folder folder;
+    std::string text = scenes::cloth();
+    text.insert(1, R"("method": {"type": "pbd", "release": "strain", "stretch": 0.5},)");
+    const std::string scene = folder.file("keys.json", text);
+    const Result check = folder.taut({"check", scene, "--json"});
+    CHECK(check.status == 0);
+    const auto issues = program::parse(check.out)["issues"];
+    REQUIRE(issues.size() == 1);
+    CHECK(issues[0]["error"] == false);
+    CHECK(issues[0]["field"] == "method.release");
+    CHECK(issues[0]["text"].get<std::string>().find("\"pbd\" does not read it") != std::string::npos);
+    const Result run = folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--no-picture",
+                                    "--json", "--set", "method.start=inertial"});
+    REQUIRE(run.status == 0);
+    const auto messages = program::parse(run.out)["messages"];
+    REQUIRE(messages.size() == 2);
+    CHECK(messages[0].get<std::string>().rfind("method.release: ", 0) == 0);
+    CHECK(messages[1].get<std::string>().rfind("method.start: ", 0) == 0);
+}
+
 TEST_CASE("check finds a mesh file that is not there")
 {
     const Folder folder;

@@ -277,16 +277,16 @@ TEST_CASE("solve refuses wrong arguments and wrong files with one sentence", "[s
     refused({good, "--null-space", "all"}, 2, "all");
     for (const std::string tolerance : {"0", "1", "-1e-8", "nan", "2", "small", "1e-8x", ""})
     {
-        refused({good, "--tolerance", tolerance}, 2, "--tolerance: \"" + tolerance + "\"");
+        refused({good, "--tolerance", tolerance}, 2, "--tolerance is \"" + tolerance + "\"");
         refused({good, "--tolerance", tolerance}, 2, "a number between 0 and 1");
     }
     for (const std::string limit : {"-1", "0", "2.5", "many", "4294967296"})
     {
-        refused({good, "--max-iterations", limit}, 2, "--max-iterations: \"" + limit + "\"");
-        refused({good, "--max-iterations", limit}, 2, "a whole number of 1 or more");
+        refused({good, "--max-iterations", limit}, 2, "--max-iterations is \"" + limit + "\"");
+        refused({good, "--max-iterations", limit}, 2, "a whole number, 1 or more");
     }
     for (const char* degree : {"0", "17", "-2", "four"})
-        refused({good, "--chebyshev-degree", degree}, 2, "a whole number of 1 to 16");
+        refused({good, "--chebyshev-degree", degree}, 2, "a whole number from 1 to 16");
     refused({good, "--bogus"}, 2, "(taut solve --help lists its options)");
     refused({good, "--device", "abacus"}, 3, "abacus");
     refused({folder / "none.mtx"}, 2, "none.mtx");

@@ -176,6 +176,7 @@ TEST_CASE("tetrahedralise says what to install, and which surfaces and names it 
 {
     const Workshop shop;
     const std::string cube = shop.folder.file("cube.obj", kCube);
+    failed(shop, shop.folder.taut({"tetrahedralise", "none.obj"}), 2, "none.obj: there is no such file");
     failed(shop, shop.folder.taut({"tetrahedralise", cube}), 2,
            "there is no program tetgen or gmsh in the folders of PATH; install one (Debian, Ubuntu: apt "
            "install");
@@ -186,7 +187,7 @@ TEST_CASE("tetrahedralise says what to install, and which surfaces and names it 
            "there is no program gmsh");
     failed(shop, shop.folder.taut({"tetrahedralise", cube, "--program", "sh"}), 2, "--program");
     failed(shop, shop.folder.taut({"tetrahedralise", cube, "--max-volume", "0"}), 2,
-           "--max-volume is 0; it must be above 0");
+           "--max-volume is \"0\"; it must be a number above 0");
     failed(shop, shop.folder.taut({"tetrahedralise", cube, "--out", "cube.obj"}), 2, "must end in .mesh");
     failed(shop, shop.folder.taut({"tetrahedralise", cube, "--out", "no/cube.mesh"}), 2,
            "cannot write no/cube.mesh");

@@ -1,0 +1,114 @@
+// The table of keys that methods read against the pages and scenes that speak of them.
+
+#include "support/catch.hpp"
+
+#include "taut/report/method_settings.hpp"
+#include "taut/scene/keys.hpp"
+#include "taut/scene/settings.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+using namespace taut;
+
+namespace {
+
+using Words = std::set<std::string>;
+
+/// What stands between backquotes.
+Words quoted(const std::string& text)
+{
+    Words out;
+    for (std::size_t at = text.find('`'); at != std::string::npos;)
+    {
+        const std::size_t end = text.find('`', at + 1);
+        out.insert(text.substr(at + 1, end - at - 1));
+        at = text.find('`', end + 1);
+    }
+    return out;
+}
+
+/// The last column of a method's row in docs/methods.md.
+Words documented(const std::string& method)
+{
+    std::ifstream page(std::string(TAUT_SOURCE_DIR) + "/docs/methods.md");
+    for (std::string line; std::getline(page, line);)
+        if (line.rfind("| `" + method + "` |", 0) == 0 || line.rfind("| [`" + method + "`](", 0) == 0)
+        {
+            const std::size_t last = line.rfind('|'), before = line.rfind('|', last - 1);
+            return quoted(line.substr(before, last - before));
+        }
+    return {};
+}
+
+Words read_by(MethodKind kind)
+{
+    const auto keys = keys_read(kind);
+    return {keys.begin(), keys.end()};
+}
+
+} // namespace
+
+TEST_CASE("docs/methods.md lists for each method exactly the keys that it reads", "[method_keys]")
+{
+    for (std::size_t k = 0; k < kMethodNames.size(); ++k)
+    {
+        CAPTURE(kMethodNames[k]);
+        CHECK(documented(std::string(kMethodNames[k])) == read_by(static_cast<MethodKind>(k)));
+    }
+}
+
+TEST_CASE("every key of a method is read by one at least", "[method_keys]")
+{
+    Words known = {"type", "substeps", "precision"};
+    for (std::size_t k = 0; k < kMethodNames.size(); ++k)
+        known.merge(read_by(static_cast<MethodKind>(k)));
+    const auto& keys = scene_file::keys_of("method").keys;
+    CHECK(known == Words(keys.begin(), keys.end()));
+}
+
+TEST_CASE("a key that the method does not read is a warning by its field", "[method_keys]")
+{
+    MethodSettings settings;
+    settings.type = "pbd";
+    const auto issues = unread_keys(settings, {"type", "substeps", "release", "stretch", "tau"});
+    REQUIRE(issues.size() == 2);
+    CHECK_FALSE(issues[0].error);
+    CHECK(issues[0].field == "method.release");
+    CHECK(issues[0].text.find("\"pbd\" does not read it") != std::string::npos);
+    CHECK(issues[1].field == "method.tau");
+    settings.type = "mass_spring";
+    CHECK(unread_keys(settings, {"iterations"}).size() == 1);
+    settings.type = "acad";
+    CHECK(unread_keys(settings, {"release", "stability", "iterations", "integrator"}).empty());
+    settings.type = "none";
+    CHECK(unread_keys(settings, {"release"}).empty());
+}
+
+TEST_CASE("no scene among the examples gives its method a key that it does not read", "[method_keys]")
+{
+    std::size_t scenes = 0;
+    const std::string folder = std::string(TAUT_SOURCE_DIR) + "/examples/scenes";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    {
+        if (entry.path().extension() != ".json")
+            continue;
+        ++scenes;
+        CAPTURE(entry.path().string());
+        const Scene scene = load_scene(entry.path());
+        for (const SceneIssue& issue : unread_keys(scene.method, given_method_keys(entry.path(), {})))
+            FAIL_CHECK(issue.field);
+    }
+    CHECK(scenes > 20);
+}
+
+TEST_CASE("keys of a method are those of the file and of settings", "[method_keys]")
+{
+    const std::filesystem::path file = std::string(TAUT_SOURCE_DIR) + "/examples/scenes/pbd.json";
+    const std::string settings[] = {"method.release=strain", "gravity=[0,0,0]"};
+    const auto keys = given_method_keys(file, settings);
+    CHECK(Words(keys.begin(), keys.end()) ==
+          Words{"bend", "iterations", "release", "scheme", "stretch", "substeps", "type"});
+}
