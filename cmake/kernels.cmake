@@ -23,6 +23,9 @@ endmacro()
 # program finds out about when it runs (docs/lanes.md). Bitwise equality between executors, and between the two,
 # needs separate multiply and add, and no other liberties.
 set(taut_kernel_options "$<$<CONFIG:Release,RelWithDebInfo>:-O3>;$<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>;-ffp-contract=off;-fno-math-errno;-fno-trapping-math;-Wno-shadow;-Wno-conversion;-Wno-sign-conversion;-Wno-unused-parameter")
+# Eight lanes fill the registers, and blocks are so long that the processor sees little more than one at a time:
+# the order in which GCC leaves instructions matters more than elsewhere (docs/lanes.md).
+set(taut_lanes_options "${taut_kernel_options};-mavx2;$<$<CXX_COMPILER_ID:GNU>:-fschedule-insns>")
 set(taut_lanes 0)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8
    AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
@@ -38,7 +41,7 @@ foreach(kernel IN LISTS taut_kernel_files)
     if(has_lanes)
         list(APPEND outputs ${taut_generated}/${stem}.lanes.cpp)
         set_source_files_properties(${taut_generated}/${stem}.lanes.cpp PROPERTIES
-            OBJECT_DEPENDS ${kernel} COMPILE_OPTIONS "${taut_kernel_options};-mavx2")
+            OBJECT_DEPENDS ${kernel} COMPILE_OPTIONS "${taut_lanes_options}")
         if(NOT taut_lanes)
             set_source_files_properties(${taut_generated}/${stem}.lanes.cpp PROPERTIES HEADER_FILE_ONLY ON)
         endif()

@@ -67,9 +67,9 @@ private:
     double wake(std::uint32_t useful);           ///< ns that it took
     double await_workers(std::uint32_t claimed); ///< ns
 
-    // Each on its own cache line: the ticket is fought over, the others are not.
+    // One cache line for what changes hands in every job, others for what does not.
     alignas(64) std::atomic<std::uint64_t> ticket_{0};
-    alignas(64) std::atomic<std::uint32_t> finished_{0}; ///< chunks of this job that workers finished
+    std::atomic<std::uint32_t> finished_{0};             ///< chunks of this job that workers finished
     alignas(64) std::atomic<std::uint32_t> bell_{0};     ///< rung to wake sleepers
     std::atomic<std::uint32_t> sleepers_{0};
     std::atomic<bool> stop_{false};
