@@ -50,8 +50,15 @@ cloth_first()
 
 cloth_second()
 {
+    study net_9 examples/accuracy/net_9.json --methods all $common
     study net_17 examples/accuracy/net_17.json --methods all $common
     study net_33 examples/accuracy/net_33.json --methods all $common
+    sh examples/accuracy/net.sh 65 '"damping": 4' > "$scratch/net_65.json"
+    study net_65 "$scratch/net_65.json" --methods mass_spring,implicit_euler,xpbd,vbd --substeps 32,128 \
+        --iterations 1,4 $common
+    { echo "examples/accuracy/net.sh 65 '\"damping\": 4' > net_65.json"
+      sed "s|$scratch/||" "$scratch/net_65/command"; } > "$scratch/command"
+    mv "$scratch/command" "$scratch/net_65/command"
     study cloth examples/accuracy/cloth.json --methods all $common
     study slide examples/accuracy/slide.json --methods all $common
 }

@@ -3,7 +3,7 @@
 set -eu
 program=$1 scratch=$2
 folder=docs/accuracy
-problems="spring chain_1 chain_100 chain_10000 net_17 net_33 cloth elastica slide"
+problems="spring chain_1 chain_100 chain_10000 net_9 net_17 net_33 net_65 cloth elastica slide"
 . "$folder/parts.sh"
 keep_problems $problems
 cp "$scratch/precision/cost.csv" "$folder/precision.csv"
@@ -31,8 +31,10 @@ cp "$scratch/conserved_free/momentum.svg" "$folder/conserved_free_momentum.svg"
     problem chain_1 "Twenty links of 100000 N/m and 10 g each, at rest."
     problem chain_100 "The same with a bob of 100 links."
     problem chain_10000 "The same with a bob of 10000 links."
+    problem net_9 "A clamped net of 9 x 9 vertices, stretched by 5 %, damped until it rests."
     problem net_17 "A clamped net of 17 x 17 vertices, stretched by 5 %, let go under gravity, undamped."
-    problem net_33 "The same of 33 x 33 vertices, damped."
+    problem net_33 "The same of 33 x 33 vertices, damped until it rests."
+    problem net_65 "The same of 65 x 65 vertices; a few settings of four methods, for time."
     problem cloth "Cloth of 33 x 33 vertices, hung by two corners from level."
     problem elastica "A heavy strip clamped level; density x gravity x length^3 / rigidity = 10."
     problem slide "Cloth that falls freely, lands on a slope with friction and slides."
