@@ -5,7 +5,7 @@
 //   Sciences 11(17), 2021, and the same authors 2022 (adaptive constraint activation and deactivation).
 // Departures: the rule that a spring goes back when its multiplier, the mean of two substeps, is less than
 //   the spring's own force, and the target L (1 + strain), which injects no speed, are ours to choose
-//   (docs/methods/acad.md); compressed springs stay springs.
+//   (docs/methods/acad.md); compressed springs stay springs; rows far beyond their length are softened.
 
 #include "taut/plan/acad.hpp"
 
@@ -64,20 +64,40 @@ std::uint32_t vertex_chunk(const PlanBuilder& b, const Acad& a)
 /// Of the list of vertices with rows: there are twice as many at most as rows.
 std::uint32_t listed_chunk(const Acad& a) { return 2 * a.chunk; }
 
+/// Two records a spring: the constraint that it may become, and the spring itself with what acad_rows asks.
+template <typename Real>
+void add_candidates(PlanBuilder& b, Acad& a, const std::vector<StretchElement>& targets,
+                    const std::vector<layout::Spring<Real>>& springs)
+{
+    std::vector<layout::Spring<Real>> candidates;
+    const std::vector<double> compliances = row_compliances(b, a.elements);
+    const auto springs_at = [&](std::uint32_t v) {
+        return b.inverse_mass[v] > 0 ? a.at.start[v + 1] - a.at.start[v] : 1u;
+    };
+    for (std::size_t k = 0; k < targets.size(); ++k)
+    {
+        const StretchElement& e = a.elements[k];
+        candidates.push_back(spring_record<Real>(targets[k]));
+        candidates.back().stiffness = row_stiffness<Real>(compliances[k]);
+        candidates.push_back(springs[k]);
+        candidates.back().damping = static_cast<Real>(inverse_diagonal(b, e, compliances[k]));
+        candidates.back().kind = std::max(springs_at(e.a), springs_at(e.b));
+    }
+    a.candidates = b.add_buffer<layout::Spring<Real>>(kEffect, "rows", candidates);
+}
+
 template <typename Real>
 void add_spring_records(PlanBuilder& b, Acad& a)
 {
     using Record = layout::Spring<Real>;
     std::vector<Record> springs = records_of(a.elements, spring_record<Real>), ends;
-    std::vector<Real> inverses, hold;
+    std::vector<Real> hold;
     std::vector<StretchElement> targets = a.elements;
-    const std::vector<double> compliances = row_compliances(b, a.elements);
     for (std::size_t k = 0; k < targets.size(); ++k)
     {
         const StretchElement& e = a.elements[k];
         springs[k].kind = may_be_constrained(b.scene, e);
         targets[k].rest_length = target_length(b.scene, e);
-        inverses.push_back(static_cast<Real>(inverse_diagonal(b, e, compliances[k])));
         hold.push_back(static_cast<Real>((targets[k].rest_length - e.rest_length) / e.compliance));
     }
     for (const std::uint32_t entry : a.at.entries)
@@ -89,8 +109,7 @@ void add_spring_records(PlanBuilder& b, Acad& a)
     }
     a.springs = b.add_buffer<Record>(kEffect, "springs", springs);
     a.ends = b.add_buffer<Record>(kEffect, "spring ends", ends);
-    a.candidates = add_row_records(b, kEffect, targets, compliances);
-    a.inverses = b.add_buffer<Real>(kEffect, "inverses of springs", inverses);
+    add_candidates(b, a, targets, springs);
     a.hold = b.add_buffer<Real>(kEffect, "forces at the threshold", hold);
     a.rows.records = b.add_buffer(kEffect, "active rows", springs.size() * sizeof(Record));
 }
@@ -189,9 +208,10 @@ void prepare_acad(PlanBuilder& b)
     a->solve->use_part(b, a->control, TAUT_ACAD_SOLVE * kWord, TAUT_ACAD_ONCE * kWord);
     b.plan.kept.insert(b.plan.kept.end(), {a->flags, a->multiplier});
     b.plan.active = {a->control, TAUT_ACAD_ROWS * kWord,
-                     static_cast<std::uint32_t>(std::count_if(
-                         a->elements.begin(), a->elements.end(),
-                         [&](const StretchElement& e) { return may_be_constrained(b.scene, e); }))};
+                     static_cast<std::uint32_t>(
+                         std::count_if(a->elements.begin(), a->elements.end(), [&](const StretchElement& e) {
+                             return may_be_constrained(b.scene, e);
+                         }))};
     add_inner_forces(b, kEffect, a->rows.count);
     b.acad = std::move(a);
 }
@@ -203,8 +223,8 @@ void record_acad_forces(PlanBuilder& b, const Moment& moment)
     Acad& a = *b.acad;
     const std::uint32_t n = b.plan.vertex_count, each = 2 * size_of(a) / n + 1;
     const Strain on(b.scene.method.activate_strain), off(release_strain(b.scene));
-    std::vector<Use> uses = {{a.rows.start},      {a.ends, each},          {b.plan.position, 1 + each},
-                             {b.plan.low, 1 + each}, {b.forces->force},    {b.plan.events, 0},
+    std::vector<Use> uses = {{a.rows.start},         {a.ends, each},    {b.plan.position, 1 + each},
+                             {b.plan.low, 1 + each}, {b.forces->force}, {b.plan.events, 0},
                              {a.flags, each}};
     if (a.damped)
         uses.push_back({b.plan.velocity, 1 + each});
@@ -222,8 +242,8 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
     Acad& a = *b.acad;
     const std::uint32_t springs = size_of(a), further = moment.iteration > 0;
     const bool last = moment.iteration + 1 == b.plan.iterations, kept = a.total != kNoBuffer;
-    const Use copy[] = {{a.row_list}, {a.candidates}, {a.inverses}, {a.multiplier},
-                        {a.rows.records}, {a.solve->x()}, {a.solve->inverse()}};
+    const Use copy[] = {{a.row_list},   {a.candidates, 2},    {a.multiplier},       {a.rows.records},
+                        {a.solve->x()}, {a.solve->inverse()}, {b.plan.position, 2}, {b.plan.step_values, 0}};
     gated(b, a, "acad_rows", "", copy, kernels::acad_rows::Params{springs, a.chunk, further}, a.groups,
           TAUT_ACAD_SOLVE);
     std::vector<Use> uses = {{a.rows.records},        {b.plan.position, 2}, {b.plan.delta, 2},
@@ -235,15 +255,15 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
           kernels::constraint_rows::Params{springs, a.chunk, further, moment.last, 0}, a.groups,
           TAUT_ACAD_SOLVE);
     a.solve->record(b);
-    std::vector<Use> store = {{a.row_list}, {a.solve->x()},        {a.multiplier},          {a.flags},
+    std::vector<Use> store = {{a.row_list}, {a.solve->x()},        {a.multiplier},         {a.flags},
                               {a.hold},     {a.solve->state(), 0}, {b.plan.step_values, 0}};
     if (kept)
         store.push_back({a.total});
     const std::uint32_t release = b.scene.method.release == "multiplier";
     gated(b, a, "acad_store", kept ? "total" : "", store,
           kernels::acad_store::Params{springs, a.chunk, further, last, release}, a.groups, TAUT_ACAD_SOLVE);
-    const Use moved[] = {{a.rows.start}, {a.rows.incident}, {a.rows.direction}, {a.solve->x()},
-                         {b.plan.position}, {b.plan.delta}, {a.rows.list},      {a.rows.place}};
+    const Use moved[] = {{a.rows.start},    {a.rows.incident}, {a.rows.direction}, {a.solve->x()},
+                         {b.plan.position}, {b.plan.delta},    {a.rows.list},      {a.rows.place}};
     gated(b, a, "constraint_spread", "listed_apply", moved,
           kernels::constraint_spread::Params{b.plan.vertex_count, listed_chunk(a)}, a.groups,
           TAUT_ACAD_SOLVE);

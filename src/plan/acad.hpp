@@ -15,7 +15,7 @@ struct Acad
     std::uint32_t groups = 1, chunk = 0;
     bool damped = false;
     // Per spring end, and per spring.
-    std::uint32_t ends = kNoBuffer, springs = kNoBuffer, candidates = kNoBuffer, inverses = kNoBuffer;
+    std::uint32_t ends = kNoBuffer, springs = kNoBuffer, candidates = kNoBuffer;
     std::uint32_t hold = kNoBuffer, flags = kNoBuffer, multiplier = kNoBuffer;
     // Of the prefix sum.
     std::uint32_t sums = kNoBuffer, control = kNoBuffer, row_list = kNoBuffer, touched = kNoBuffer;

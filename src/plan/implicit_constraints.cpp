@@ -36,14 +36,6 @@ namespace {
 
 constexpr const char* kEffect = "implicit_constraints";
 
-/// 1/x as a Real, 0 where it is infinite: too little compliance for the precision is none.
-template <typename Real>
-Real stiffness_of(double compliance)
-{
-    const Real value = compliance > 0 ? static_cast<Real>(1 / compliance) : Real(0);
-    return std::isfinite(value) ? value : Real(0);
-}
-
 std::uint32_t groups_of(const PlanBuilder& b, const ImplicitConstraints& c)
 {
     return linear::group_count_for(c.rows.all(), b.paper()->info());
@@ -210,7 +202,7 @@ std::uint32_t add_row_records(PlanBuilder& b, std::string_view effect,
         using Real = decltype(zero);
         std::vector<layout::Spring<Real>> records = records_of(springs, spring_record<Real>);
         for (std::size_t k = 0; k < springs.size(); ++k)
-            records[k].stiffness = stiffness_of<Real>(compliances[k]);
+            records[k].stiffness = row_stiffness<Real>(compliances[k]);
         return b.add_buffer<layout::Spring<Real>>(effect, "rows", records);
     });
 }

@@ -5,6 +5,7 @@
 #include "taut/plan/corner_rows.hpp"
 #include "taut/plan/solve.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace taut {
@@ -37,6 +38,13 @@ void check_implicit_constraints(const Scene& resolved, const DeviceTraits&);
 /// what pulls against each other must stay small beside what carries, or float does not solve it.
 std::vector<double> row_compliances(const PlanBuilder& builder, std::span<const StretchElement> springs);
 inline constexpr double kContradiction = 1e-2;
+/// N/m: 1/compliance as a Real, 0 where that is infinite: too little compliance for the precision is none.
+template <typename Real>
+Real row_stiffness(double compliance)
+{
+    const Real value = compliance > 0 ? static_cast<Real>(1 / compliance) : Real(0);
+    return std::isfinite(value) ? value : Real(0);
+}
 /// kg: one over the diagonal of A in the row of a spring.
 double inverse_diagonal(const PlanBuilder& builder, const StretchElement& spring, double compliance);
 /// layout::Spring<real> a spring, as constraint_rows.comp reads them.

@@ -74,7 +74,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"acad_touch", 0, "integers"},
     {"acad_scan", 0, "integers, and zeros"},
     {"acad_scatter", 0, "integers"},
-    {"acad_rows", 0, "copies"},
+    {"acad_rows", 24, "copies; a softened row: a length, a root, four quotients"},
     {"acad_store", 1, "one sum"},
     {"dot", 2, "a product, and a tree of 128 partial sums of a few terms each, against the sum of sizes"},
     {"stencil7", 8, "seven terms and two products; partial sums a product more and a tree"},
