@@ -15,7 +15,8 @@ set(taut_public_headers
     linear/cg.hpp linear/small.hpp linear/solve.hpp
     world/world.hpp world/hybrid.hpp world/sleep.hpp
     report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp
-    report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp)
+    report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp
+    report/gas.hpp)
 foreach(header IN LISTS taut_public_headers)
     cmake_path(GET header PARENT_PATH room)
     install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/${room})

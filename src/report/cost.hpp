@@ -163,8 +163,10 @@ struct CostOrder
     std::string name;              ///< "mass_spring, integrator verlet"
     std::uint32_t fixed = 1;       ///< the other count: the one with the most points
     std::vector<PlotPoint> points; ///< x = count, y = error, ascending in x; gaps are left out
-    std::optional<double> order;   ///< observed: mean of the last two slopes between errors below 50 %
-                                   ///< and above the reference's floor
+    /// Observed: mean of the last two slopes between errors below 50 % and above the reference's floor,
+    /// before more of the same stops helping.
+    std::optional<double> order;
+    bool at_floor = false; ///< the last slopes are below 0.1, or up again: more of the same does not help
 };
 /// Families with at least two errors.
 std::vector<CostOrder> convergence(const CostStudy& study, CostSplit split);

@@ -56,21 +56,34 @@ std::uint32_t longest_row(const std::vector<const CostPoint*>& points, CostSplit
     return best->first;
 }
 
-std::optional<double> observed(const std::vector<PlotPoint>& points, double floor)
+constexpr double kFlat = 0.1; ///< a slope below it says that an error has come to its floor
+
+void observe(CostOrder& row, double floor)
 {
     std::vector<double> slopes;
-    for (std::size_t i = 1; i < points.size(); ++i)
+    for (std::size_t i = 1; i < row.points.size(); ++i)
     {
-        const PlotPoint &a = points[i - 1], &b = points[i];
+        const PlotPoint &a = row.points[i - 1], &b = row.points[i];
         const bool told = b.y > floor && a.y < 0.5 && a.y > 0;
         if (told)
             slopes.push_back(std::log(a.y / b.y) / std::log(b.x / a.x));
     }
+    for (; !slopes.empty() && !(slopes.back() >= kFlat); slopes.pop_back())
+        row.at_floor = true;
     if (slopes.empty())
-        return std::nullopt;
-    if (slopes.size() == 1)
-        return slopes[0];
-    return 0.5 * (slopes[slopes.size() - 2] + slopes.back());
+        return;
+    const double before = slopes.size() > 1 ? slopes[slopes.size() - 2] : slopes.back();
+    row.order = 0.5 * (before + slopes.back());
+    if (!(*row.order >= kFlat)) // it went up on the way
+        row.order.reset();
+}
+
+/// "xpbd 1.98, then at its floor"
+std::string order_text(const CostOrder& row)
+{
+    if (!row.order)
+        return row.name + (row.at_floor ? " at its floor" : " none");
+    return row.name + " " + number(*row.order) + (row.at_floor ? ", then at its floor" : "");
 }
 
 } // namespace
@@ -92,7 +105,7 @@ std::vector<CostOrder> convergence(const CostStudy& study, CostSplit split)
     std::vector<CostOrder> out;
     for (auto& [name, points] : families)
     {
-        CostOrder row{name, longest_row(points, split), {}, {}};
+        CostOrder row{name, longest_row(points, split), {}, {}, false};
         std::sort(points.begin(), points.end(), [&](const CostPoint* a, const CostPoint* b) {
             return varied(*a, split) < varied(*b, split);
         });
@@ -101,7 +114,7 @@ std::vector<CostOrder> convergence(const CostStudy& study, CostSplit split)
                 row.points.push_back({static_cast<double>(varied(*point, split)), *point->error, "", 0});
         if (row.points.size() < 2)
             continue;
-        row.order = observed(row.points, 10 * study.reference.error.value_or(0));
+        observe(row, 10 * study.reference.error.value_or(0));
         out.push_back(std::move(row));
     }
     return out;
@@ -120,9 +133,11 @@ Plot convergence_plot(const CostStudy& study, CostSplit split)
     {
         const std::string fixed =
             std::to_string(row.fixed) + (substeps ? " iteration" : " substep") + (row.fixed == 1 ? "" : "s");
-        plot.series.push_back({row.name + " (" + fixed + ")", row.points});
-        orders += (orders.empty() ? "" : "; ") + row.name + " " + (row.order ? number(*row.order) : "none");
+        plot.series.push_back({row.name + " (" + fixed + ")", row.points, false,
+                               row.at_floor ? "at its floor" : ""});
+        orders += (orders.empty() ? "" : "; ") + order_text(row);
     }
+    plot.y_most = off_the_top(plot.series, 1);
     plot.caption.push_back("Reference class " + study.reference.name + ". " + study.reference.text);
     plot.caption.push_back(
         "Observed order, mean of the last two slopes between errors below 50 % and above the"

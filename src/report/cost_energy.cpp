@@ -35,6 +35,8 @@ void check_conservative(const Scene& scene)
     {
         if (body.material.stretch_damping > 0)
             refuse("stretch_damping is above 0");
+        if (body.material.plastic_yield > 0)
+            refuse("plastic_yield is above 0");
         for (const Pin& pin : body.pins)
             if (!pin.motion.empty())
                 refuse("a pin moves");
@@ -124,6 +126,7 @@ Plot energy_plot(const EnergyStudy& study, Conserved what)
     plot.x_label = "time, s";
     plot.y_label = energy ? "|E - E(0)| / E_ref" : "|P - P(0) - impulse| / (M v_ref)";
     plot.front = false;
+    plot.x_linear = true;
     for (const EnergyRun& run : study.runs)
     {
         const std::vector<double>& values = energy ? run.energy : run.momentum;

@@ -136,6 +136,7 @@ Plot cost_plot(const CostStudy& study, CostAxis axis)
             plot.series.push_back({name, {}, several(study)});
         plot.series.back().points.push_back(plot_point(study, point, axis));
     }
+    plot.y_most = off_the_top(plot.series, 1); // errors of more than 100 % are of no use to anybody
     plot.caption = captions(study, axis);
     if (several(study))
         plot.gaps = grouped_gaps(study);

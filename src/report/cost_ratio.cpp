@@ -192,6 +192,7 @@ Plot ratio_plot(const RatioStudy& study)
         if (!series.points.empty())
             plot.series.push_back(std::move(series));
     }
+    plot.y_most = off_the_top(plot.series, 1);
     for (std::size_t r = 0; r < study.studies.size(); ++r)
         plot.caption.push_back("Ratio " + number(study.ratios[r]) + ": reference class " +
                                study.studies[r].reference.name + ".");

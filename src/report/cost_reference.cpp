@@ -31,7 +31,6 @@ std::string unmodelled(const Scene& scene)
     add(any([](const Material& m) { return m.strain_limit > 0; }), "limits of strain");
     add(any([](const Material& m) { return m.attachment_slack >= 0; }), "attachments");
     add(any([](const Material& m) { return m.tear_strain > 0; }), "tearing");
-    add(any([](const Material& m) { return m.pressure != 0; }), "gas within surfaces");
     add(any([](const Material& m) { return m.plastic_yield > 0; }), "plasticity");
     return out;
 }

@@ -49,7 +49,7 @@ void measure_energy(const View& view, StepReport& out)
         out.kinetic_energy += 0.5 * view.model.mass[i] * glm::dot(view.v[i], view.v[i]);
         out.max_speed = std::max(out.max_speed, glm::length(view.v[i]));
     }
-    out.potential_energy = gravity_energy(view.model, view.x);
+    out.potential_energy = gravity_energy(view.model, view.x) + gas_energy(view.model, view.x);
     for (const DistanceRecord& c : view.distance)
         if (c.compliance > 0)
             out.potential_energy += 0.5 * std::pow(view.length(c) - c.rest_length, 2) / c.compliance;
@@ -181,12 +181,15 @@ double implicit_residual(const View& view)
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
     std::vector<glm::dvec3> force(view.x.size(), glm::dvec3(0));
     add_forces(view.model, view.x, force);
+    std::vector<glm::dvec3> gas(view.x.size(), glm::dvec3(0)); // of the guess, which it has pushed
+    for (const GasElement& e : view.model.gases)
+        add_gas_forces(e, view.x, gas);
     double worst = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
         if (view.model.pinned[i] || touches(view, i))
             continue;
-        const glm::dvec3 elastic = force[i] / view.model.mass[i] - view.model.gravity;
+        const glm::dvec3 elastic = (force[i] - gas[i]) / view.model.mass[i] - view.model.gravity;
         const glm::dvec3 left = (moved[i] - guess[i]) / (h * h) - elastic;
         worst = std::max(worst, glm::length(left) / (gravity > 0 ? gravity : 1.0));
     }

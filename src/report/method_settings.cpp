@@ -130,7 +130,8 @@ std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::v
     std::vector<SceneIssue> out;
     if (type == kMethodNames.end())
         return out;
-    const std::vector<std::string_view> read = keys_read(static_cast<MethodKind>(type - kMethodNames.begin()));
+    const std::vector<std::string_view> read =
+        keys_read(static_cast<MethodKind>(type - kMethodNames.begin()));
     const auto among = [](const auto& keys, const std::string& key) {
         return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
     };
@@ -139,8 +140,8 @@ std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::v
         if (!among(kCommon, key) && !among(read, key))
             out.push_back({false, "method." + key,
                            "method \"" + settings.type +
-                               "\" does not read it; take it out (beside type, substeps and precision it reads " +
-                               listed(read) + ")"});
+                               "\" does not read it; take it out (beside type, substeps and precision it "
+                               "reads " + listed(read) + ")"});
     return out;
 }
 

@@ -22,8 +22,8 @@ bool reads_iterations(MethodKind kind);
 /// The keys of a scene's `method` that the method reads, beside type, substeps and precision, which all read.
 std::vector<std::string_view> keys_read(MethodKind kind);
 
-/// A warning for each of the keys given for a method (given_method_keys) that it does not read. None where the
-/// scene names no method that there is.
+/// A warning for each of the keys given for a method (given_method_keys) that it does not read. None for a
+/// method that is not there.
 std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::vector<std::string>& given);
 
 /// What the method reads and is not as by default, beside substeps, iterations and precision:

@@ -68,6 +68,8 @@ void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first
     };
     append(volume_elements(body), model.volumes);
     append(solid_elements(body), model.solids);
+    if (has_gas(body))
+        model.gases.push_back(gas_element(body, first));
     if (!holds_surface_volume(body))
         return;
     model.surfaces.push_back(surface_element(body));
@@ -161,6 +163,14 @@ double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
     return energy;
 }
 
+double gas_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
+{
+    double energy = 0;
+    for (const GasElement& gas : model.gases)
+        energy += gas_energy(gas, x);
+    return energy;
+}
+
 double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
 {
     double energy = 0;
@@ -215,6 +225,8 @@ void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::
         if (e.compliance > 0)
             add_volume_gradient(e.triangles, x,
                                 (e.rest_volume - enclosed_volume(e.triangles, x)) / e.compliance, out);
+    for (const GasElement& gas : model.gases)
+        add_gas_forces(gas, x, out);
 }
 
 double total_weight(const PhysicalModel& model)
@@ -245,6 +257,8 @@ double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x
         reference::add_stiffness(e, x, thick);
     for (const SurfaceElement& e : model.surfaces)
         reference::add_stiffness(e, x, thick);
+    for (const GasElement& gas : model.gases)
+        add_stiffness(gas, x, thick);
     double most = 0;
     for (std::size_t v = 0; v < count; ++v)
         if (!model.pinned[v])
@@ -258,6 +272,8 @@ std::size_t element_cost(const PhysicalModel& model)
                       10 * model.solids.size() + model.mass.size();
     for (const SurfaceElement& e : model.surfaces)
         out += 3 * e.triangles.size();
+    for (const GasElement& gas : model.gases)
+        out += 3 * gas.triangles.size();
     return out;
 }
 

@@ -6,6 +6,7 @@
 #include "taut/plan/material.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/surface.hpp"
+#include "taut/report/gas.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <cstddef>
@@ -35,6 +36,7 @@ struct PhysicalModel
     std::vector<VolumeElement> volumes;       ///< tetrahedra whose volume is held
     std::vector<SolidElement> solids;         ///< elastic tetrahedra
     std::vector<SurfaceElement> surfaces;     ///< whose volume within is held
+    std::vector<GasElement> gases;            ///< within closed surfaces
     std::size_t dropped_hinges = 0;           ///< without an angle at rest
     std::vector<ModelPin> pins;               ///< ascending, one a vertex
     std::vector<Collider> colliders;
@@ -53,7 +55,9 @@ PhysicalModel make_model(const Scene& resolved);
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
 /// J, 0 at the origin.
 double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
-/// N: elastic forces of compliant elements and gravity. Rigid elements are left out. Pins included.
+/// J, of all gases (gas.hpp).
+double gas_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
+/// N: elastic forces of compliant elements, gases and gravity. Rigid elements are left out. Pins included.
 void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<glm::dvec3>& out);
 
 /// N, mass times gravity of the vertices that move.
@@ -66,7 +70,7 @@ inline constexpr double kStiffening = 2;
 
 /// Bound on the eigenfrequencies that a state near `x` can have, 1/s: the square root of the largest row sum
 /// of |M^-1 K| (Gershgorin, by blocks of 3 x 3). Springs count at their stiffest, hinges as at `x`,
-/// tetrahedra and enclosed volumes kStiffening times as at `x`. 0 without elements.
+/// tetrahedra, enclosed volumes and gases kStiffening times as at `x`. 0 without elements.
 double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x);
 
 /// What one evaluation of all forces costs, in springs.

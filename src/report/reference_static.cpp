@@ -316,6 +316,8 @@ std::string refusal(const PhysicalModel& model, const std::vector<glm::dvec3>& s
         return std::to_string(rigid) + " elements are rigid (compliance 0): they have no energy to minimise";
     if (!model.surfaces.empty())
         return "the volume within a surface is held: the static reference does not model it";
+    if (!model.gases.empty())
+        return "a gas presses on a surface: the static reference does not model it";
     if (!model.colliders.empty())
         return "the scene has colliders: the static reference knows no contact";
     if (glm::length(model.gravity) > 0 && !all_held(model))

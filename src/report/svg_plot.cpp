@@ -2,8 +2,10 @@
 // distinction for prints without colour.
 #include "taut/report/svg_plot.hpp"
 
+#include "taut/report/svg_axis.hpp"
 #include "taut/report/svg_text.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,65 +24,55 @@ constexpr std::size_t kLegendChars = 30, kLineChars = 128;
 constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#555555"};
 
-bool drawable(const PlotPoint& p)
+constexpr std::size_t kMostMarkers = 100;
+
+bool drawable(const PlotPoint& p, bool x_linear = false)
 {
-    return std::isfinite(p.x) && std::isfinite(p.y) && p.x > 0 && p.y > 0;
+    return std::isfinite(p.x) && std::isfinite(p.y) && (x_linear || p.x > 0) && p.y > 0;
 }
 
-/// One logarithmic axis: whole decades.
-struct Axis
+/// Both axes of a plot.
+struct Area
 {
-    int first = 0, last = 1; // exponents
-    double from = 0, to = 1; // pixels of the two ends
+    explicit Area(const Plot& plot) : linear(plot.x_linear), most(plot.y_most)
+    {
+        double low[2], high[2];
+        std::fill(low, low + 2, std::numeric_limits<double>::infinity());
+        std::fill(high, high + 2, -std::numeric_limits<double>::infinity());
+        for (const PlotSeries& series : plot.series)
+            for (const PlotPoint& p : series.points)
+                for (int k = 0; k < 2; ++k)
+                    if (drawable(p, linear) && (k == 0 || p.y <= most))
+                    {
+                        low[k] = std::min(low[k], k == 0 ? p.x : p.y);
+                        high[k] = std::max(high[k], k == 0 ? p.x : p.y);
+                    }
+        x = axis_of(low[0], high[0], linear, kLeft, kLeft + kWide);
+        y = axis_of(low[1], high[1], false, kTop + kHigh, kTop);
+    }
 
-    double at(double v) const { return from + (std::log10(v) - first) / (last - first) * (to - from); }
-    double at_decade(int e) const { return from + double(e - first) / (last - first) * (to - from); }
-    int label_every() const { return std::max(1, (last - first + 9) / 10); }
+    bool holds(const PlotPoint& p) const { return drawable(p, linear) && p.y <= most; }
+    bool above(const PlotPoint& p) const { return drawable(p, linear) && p.y > most; }
+
+    bool linear;
+    double most;
+    Axis x, y;
 };
 
-Axis make_axis(const Plot& plot, double PlotPoint::*value, double from, double to)
+std::string grid(const Area& area)
 {
-    double low = std::numeric_limits<double>::infinity(), high = 0;
-    for (const PlotSeries& series : plot.series)
-        for (const PlotPoint& p : series.points)
-            if (drawable(p))
-            {
-                low = std::min(low, p.*value);
-                high = std::max(high, p.*value);
-            }
-    Axis axis{0, 1, from, to};
-    if (high > 0)
+    std::string lines, labels;
+    for (const Axis::Tick& t : area.x.ticks())
     {
-        axis.first = static_cast<int>(std::floor(std::log10(low)));
-        axis.last = std::max(axis.first + 1, static_cast<int>(std::ceil(std::log10(high))));
+        lines += line(t.pixel, kTop, t.pixel, kTop + kHigh, t.minor ? "#f1f1f1" : "#d4d4d4", 1);
+        labels += t.labelled ? area.x.label(t, t.pixel, kTop + kHigh + 20, "middle") : "";
     }
-    return axis;
-}
-
-std::string grid(const Axis& x, const Axis& y)
-{
-    std::string out;
-    const auto lines = [&](const Axis& axis, bool upright, int decade)
+    for (const Axis::Tick& t : area.y.ticks())
     {
-        const auto one = [&](double at, const char* colour)
-        {
-            out += upright ? line(at, kTop, at, kTop + kHigh, colour, 1)
-                           : line(kLeft, at, kLeft + kWide, at, colour, 1);
-        };
-        if (decade < axis.last && axis.last - axis.first <= 6)
-            for (int k = 2; k < 10; ++k)
-                one(axis.at(k * std::pow(10.0, decade)), "#f1f1f1");
-        one(axis.at_decade(decade), "#d4d4d4");
-    };
-    for (int d = x.first; d <= x.last; ++d)
-        lines(x, true, d);
-    for (int d = y.first; d <= y.last; ++d)
-        lines(y, false, d);
-    for (int d = x.first; d <= x.last; d += x.label_every())
-        out += power_of_ten(x.at_decade(d), kTop + kHigh + 20, d, {.size = 12, .anchor = "middle"});
-    for (int d = y.first; d <= y.last; d += y.label_every())
-        out += power_of_ten(kLeft - 8, y.at_decade(d) + 4, d, {.size = 12, .anchor = "end"});
-    return out;
+        lines += line(kLeft, t.pixel, kLeft + kWide, t.pixel, t.minor ? "#f1f1f1" : "#d4d4d4", 1);
+        labels += t.labelled ? area.y.label(t, kLeft - 8, t.pixel + 4, "end") : "";
+    }
+    return lines + labels;
 }
 
 std::string frame(const Plot& plot)
@@ -100,79 +92,146 @@ std::string polyline(const std::string& points, const std::string& style)
     return "<polyline points=\"" + points + "\" fill=\"none\" " + style + "/>\n";
 }
 
-std::string pixels(const PlotPoint& p, const Axis& x, const Axis& y)
+std::string pixels(const PlotPoint& p, const Area& area)
 {
-    return fixed(x.at(p.x)) + "," + fixed(y.at(p.y));
+    return fixed(area.x.at(p.x)) + "," + fixed(area.y.at(p.y));
+}
+
+/// One mark with its name; above the area an arrow at its upper edge, with the number.
+std::string mark(const PlotSeries& series, const PlotPoint& p, std::size_t index, const Area& area,
+                 double size, const char* opacity = nullptr)
+{
+    const std::string colour = kColours[index % kColours.size()];
+    std::string name = series.name + (p.label.empty() ? "" : ", " + p.label);
+    std::string shape = marker(area.x.at(p.x), area.y.at(p.y), index, colour, size);
+    if (area.above(p))
+    {
+        const double x = area.x.at(p.x), y = kTop + 1;
+        name += ": off the top, " + shown(p.y, 2);
+        const std::string low = fixed(y + 9);
+        shape = "<polygon points=\"" + fixed(x) + "," + fixed(y) + " " + fixed(x + 5) + "," + low + " " +
+                fixed(x - 5) + "," + low + "\" fill=\"#fff\" stroke=\"" + colour +
+                "\" stroke-width=\"1.40\"/>\n";
+    }
+    const std::string faint =
+        opacity == nullptr ? "" : " fill-opacity=\"" + std::string(opacity) + "\"";
+    return "<g" + faint + "><title>" + escaped(name) + "</title>" + shape + "</g>\n";
 }
 
 /// All points small, those of its own front large and joined.
-std::string draw_own_front(const PlotSeries& series, std::size_t index, const Axis& x, const Axis& y)
+std::string draw_own_front(const PlotSeries& series, std::size_t index, const Area& area)
 {
     const std::string colour = kColours[index % kColours.size()];
     std::vector<bool> front(series.points.size(), false);
     std::string points, markers;
     for (const FrontPoint& at : pareto_front({series}))
-    {
-        front[at.point] = true;
-        points += (points.empty() ? "" : " ") + pixels(series.points[at.point], x, y);
-    }
+        if (area.holds(series.points[at.point]))
+        {
+            front[at.point] = true;
+            points += (points.empty() ? "" : " ") + pixels(series.points[at.point], area);
+        }
     for (std::size_t i = 0; i < series.points.size(); ++i)
-    {
-        const PlotPoint& p = series.points[i];
-        if (!drawable(p))
-            continue;
-        const std::string name = series.name + (p.label.empty() ? "" : ", " + p.label);
-        const char* opacity = front[i] ? "1" : "0.45";
-        markers += "<g fill-opacity=\"" + std::string(opacity) + "\"><title>" + escaped(name) + "</title>" +
-                   marker(x.at(p.x), y.at(p.y), index, colour, front[i] ? 9 : 5) + "</g>\n";
-    }
+        if (drawable(series.points[i], area.linear))
+            markers += mark(series, series.points[i], index, area, front[i] ? 9 : 5, front[i] ? "1" : "0.45");
     return polyline(points, "stroke=\"" + colour + "\" stroke-width=\"2.60\"") + markers;
 }
 
-std::string draw_series(const PlotSeries& series, std::size_t index, const Axis& x, const Axis& y)
+std::string draw_series(const PlotSeries& series, std::size_t index, const Area& area)
 {
     if (series.own_front)
-        return draw_own_front(series, index, x, y);
+        return draw_own_front(series, index, area);
     const std::string colour = kColours[index % kColours.size()];
-    const std::string style = "stroke=\"" + colour + "\" stroke-width=\"1.20\" stroke-opacity=\"0.60\"";
+    const bool many = series.points.size() > kMostMarkers;
+    const std::string style = "stroke=\"" + colour + "\" stroke-width=\"1.20\" stroke-opacity=\"" +
+                              (many ? "0.90" : "0.60") + "\"";
     std::string lines, markers, points;
     for (const PlotPoint& p : series.points)
     {
-        if (!drawable(p)) // a gap in the line, never a made-up point
+        if (drawable(p, area.linear) && (!many || area.above(p)))
+            markers += mark(series, p, index, area, 8);
+        if (!area.holds(p)) // a gap in the line, never a made-up point
         {
             lines += polyline(points, style);
             points.clear();
             continue;
         }
-        points += (points.empty() ? "" : " ") + pixels(p, x, y);
-        const std::string name = series.name + (p.label.empty() ? "" : ", " + p.label);
-        markers += "<g><title>" + escaped(name) + "</title>" +
-                   marker(x.at(p.x), y.at(p.y), index, colour, 8) + "</g>\n";
+        points += (points.empty() ? "" : " ") + pixels(p, area);
     }
     return lines + polyline(points, style) + markers;
 }
 
-std::string draw_front(const Plot& plot, const Axis& x, const Axis& y)
+/// Writes labels beside points where none stands yet.
+class Labels
 {
-    std::string points, rings, labels;
-    double label_x = -1e9, label_y = -1e9;
+public:
+    /// Tries right, left, below on the right and on the left, in that order (or left first); gives up else.
+    void add(double x, double y, const std::string& words, const char* fill)
+    {
+        constexpr double kChar = 5.4, kHeight = 11; // of text of size 10
+        const double width = kChar * static_cast<double>(words.size());
+        const bool right_first = x < kLeft + 0.8 * kWide;
+        for (const double dy : {-8.0, 16.0})
+            for (const bool right : {right_first, !right_first})
+            {
+                const double left = right ? x + 9 : x - 9 - width, base = y + dy;
+                const Box box{left, base - kHeight, left + width, base};
+                const bool inside = box.left > kLeft && box.right < kLeft + kWide && box.top > kTop &&
+                                    box.bottom < kTop + kHigh;
+                if (!inside || std::any_of(taken_.begin(), taken_.end(),
+                                           [&](const Box& other) { return other.meets(box); }))
+                    continue;
+                taken_.push_back(box);
+                text_ += text(right ? x + 9 : x - 9, base, words,
+                              {.size = 10, .anchor = right ? "start" : "end", .fill = fill});
+                return;
+            }
+    }
+    const std::string& svg() const { return text_; }
+
+private:
+    struct Box
+    {
+        double left, top, right, bottom;
+        bool meets(const Box& o) const
+        {
+            return left < o.right && o.left < right && top < o.bottom && o.top < bottom;
+        }
+    };
+    std::vector<Box> taken_;
+    std::string text_;
+};
+
+std::string draw_front(const Plot& plot, const Area& area, Labels& labels)
+{
+    std::string points, rings;
     for (const FrontPoint& at : pareto_front(plot.series))
     {
         const PlotPoint& p = plot.series[at.series].points[at.point];
-        const double px = x.at(p.x), py = y.at(p.y);
+        if (!area.holds(p))
+            continue;
+        const double px = area.x.at(p.x), py = area.y.at(p.y);
         points += (points.empty() ? "" : " ") + fixed(px) + "," + fixed(py);
         rings += "<circle cx=\"" + fixed(px) + "\" cy=\"" + fixed(py) +
                  "\" r=\"7.00\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.60\"/>\n";
-        const bool crowded = std::abs(px - label_x) < 60 && std::abs(py - label_y) < 12;
-        if (p.label.empty() || crowded)
-            continue;
-        const bool right = px < kLeft + 0.8 * kWide; // towards the inside
-        labels += text(px + (right ? 9 : -9), py - 8, p.label,
-                       {.size = 10, .anchor = right ? "start" : "end", .fill = "#111"});
-        label_x = px;
-        label_y = py;
+        if (!p.label.empty())
+            labels.add(px, py, p.label, "#111");
     }
-    return polyline(points, "stroke=\"#111\" stroke-width=\"4.00\" stroke-opacity=\"0.25\"") + rings + labels;
+    return polyline(points, "stroke=\"#111\" stroke-width=\"4.00\" stroke-opacity=\"0.25\"") + rings;
+}
+
+/// Notes of series, at their lowest points.
+void add_notes(const Plot& plot, const Area& area, Labels& labels)
+{
+    for (std::size_t i = 0; i < plot.series.size(); ++i)
+    {
+        const PlotPoint* lowest = nullptr;
+        for (const PlotPoint& p : plot.series[i].points)
+            if (area.holds(p) && (lowest == nullptr || p.y < lowest->y))
+                lowest = &p;
+        if (lowest != nullptr && !plot.series[i].note.empty())
+            labels.add(area.x.at(lowest->x), area.y.at(lowest->y) + 20, plot.series[i].note,
+                       kColours[i % kColours.size()]);
+    }
 }
 
 std::string legend(const Plot& plot)
@@ -203,14 +262,31 @@ std::vector<std::string> all_gaps(const Plot& plot)
     std::vector<std::string> out = plot.gaps;
     for (const PlotSeries& series : plot.series)
         for (const PlotPoint& p : series.points)
-            if (!drawable(p))
+            if (!drawable(p, plot.x_linear))
                 out.push_back(series.name + (p.label.empty() ? "" : ", " + p.label) +
                               ": no finite positive value to draw");
     return out;
 }
 
+/// A line for each series that has points above the axis.
+std::vector<std::string> all_above(const Plot& plot, const Area& area)
+{
+    std::vector<std::string> out;
+    for (const PlotSeries& series : plot.series)
+    {
+        std::string words;
+        for (const PlotPoint& p : series.points)
+            if (area.above(p))
+                words += (words.empty() ? ": " : "; ") + (p.label.empty() ? "" : p.label + " at ") +
+                         shown(p.y, 2);
+        if (!words.empty())
+            out.push_back(series.name + words);
+    }
+    return out;
+}
+
 /// Caption and gaps; `y` is moved below them.
-std::string footer(const Plot& plot, double& y)
+std::string footer(const Plot& plot, const Area& area, double& y)
 {
     std::string out;
     const auto lines = [&](const std::vector<std::string>& all, const char* fill, double indent)
@@ -223,6 +299,12 @@ std::string footer(const Plot& plot, double& y)
             }
     };
     lines(plot.caption, "#222", 0);
+    if (const std::vector<std::string> above = all_above(plot, area); !above.empty())
+    {
+        y += 6;
+        lines({"Off the top (above " + shown(plot.y_most, 2) + "):"}, "#222", 0);
+        lines(above, "#555", 12);
+    }
     if (const std::vector<std::string> gaps = all_gaps(plot); !gaps.empty())
     {
         y += 6;
@@ -255,18 +337,31 @@ std::vector<FrontPoint> pareto_front(const std::vector<PlotSeries>& series)
     return out;
 }
 
+double off_the_top(const std::vector<PlotSeries>& series, double useful)
+{
+    constexpr double kTimes = 10;
+    double largest = 0;
+    for (const PlotSeries& one : series)
+        for (const PlotPoint& p : one.points)
+            if (drawable(p) && p.y <= useful)
+                largest = std::max(largest, p.y);
+    return largest > 0 ? kTimes * largest : std::numeric_limits<double>::infinity();
+}
+
 std::string svg(const Plot& plot)
 {
-    const Axis x = make_axis(plot, &PlotPoint::x, kLeft, kLeft + kWide);
-    const Axis y = make_axis(plot, &PlotPoint::y, kTop + kHigh, kTop);
-    std::string body = grid(x, y) + frame(plot);
+    const Area area(plot);
+    std::string body = grid(area) + frame(plot);
     for (std::size_t i = 0; i < plot.series.size(); ++i)
-        body += draw_series(plot.series[i], i, x, y);
+        body += draw_series(plot.series[i], i, area);
+    Labels labels;
     if (plot.front)
-        body += draw_front(plot, x, y);
+        body += draw_front(plot, area, labels);
+    add_notes(plot, area, labels);
+    body += labels.svg();
     body += legend(plot);
     double bottom = kTop + kHigh + 74;
-    body += footer(plot, bottom);
+    body += footer(plot, area, bottom);
     const double legend_end = kTop + 36.0 * static_cast<double>(plot.series.size() + 1);
     const std::string width = fixed(kPage), height = fixed(std::max(bottom + 6, legend_end));
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +

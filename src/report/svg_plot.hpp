@@ -1,8 +1,9 @@
 #pragma once
-// Log-log plots as SVG text: work-precision diagrams (error against cost). Values in, text out; the same
-// values give the same bytes on every machine.
+// Log-log plots as SVG text: work-precision diagrams (error against cost), and errors over time on a linear
+// axis. Values in, text out; the same values give the same bytes on every machine.
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct PlotSeries
     std::vector<PlotPoint> points; ///< joined in this order; one that is not finite and positive breaks the
                                    ///< line and joins the gaps
     bool own_front = false; ///< only those that no other of the series beats are joined, by a bold line
+    std::string note = {};  ///< written below its lowest point
 };
 
 struct Plot
@@ -29,6 +31,9 @@ struct Plot
     std::string x_label, y_label;     ///< with their units
     std::vector<PlotSeries> series;
     bool front = true;                ///< mark the points that no other beats in both x and y
+    bool x_linear = false;            ///< x may then be any finite number
+    /// Points above this in y do not stretch the axis: they stand at its upper edge and are listed by number.
+    double y_most = std::numeric_limits<double>::infinity();
     std::vector<std::string> caption; ///< below the plot: reference class, machine, settings
     std::vector<std::string> gaps;    ///< "name: reason" of what has no point, listed under the caption
 };
@@ -41,7 +46,10 @@ struct FrontPoint
 };
 std::vector<FrontPoint> pareto_front(const std::vector<PlotSeries>& series);
 
-/// A whole SVG document.
+/// A bound for Plot::y_most: ten times the largest y that is at most `useful`; infinite where there is none.
+double off_the_top(const std::vector<PlotSeries>& series, double useful);
+
+/// A whole SVG document. Series of more than 100 points have no markers.
 std::string svg(const Plot& plot);
 
 /// Written to a temporary name, then renamed. Throws Error{io}.

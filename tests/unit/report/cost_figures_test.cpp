@@ -71,14 +71,33 @@ TEST_CASE("orders are of the last two slopes above the floor and below 50 %", "[
     CHECK(orders[0].fixed == 1);
     CHECK(orders[0].points.size() == 5);
     REQUIRE(orders[0].order.has_value());
-    CHECK(*orders[0].order == Approx(1).margin(0.01)); // the slopes 2 and 0
+    CHECK(*orders[0].order == Approx(2).margin(0.01)); // the last slope, 0, is where it stops
+    CHECK(orders[0].at_floor);
     const std::vector<CostOrder> by_iterations = convergence(study, CostSplit::iterations);
     REQUIRE(by_iterations.size() == 1);
     CHECK(by_iterations[0].fixed == 4);
     CHECK(*by_iterations[0].order == Approx(1));
+    CHECK_FALSE(by_iterations[0].at_floor);
     const std::string drawn = svg(convergence_plot(study, CostSplit::substeps));
     CHECK(drawn.find("Observed order") != std::string::npos);
+    const std::vector<std::string> caption = convergence_plot(study, CostSplit::substeps).caption;
+    CHECK(caption.back().find("xpbd 2.00, then at its floor") != std::string::npos);
+    CHECK(drawn.find(">at its floor</text>") != std::string::npos);
     CHECK(drawn.find("Reference class R2") != std::string::npos);
+}
+
+TEST_CASE("an error that does not fall has no order but a floor", "[figures]")
+{
+    for (const double last : {0.199, 0.2, 0.31})
+    {
+        const CostStudy study = table({made("xpbd", 2, 1, 0.2), made("xpbd", 4, 1, last)}, 1e-6);
+        const auto orders = convergence(study, CostSplit::substeps);
+        REQUIRE(orders.size() == 1);
+        CHECK_FALSE(orders[0].order.has_value());
+        CHECK(orders[0].at_floor);
+        const std::vector<std::string> caption = convergence_plot(study, CostSplit::substeps).caption;
+        CHECK(caption.back().find("xpbd at its floor") != std::string::npos);
+    }
 }
 
 TEST_CASE("errors below the reference's floor have no order", "[figures]")
@@ -184,6 +203,7 @@ TEST_CASE("a spring in free flight keeps momentum; XPBD loses energy, less with 
     CHECK(std::abs(study.runs[1].energy.back()) < 0.3 * std::abs(study.runs[0].energy.back()));
     CHECK(energy_sentences(study)[0].find("loses") != std::string::npos);
     CHECK(svg(energy_plot(study, Conserved::energy)).find("time, s") != std::string::npos);
+    CHECK(energy_plot(study, Conserved::energy).x_linear);
     CHECK(energy_csv(study).find("setting,time,energy,momentum\n\"xpbd, 4 substeps") == 0);
 }
 
@@ -191,6 +211,9 @@ TEST_CASE("where energy is not kept there is nothing to follow", "[figures]")
 {
     CHECK_THROWS_AS(run_energy(damped_chain(), serial(), one_setting(4)), Error);
     Scene scene = test::chain(2, 100, 1, 1);
+    Scene flows = scene;
+    flows.bodies[0].material.plastic_yield = 0.1;
+    CHECK_THROWS_AS(run_energy(flows, serial(), one_setting(4)), Error);
     scene.colliders.emplace_back();
     CHECK_THROWS_AS(run_energy(scene, serial(), one_setting(4)), Error);
 }

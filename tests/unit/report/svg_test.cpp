@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <clocale>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -118,6 +119,57 @@ TEST_CASE("a point stands where its logarithm says", "[svg]")
     plot.series = {{"a", {{1, 1e-2, ""}, {10, 1e-1, ""}, {100, 1, ""}}}};
     // The area is 560 x 400 from (84, 56): two decades each.
     CHECK(svg(plot).find("points=\"84.00,456.00 364.00,256.00 644.00,56.00\"") != std::string::npos);
+}
+
+TEST_CASE("an outlier does not stretch the axis: it stands at its edge, with its number", "[svg]")
+{
+    Plot plot;
+    plot.series = {{"calm", {{1, 0.5, "1x1"}, {10, 5e-2, "10x1"}, {100, 5e-3, "100x1"}}},
+                   {"wild", {{0.5, 3e15, "1x1"}, {2, 2e6, "2x1"}, {20, 0.4, "20x1"}}, true}};
+    CHECK(off_the_top(plot.series, 1) == Approx(5));
+    const std::string all = svg(plot);
+    CHECK(count(all, "off the top") == 0);
+    plot.y_most = off_the_top(plot.series, 1);
+    const std::string text = svg(plot);
+    CHECK(malformed(text) == "");
+    CHECK(count(text, "wild, 1x1: off the top, 3e+15") == 1);
+    CHECK(count(text, "Off the top (above 5):") == 1);
+    CHECK(count(text, "wild: 1x1 at 3e+15; 2x1 at 2e+06") == 1);
+    CHECK(count(text, "<title>") == 6); // nobody is lost
+    // The axis goes from 10^-3 to 1, as far as the others do: three decades hold the calm points.
+    // 456 - 400 (log10(0.5) + 3) / 3
+    CHECK(text.find("cy=\"96.14\"") != std::string::npos);
+    CHECK(std::isinf(off_the_top({{"a", {{1, 7, ""}}}}, 1)));
+}
+
+TEST_CASE("a linear axis has round numbers, and long series have no markers", "[svg]")
+{
+    Plot plot;
+    plot.front = false;
+    plot.x_linear = true;
+    plot.series = {{"long", {}}, {"short", {{0, 1, ""}, {2.5, 10, ""}}}};
+    for (int k = 0; k <= 120; ++k)
+        plot.series[0].points.push_back({k / 48.0, 1.0 + k, ""});
+    const std::string text = svg(plot);
+    CHECK(malformed(text) == "");
+    CHECK(count(text, "<title>") == 2);
+    CHECK(count(text, ">0.5</text>") == 1);
+    CHECK(count(text, ">2.5</text>") == 1);
+    CHECK(count(text, ">0</text>") == 1);
+    CHECK(text.find("points=\"84.00,456.00 644.00,322.67\"") != std::string::npos); // 0 to 2.5; a third up
+}
+
+TEST_CASE("labels do not stand on each other", "[svg]")
+{
+    Plot plot;
+    plot.series.push_back({"first", {{100, 0.9, "begin"}}});
+    for (int k = 0; k < 40; ++k)
+        plot.series.push_back({"s", {{1000 + 0.1 * k, 0.1 - 0.0001 * k, "label " + std::to_string(k)}}});
+    plot.series.push_back({"far", {{1e5, 2e-4, "alone"}}});
+    const std::string text = svg(plot);
+    CHECK(count(text, ">alone</text>") == 1);
+    CHECK(count(text, ">label ") >= 2);  // on both sides
+    CHECK(count(text, ">label ") <= 4);  // above and below
 }
 
 TEST_CASE("the same plot is the same text in every locale", "[svg]")
