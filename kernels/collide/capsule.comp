@@ -9,6 +9,7 @@
 // way. If `e` lies inside on the side where the vertex came from, the nearest surface point decides; if the
 // way enters and ends on the other side or outside again, the point of entry does.
 // Bytes per element: 32 read, 16 written (float); friction_kept 16 more each way per collider.
+//! lanes
 //! variant friction FRICTION=1
 //! variant friction_kept FRICTION=1 KEPT=1
 #include "shared/portable.glsl"
@@ -47,8 +48,8 @@ real time_in(real outside, real along, real square)
 {
     real discriminant = along * along - square * outside;
     real root = sqrt(max(discriminant, real(0)));
-    bool enters = discriminant > real(0) && along < real(0) && square > real(0);
-    return enters ? max((-along - root) / square, real(0)) : real(2);
+    rbool enters = discriminant > real(0) && along < real(0) && square > real(0);
+    return SELECT(enters, max((-along - root) / square, real(0)), real(2));
 }
 
 /// The same for a ball of the square radius about 0.
@@ -64,7 +65,7 @@ KERNEL(count)
     rvec4 guess = delta[i];
     rvec3 d = rvec3(guess);
     real gap_kept = guess.w;
-    bool moves = p.w > real(0);
+    rbool moves = p.w > real(0);
     for (uint j = 0u; j < colliders; ++j)
     {
         CapsuleCollider c = capsule[substep * colliders + j];
@@ -77,24 +78,24 @@ KERNEL(count)
         real rr = r * r;
         rvec3 qa = off_axis(a, c.half_length), qe = off_axis(e, c.half_length);
         // A vertex at rest on the surface lies a rounding inside as often as outside; both came from there.
-        bool came_from_outside = dot(qa, qa) - rr >= REAL(-1e-3) * rr && dot(qa, travel) < real(0);
+        rbool came_from_outside = dot(qa, qa) - rr >= REAL(-1e-3) * rr && dot(qa, travel) < real(0);
         real side = time_in((a.x * a.x + a.z * a.z) - rr, a.x * travel.x + a.z * travel.z,
                             travel.x * travel.x + travel.z * travel.z);
-        side = abs(a.y + travel.y * side) <= c.half_length ? side : real(2);
+        side = SELECT(abs(a.y + travel.y * side) <= c.half_length, side, real(2));
         rvec3 up = rvec3(real(0), c.half_length, real(0));
         real entry = min(side, min(time_into_ball(a - up, travel, rr), time_into_ball(a + up, travel, rr)));
-        bool enters = came_from_outside && entry <= real(1);
-        bool far_side = enters && !(dot(qa, qe) > real(0) && dot(qe, qe) < rr);
-        rvec3 meets = far_side ? a + travel * entry : e;
+        rbool enters = came_from_outside && entry <= real(1);
+        rbool far_side = enters && !(dot(qa, qe) > real(0) && dot(qe, qe) < rr);
+        rvec3 meets = SELECT(far_side, a + travel * entry, e);
         rvec3 towards = off_axis(meets, c.half_length);
         real size = length(towards);
         // A vertex exactly on the axis leaves across it: any such direction is as good.
-        rvec3 own = size > real(0) ? towards / size : rvec3(real(1), real(0), real(0));
+        rvec3 own = SELECT(size > real(0), towards / size, rvec3(real(1), real(0), real(0)));
         real gap = dot(own, e - (meets - towards)) - r;
         real push = max(allowed_gap(sqrt(dot(qa, qa)) - r, step_values[0].depenetration) - gap, real(0));
-        if (report != 0u && !moves && push > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_CONFLICT);
-        push = moves ? push : real(0);
+        if (report != 0u)
+            COUNT_EVENT_IF(!moves && push > real(0), events, TAUT_EVENT_CONFLICT);
+        push = SELECT(moves, push, real(0));
         rvec3 n = OUT_OF_FRAME(next, own);
         d += n * push;
 #if FRICTION
@@ -112,5 +113,5 @@ KERNEL(count)
 #endif
 #endif
     }
-    delta[i] = moves ? rvec4(d, gap_kept) : guess;
+    delta[i] = SELECT(moves, rvec4(d, gap_kept), guess);
 }

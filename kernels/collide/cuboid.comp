@@ -8,6 +8,7 @@
 // In the frame of the box, which may move and turn, the vertex goes from `a` to `e`, taken as a straight way.
 // The face by which it enters decides; if it was inside already, the face nearest to `a` does.
 // Bytes per element: 32 read, 16 written (float); friction_kept 16 more each way per collider.
+//! lanes
 //! variant friction FRICTION=1
 //! variant friction_kept FRICTION=1 KEPT=1
 #include "shared/portable.glsl"
@@ -38,15 +39,16 @@ UPDATE(5, rvec4, contact); // per collider and vertex: friction taken so far, w 
 /// rounding behind it (where it lies at rest as often as before it); -1 = not through this pair of faces.
 real time_in(real a, real v, real extent)
 {
-    real height = (v < real(0) ? a : -a) - extent;
-    return v != real(0) && height >= REAL(-5e-4) * extent ? max(height / abs(v), real(0)) : real(-1);
+    real height = SELECT(v < real(0), a, -a) - extent;
+    rbool through = v != real(0) && height >= REAL(-5e-4) * extent;
+    return SELECT(through, max(height / abs(v), real(0)), real(-1));
 }
 
 /// When it leaves by the other face; -1 = it is not between them and never will be.
 real time_out(real a, real v, real extent)
 {
-    real still = abs(a) <= extent ? REAL(1e30) : real(-1);
-    return v != real(0) ? ((v < real(0) ? a : -a) + extent) / abs(v) : still;
+    real still = SELECT(abs(a) <= extent, REAL(1e30), real(-1));
+    return SELECT(v != real(0), (SELECT(v < real(0), a, -a) + extent) / abs(v), still);
 }
 
 real largest(rvec3 v) { return max(v.x, max(v.y, v.z)); }
@@ -54,11 +56,11 @@ real largest(rvec3 v) { return max(v.x, max(v.y, v.z)); }
 /// The outward normal of the face of the largest rank, on the side of `way`.
 rvec3 face_of(rvec3 rank, rvec3 way)
 {
-    bool x = rank.x >= rank.y && rank.x >= rank.z;
-    bool y = !x && rank.y >= rank.z;
-    rvec3 side = rvec3(way.x < real(0) ? real(-1) : real(1), way.y < real(0) ? real(-1) : real(1),
-                       way.z < real(0) ? real(-1) : real(1));
-    return rvec3(x ? side.x : real(0), y ? side.y : real(0), x || y ? real(0) : side.z);
+    rbool x = rank.x >= rank.y && rank.x >= rank.z;
+    rbool y = !x && rank.y >= rank.z;
+    rvec3 side = rvec3(SELECT(way.x < real(0), real(-1), real(1)), SELECT(way.y < real(0), real(-1), real(1)),
+                       SELECT(way.z < real(0), real(-1), real(1)));
+    return rvec3(SELECT(x, side.x, real(0)), SELECT(y, side.y, real(0)), SELECT(x || y, real(0), side.z));
 }
 
 KERNEL(count)
@@ -68,7 +70,7 @@ KERNEL(count)
     rvec4 guess = delta[i];
     rvec3 d = rvec3(guess);
     real gap_kept = guess.w;
-    bool moves = p.w > real(0);
+    rbool moves = p.w > real(0);
     for (uint j = 0u; j < colliders; ++j)
     {
         CuboidCollider c = cuboid[substep * colliders + j];
@@ -83,17 +85,17 @@ KERNEL(count)
         real leaves = min(time_out(a.x, travel.x, extent.x),
                           min(time_out(a.y, travel.y, extent.y), time_out(a.z, travel.z, extent.z)));
         real entry = largest(way_in);
-        bool enters = entry >= real(0) && entry <= leaves && entry <= real(1);
+        rbool enters = entry >= real(0) && entry <= leaves && entry <= real(1);
         rvec3 height = rvec3(abs(a.x) - extent.x, abs(a.y) - extent.y, abs(a.z) - extent.z);
-        bool touches = enters || largest(height) <= real(0);
-        rvec3 own = enters ? face_of(way_in, -travel) : face_of(height, a);
+        rbool touches = enters || largest(height) <= real(0);
+        rvec3 own = SELECT(enters, face_of(way_in, -travel), face_of(height, a));
         real reach = abs(dot(own, extent));
         real gap = dot(own, e) - reach;
         real push = max(allowed_gap(dot(own, a) - reach, step_values[0].depenetration) - gap, real(0));
-        push = touches ? push : real(0);
-        if (report != 0u && !moves && push > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_CONFLICT);
-        push = moves ? push : real(0);
+        push = SELECT(touches, push, real(0));
+        if (report != 0u)
+            COUNT_EVENT_IF(!moves && push > real(0), events, TAUT_EVENT_CONFLICT);
+        push = SELECT(moves, push, real(0));
         rvec3 n = OUT_OF_FRAME(next, own);
         d += n * push;
 #if FRICTION
@@ -111,5 +113,5 @@ KERNEL(count)
 #endif
 #endif
     }
-    delta[i] = moves ? rvec4(d, gap_kept) : guess;
+    delta[i] = SELECT(moves, rvec4(d, gap_kept), guess);
 }

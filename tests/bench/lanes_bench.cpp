@@ -25,7 +25,8 @@ using namespace taut;
 
 constexpr int kRuns = 60;
 
-Scene cloth(const std::string& method)
+/// Level cloth that falls on two colliders.
+Scene cloth(const std::string& method, ColliderKind first, ColliderKind second)
 {
     Scene scene;
     Body body;
@@ -35,12 +36,15 @@ Scene cloth(const std::string& method)
     body.material.bending_stiffness = 1e-5;
     body.material.strain_limit = 0.02;
     scene.bodies = {body};
-    Collider floor, ball;
-    floor.kind = ColliderKind::plane;
-    ball.kind = ColliderKind::sphere;
-    ball.point = {0, 0.3, 0};
-    ball.radius = 0.25;
-    scene.colliders = {floor, ball};
+    for (const ColliderKind kind : {first, second})
+    {
+        Collider collider;
+        collider.kind = kind;
+        collider.radius = 0.25;
+        if (kind != ColliderKind::plane)
+            collider.point = {0, 0.3, 0};
+        scene.colliders.push_back(collider);
+    }
     scene.damping = 0.5;
     scene.method.type = method;
     return resolve(scene);
@@ -155,9 +159,11 @@ int main()
 try
 {
     std::printf("| kernel | elements | one at a time | lanes |\n|---|---|---|---|\n");
-    measure(cloth("xpbd"), {"distance", "bending", "predict", "finish", "damping", "strain_limit", "plane",
-                            "sphere"});
-    measure(cloth("pbd"), {"pbd_stretch", "pbd_bend"});
+    using enum ColliderKind;
+    measure(cloth("xpbd", plane, sphere),
+            {"distance", "bending", "predict", "finish", "damping", "strain_limit", "plane", "sphere"});
+    measure(cloth("xpbd", capsule, cuboid), {"capsule", "cuboid"});
+    measure(cloth("pbd", plane, sphere), {"pbd_stretch", "pbd_bend"});
     measure(solid("xpbd", "springs"), {"volume"});
     measure(solid("xpbd", "neo_hookean"), {"neo_hookean"});
     measure(solid("pbd", "springs"), {"pbd_volume"});
