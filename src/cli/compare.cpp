@@ -123,7 +123,8 @@ Json to_json(const CompareRow& row)
     json["rms_stretch"] = row.report.rms_stretch;
     if (row.report.volume.any)
     {
-        json["volume_ratio"] = {{"min", row.smallest_volume}, {"final", row.report.volume.ratio}};
+        json["volume_ratio"] = {{"min", row.smallest_volume}, {"mean", row.mean_volume},
+                                {"final", row.report.volume.ratio}};
         json["inverted_elements"] = row.report.volume.inverted;
     }
     json["energy"] = row.report.kinetic_energy + row.report.potential_energy;

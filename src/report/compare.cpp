@@ -31,6 +31,8 @@ void look(const World& world, std::uint64_t frame, Looks& looks, CompareRow& row
     row.worst_stretch = std::max(row.worst_stretch, row.report.max_stretch);
     row.worst_rms_stretch = std::max(row.worst_rms_stretch, row.report.rms_stretch);
     row.smallest_volume = std::min(row.smallest_volume, row.report.volume.least);
+    row.mean_volume += row.report.volume.ratio; // a sum until the run is over
+    ++row.measured;
     row.highest_energy =
         std::max(row.highest_energy, row.report.kinetic_energy + row.report.potential_energy);
 }
@@ -51,6 +53,7 @@ void run(World& world, std::uint64_t frames, CompareRow& row)
             look(world, k, looks, row);
     }
     row.looks = looks.list();
+    row.mean_volume /= row.measured;
     if (row.report.status == Status::completed)
         row.residuals = residuals_ahead(world);
     row.step_ms = median(std::move(times));
@@ -66,6 +69,7 @@ CompareRow row_of(const Variant& variant, std::uint64_t frames)
     try
     {
         World world(variant.scene, variant.device);
+        row.springs = !make_model(variant.scene).springs.empty();
         run(world, frames, row);
     }
     catch (const Error& error)
@@ -82,7 +86,7 @@ std::vector<std::string> head(bool volume)
                                     "worst strain %", "largest strain at the end %",
                                     "rms strain at the end %"};
     if (volume)
-        out.insert(out.end(), {"least volume %", "volume at the end %", "inverted"});
+        out.insert(out.end(), {"least volume %", "mean volume %", "volume at the end %", "inverted"});
     out.insert(out.end(), {"energy at the end J", "residual", "dual residual", "difference e_L %", "status"});
     return out;
 }
@@ -116,11 +120,12 @@ std::vector<std::string> cells(const CompareRow& row, bool volume)
         return out;
     }
     const double percent = 100;
-    out.insert(out.end(), {shown(row.step_ms, 3), shown(percent * row.worst_stretch, 3),
-                           shown(percent * r.max_stretch, 3), shown(percent * r.rms_stretch, 3)});
+    const auto strain = [&](double value) { return row.springs ? shown(percent * value, 3) : ""; };
+    out.insert(out.end(), {shown(row.step_ms, 3), strain(row.worst_stretch), strain(r.max_stretch),
+                           strain(r.rms_stretch)});
     if (volume)
-        out.insert(out.end(), {shown(percent * row.smallest_volume, 4), shown(percent * r.volume.ratio, 4),
-                               std::to_string(r.volume.inverted)});
+        out.insert(out.end(), {shown(percent * row.smallest_volume, 4), shown(percent * row.mean_volume, 4),
+                               shown(percent * r.volume.ratio, 4), std::to_string(r.volume.inverted)});
     out.insert(out.end(),
                {shown(r.kinetic_energy + r.potential_energy, 4), residual(row.residuals.primal),
                 residual(row.residuals.dual),

@@ -25,7 +25,10 @@ struct CompareRow
     StepReport report;            ///< at the end
     double worst_stretch = 0;     ///< (l - L)/L, largest over all frames looked at
     double worst_rms_stretch = 0; ///< the same of the root mean square of tension
+    bool springs = true;          ///< false: nothing has a strain along an edge
     double smallest_volume = 1;   ///< V / V0, of all frames looked at; of scenes with volumes
+    double mean_volume = 0;       ///< V / V0, over all frames looked at
+    std::uint32_t measured = 0;   ///< frames looked at
     double highest_energy = 0;    ///< J, kinetic and potential
     Residuals residuals;          ///< of one step further; -1 where there is none
     std::vector<Look> looks;      ///< at the frames that were measured

@@ -121,3 +121,21 @@ TEST_CASE("the largest stretch is that of the report", "[compare]")
     CHECK(largest_stretch(scene_springs(world.scene()), world.positions()) == measure(world).max_stretch);
     CHECK(largest_stretch({}, {}) == 0);
 }
+
+TEST_CASE("compare knows the mean of a volume, and no strain where nothing is a spring", "[compare]")
+{
+    const Scene solid = resolve(parse_scene(R"({"taut": 1, "duration": 1, "method": {"type": "xpbd"},
+        "bodies": [{"box": {"cells": [2, 2, 2]},
+                    "material": {"model": "neo_hookean", "youngs_modulus": 1e4, "poissons_ratio": 0.3},
+                    "pins": [{"faces": ["top"]}]}]})"));
+    const auto rows = compare({{"n", solid, test_device("cpu:serial")}}, 30);
+    REQUIRE(rows[0].refusal.empty());
+    CHECK_FALSE(rows[0].springs);
+    CHECK(rows[0].measured == rows[0].looks.size());
+    // Hung by one face, it lengthens, and at this Poisson's ratio it grows.
+    CHECK(rows[0].mean_volume > 1);
+    CHECK(rows[0].mean_volume < rows[0].report.volume.ratio * 1.5);
+    const std::string table = compare_csv(rows);
+    CHECK(table.find("mean volume %") != std::string::npos);
+    CHECK(table.find(",,,") != std::string::npos); // the three strains
+}
