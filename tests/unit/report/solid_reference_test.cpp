@@ -6,6 +6,7 @@
 #include "taut/report/cost.hpp"
 #include "taut/report/reference_dynamic.hpp"
 #include "taut/report/reference_static.hpp"
+#include "taut/report/static_energy.hpp"
 #include "taut/world/world.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -228,4 +229,90 @@ TEST_CASE("dampers of springs are not in the model of small explicit steps, and 
     const CostStudy study = run_cost(scene, Device::open("cpu:serial"), options);
     REQUIRE_FALSE(study.reference.passed.empty());
     CHECK(study.reference.passed[0].find("dampers") != std::string::npos);
+}
+
+TEST_CASE("R2 finds the golden drop of the neo-Hookean cantilever (A5)", "[reference]")
+{
+    for (const auto& [cells, drop] : {std::pair{glm::uvec3(4, 1, 1), 0.006393940413},
+                                      {glm::uvec3(8, 2, 2), 0.012903837800},
+                                      {glm::uvec3(16, 4, 4), 0.019500951364}})
+    {
+        Scene scene;
+        scene.gravity = {0, 0, -9.81};
+        Body body;
+        body.shape.kind = ShapeKind::box;
+        body.shape.box_cells = cells;
+        body.shape.box_size = {1, 0.25, 0.25};
+        body.shape.split = "six";
+        body.material = solid_material();
+        body.material.model = "neo_hookean_simple";
+        body.material.density = 1000;
+        body.material.youngs_modulus = 1e7;
+        body.material.poissons_ratio = 0.3;
+        body.pins.emplace_back().faces = {"left"};
+        scene.bodies = {body};
+        const PhysicalModel model = make_model(resolve(scene));
+        const StaticReference r = solve_static(model, model.start);
+        CAPTURE(cells.x, r.reason);
+        REQUIRE(r.converged);
+        CHECK(r.stable);
+        double sum = 0, count = 0;
+        for (std::size_t v = 0; v < model.start.size(); ++v)
+            if (model.start[v].x > 0.5 - 1e-9)
+            {
+                sum += model.start[v].z - r.positions[v].z;
+                ++count;
+            }
+        CHECK(sum / count == Approx(drop).epsilon(1e-8));
+    }
+}
+
+TEST_CASE("the Hessian of tetrahedra is the derivative of their gradient", "[reference]")
+{
+    for (const std::string model_name : {"neo_hookean", "neo_hookean_simple", "springs"})
+    {
+        Scene scene;
+        Body body;
+        body.shape.kind = ShapeKind::box;
+        body.shape.box_cells = {1, 1, 1};
+        body.material = solid_material();
+        body.material.model = model_name;
+        body.material.youngs_modulus = 10;
+        body.pins.emplace_back().vertices = {0};
+        scene.bodies = {body};
+        const PhysicalModel model = make_model(resolve(scene));
+        const reference::StaticEnergy energy(model);
+        reference::State x;
+        std::mt19937 random(5);
+        std::uniform_real_distribution<double> far(-0.3, 0.3);
+        for (const glm::dvec3& at : model.start)
+            x.push_back({at.x + far(random), at.y + far(random), at.z + far(random)});
+        const Eigen::MatrixXd lower = energy.hessian(x, reference::Curvature::exact, 0);
+        for (int column = 0; column < energy.unknowns(); ++column)
+        {
+            reference::State more = x, less = x;
+            for (std::size_t v = 0; v < x.size(); ++v)
+                for (int k = 0; k < 3; ++k)
+                    if (energy.unknown(v) >= 0 && energy.unknown(v) + k == column)
+                    {
+                        (k == 0 ? more[v].x : k == 1 ? more[v].y : more[v].z) += 1e-6L;
+                        (k == 0 ? less[v].x : k == 1 ? less[v].y : less[v].z) -= 1e-6L;
+                    }
+            const reference::State up = energy.gradient(more), down = energy.gradient(less);
+            const long double rise = (energy.value(more) - energy.value(less)) / 2e-6L;
+            for (std::size_t v = 0; v < x.size(); ++v)
+                for (int k = 0; k < 3; ++k)
+                {
+                    const int row = energy.unknown(v) + k;
+                    if (energy.unknown(v) < 0 || row < column)
+                        continue;
+                    const auto of = [k](const auto& a) { return k == 0 ? a.x : k == 1 ? a.y : a.z; };
+                    const double slope = static_cast<double>((of(up[v]) - of(down[v])) / 2e-6L);
+                    CHECK(lower(row, column) == Approx(slope).epsilon(1e-7).margin(1e-6));
+                    if (row == column)
+                        CHECK(static_cast<double>(of(energy.gradient(x)[v])) ==
+                              Approx(static_cast<double>(rise)).epsilon(1e-7).margin(1e-6));
+                }
+        }
+    }
 }
