@@ -10,6 +10,7 @@
 // Bytes per vertex: 8 + 80 read, 16 written; per corner of a triangle 8 + 64 (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
+#include "shared/cross.glsl"
 #include "shared/reduce.glsl"
 
 PARAMS
@@ -41,13 +42,6 @@ rvec3 between(uint from, uint to)
     return apart + fine;
 }
 
-/// The cross product, written out: drivers may contract their own.
-rvec3 area(rvec3 a, rvec3 b)
-{
-    PRECISE rvec3 c = rvec3(a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y);
-    return c;
-}
-
 GROUP_KERNEL(TAUT_LINEAR_GROUP)
 {
     uint own = min(group, groups - 1u);
@@ -65,7 +59,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     uint last = table[at + 3u];
     rvec3 g = rvec3(real(0));
     for (uint k = table[at + 1u]; k < last; ++k)
-        g += area(between(v, corner[2u * k]), between(v, corner[2u * k + 1u]));
+        g += exact_cross(between(v, corner[2u * k]), between(v, corner[2u * k + 1u]));
     g *= REAL(0.16666666666666666667);
     real w = position[v].w;
     rvec3 moved = (rvec3(delta[v]) - rvec3(low[v])) - (rvec3(delta[origin]) - rvec3(low[origin]));
