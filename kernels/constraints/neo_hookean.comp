@@ -111,7 +111,8 @@ void project(ELEMENT k)
     delta[t.c] = d2 + rvec4((r2 * u + h2 * v) * p2.w, real(0));
     delta[t.d] = d3 + rvec4((r3 * u + h3 * v) * p3.w, real(0));
     if (report != 0u)
-        COUNT_EVENT_IF(!usable && ((p0.w + p1.w) + p2.w) + p3.w > real(0), events, TAUT_EVENT_DEGENERATE);
+        COUNT_EVENT_IF(is_collapsed(f) && ((p0.w + p1.w) + p2.w) + p3.w > real(0), events,
+                       TAUT_EVENT_DEGENERATE);
 }
 
 #include "shared/sweep.glsl"

@@ -4,8 +4,10 @@
 //
 // Based on: Nicolaides. Deflation of Conjugate Gradients with Applications to Boundary Value Problems. SINUM
 //   1987: an error along known directions is taken out exactly (here the translations of a part).
-// Departures: once, after the solve; not in its iterations.
-// Bytes per vertex: 64 read, 12 updated (float).
+// Departures: once, after the solve; not in its iterations. With CONTACT a part of which a collider holds a
+//   vertex stays as the solve left it: the collider pushes it too.
+// Bytes per vertex: 64 read, 12 updated; contact 4 more read (float).
+//! variant contact CONTACT=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
@@ -23,6 +25,10 @@ READ(2, rvec4, position);  // w = inverse mass 1/kg, > 0
 READ(3, rvec4, delta);     // m
 READ(4, rvec4, predicted); // m
 UPDATE(5, real, x);        // the step, lifted
+#if CONTACT
+READ(6, uint, marks); // three words a vertex; not 0: stays where it is (implicit_hold.comp)
+SHARED(real, stopped, TAUT_LINEAR_GROUP);
+#endif
 
 SHARED(real, sum_x, TAUT_LINEAR_GROUP);
 SHARED(real, sum_y, TAUT_LINEAR_GROUP);
@@ -35,6 +41,9 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     CLEAR_LANES(sum_y)
     CLEAR_LANES(sum_z)
     CLEAR_LANES(mass)
+#if CONTACT
+    CLEAR_LANES(stopped)
+#endif
     uint begin = start[min(group, count)];
     uint end = start[min(group + 1u, count)];
     EACH_BEGIN(begin, end)
@@ -46,12 +55,19 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     sum_y[lane] += m * lack.y;
     sum_z[lane] += m * lack.z;
     mass[lane] += m;
+#if CONTACT
+    stopped[lane] += real(marks[3u * v]);
+#endif
     EACH_END
     SUM_LANES_2(sum_x, sum_y)
     SUM_LANES_2(sum_z, mass)
     real whole = mass[0] > real(0) ? mass[0] : real(1);
     real size = abs(sum_x[0]) + abs(sum_y[0]) + abs(sum_z[0]);
     bool finite = taut_is_finite(size / whole);
+#if CONTACT
+    SUM_LANES(stopped)
+    finite = finite && stopped[0] == real(0);
+#endif
     rvec3 shift = rvec3(sum_x[0] / whole, sum_y[0] / whole, sum_z[0] / whole);
     shift = finite ? shift : rvec3(real(0));
     EACH_BEGIN(begin, end)

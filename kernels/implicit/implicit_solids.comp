@@ -18,7 +18,8 @@
 
 PARAMS
 {
-    uint count; // tetrahedra
+    uint count;  // tetrahedra
+    uint report; // 1: count collapsed ones
     float scale; // as in implicit_force
 };
 
@@ -27,6 +28,7 @@ READ(1, rvec4, delta);    // m
 READ(2, SolidTetrahedron, solid);
 READ_ONE(3, StepValues, step_values);
 WRITE(4, real, state);
+COUNTERS(5, events);
 
 rvec3 between(uint from, uint to)
 {
@@ -71,4 +73,6 @@ KERNEL(count)
     put(at + 45u, k.r0);
     put(at + 48u, k.r1);
     put(at + 51u, k.r2);
+    if (report != 0u)
+        COUNT_EVENT_IF(is_collapsed(f), events, TAUT_EVENT_DEGENERATE);
 }

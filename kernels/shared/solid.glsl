@@ -25,6 +25,17 @@ Deformation deformation_of(SolidTetrahedron t, rvec3 e1, rvec3 e2, rvec3 e3)
     return d;
 }
 
+/// Collapsed to a point, or to a line as far as a float can tell: what force is left keeps it there, and the
+/// element counts as degenerate.
+rbool is_collapsed(Deformation d)
+{
+    rvec3 c0 = cross(d.f1, d.f2);
+    rvec3 c1 = cross(d.f2, d.f0);
+    rvec3 c2 = cross(d.f0, d.f1);
+    real area = (dot(c0, c0) + dot(c1, c1)) + dot(c2, c2); // squares of the products of two stretches, added
+    return d.square < REAL(1e-6) || area < (REAL(1e-13) * d.square) * d.square;
+}
+
 /// m0, m1, m2: columns of a matrix M; the gradients of the corners b, c, d are the columns of M B^T.
 rvec3 gradient_b(SolidTetrahedron t, rvec3 m0, rvec3 m1, rvec3 m2)
 {

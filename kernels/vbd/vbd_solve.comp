@@ -234,11 +234,10 @@ void solve(uint k)
         even += mu * max(shape.share, real(0.5625)) * ((t.b00 * t.b00 + t.b01 * t.b01) + t.b02 * t.b02);
         real beyond = shape.square + real(1);
         rvec3 curved = pulled * ((real(2) * mu) * (t.log_term / (beyond * beyond)));
-        // Collapsed to a point: next to no force leads out of it.
-        bool lost = t.mu > real(0) && shape.square < REAL(1e-6);
         if (report != 0u)
         {
-            if (lost && leads(v, v0, p0.w) && leads(v, v2, position[v2].w) && leads(v, v3, position[v3].w))
+            if (t.mu > real(0) && is_collapsed(shape) && leads(v, v0, p0.w) &&
+                leads(v, v2, position[v2].w) && leads(v, v3, position[v3].w))
                 COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
         }
         diagonal += pulled * curved;

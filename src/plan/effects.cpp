@@ -380,4 +380,16 @@ constexpr Effect kEffects[] = {
 
 std::span<const Effect> effect_table() { return kEffects; }
 
+void record_colliders(PlanBuilder& b, const Moment& moment)
+{
+    const auto record = [&](std::uint32_t colliders, auto&& pass) {
+        if (colliders != kNoBuffer)
+            pass(b, moment);
+    };
+    record(b.plan.planes, record_plane);
+    record(b.plan.spheres, record_sphere);
+    record(b.plan.capsules, record_capsule);
+    record(b.plan.cuboids, record_cuboid);
+}
+
 } // namespace taut

@@ -8,30 +8,19 @@
 //   Martin, Thomaszewski, Grinspun, Gross. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2.
 // Departures: unknowns are displacements; the solver starts at the best share of the inertial guess, so that
 //   free fall is exact with any number of iterations; what nothing holds keeps its momentum; vertices without
-//   elements are left out of the system;
-//   matrix and right-hand side are scaled by powers of two, against underflow in float.
+//   elements are left out of the system; light vertices that colliders push after a Newton step stand where
+//   they are put in the further ones of the substep; matrix and right-hand side are scaled by powers of two,
+//   against underflow in float.
 
 #include "taut/plan/implicit_euler.hpp"
 
 #include "taut/plan/implicit_product.hpp"
+#include "taut/plan/implicit_system.hpp"
 #include "taut/plan/implicit_table.hpp"
 #include "taut/plan/records.hpp"
 #include "taut/plan/solid_constraints.hpp"
-#include "taut/plan/solve.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
-
-#include "taut/kernels/dot.hpp"
-#include "taut/kernels/implicit_force.hpp"
-#include "taut/kernels/implicit_guess.hpp"
-#include "taut/kernels/implicit_hinges.hpp"
-#include "taut/kernels/implicit_matrix.hpp"
-#include "taut/kernels/implicit_momentum.hpp"
-#include "taut/kernels/implicit_solid_blocks.hpp"
-#include "taut/kernels/implicit_solids.hpp"
-#include "taut/kernels/implicit_start.hpp"
-#include "taut/kernels/implicit_trial.hpp"
-#include "taut/kernels/implicit_update.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -41,30 +30,9 @@
 #include <cmath>
 
 namespace taut {
+namespace {
 
 constexpr std::string_view kName = "implicit_euler";
-
-/// Everything that the passes of a Newton step bind. Kept by the builder until the plan is made.
-struct ImplicitEuler
-{
-    std::uint32_t springs = kNoBuffer, spring_table = kNoBuffer, spring_count = 0;
-    std::uint32_t hinges = kNoBuffer, hinge_table = kNoBuffer, hinge_count = 0;
-    std::uint32_t solids = kNoBuffer, solid_table = kNoBuffer, solid_state = kNoBuffer, solid_count = 0;
-    std::uint32_t held = kNoBuffer, values = kNoBuffer;
-    std::uint32_t part_start = kNoBuffer, part_members = kNoBuffer, part_count = 0;
-    bool damped = false;
-    float scale = 1; ///< of mass: power of two
-    float lift = 1;  ///< of displacements: power of two
-    std::optional<PlanSolve> solve;
-    BufferPtr product, products, curvatures; ///< of the inertial guess
-    BufferPtr trials;                        ///< partial sums of the line search
-    std::uint32_t parts() const
-    {
-        return 1u + (spring_count > 0 ? 1u : 0u) + (hinge_count > 0 ? 1u : 0u) + (solid_count > 0 ? 1u : 0u);
-    }
-};
-
-namespace {
 
 struct Elements
 {
@@ -122,6 +90,25 @@ void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std
                                           " are safe on this device; use the device cpu");
 }
 
+/// Those of less than a fiftieth of what a vertex of their body weighs in the mean. (A lattice's corner, of
+/// one tetrahedron where others have 24, is heavier than that.)
+std::vector<std::uint32_t> light_vertices(const PlanBuilder& b)
+{
+    std::vector<std::uint32_t> out(b.inverse_mass.size(), 0u);
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        const auto count = static_cast<std::uint32_t>(b.scene.bodies[body].mesh.positions.size());
+        double sum = 0, moving = 0;
+        for (std::uint32_t v = 0; v < count; ++v)
+            if (const double w = b.inverse_mass[b.vertex(body, v)]; w > 0)
+                sum += 1 / w, moving += 1;
+        for (std::uint32_t v = 0; v < count; ++v)
+            if (const double w = b.inverse_mass[b.vertex(body, v)]; w * sum > 50 * moving)
+                out[b.vertex(body, v)] = 1;
+    }
+    return out;
+}
+
 /// Matrix (stored, or of its diagonal blocks alone), tables, preconditioner, solver.
 void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, const std::vector<bool>& solved)
 {
@@ -148,9 +135,19 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
     for (const bool moves : solved)
         marks.insert(marks.end(), 3, moves ? 0u : 1u);
     m.held = b.add_buffer<std::uint32_t>(kName, "not solved for", marks);
+    m.marks = m.held;
+    const std::vector<std::uint32_t> light = light_vertices(b);
+    const bool any = std::find(light.begin(), light.end(), 1u) != light.end();
+    if (any && !b.scene.colliders.empty() && b.plan.iterations > 1)
+    {
+        m.light = b.add_buffer<std::uint32_t>(kName, "light vertices", light);
+        m.marks = b.add_buffer<std::uint32_t>(kName, "stays in this Newton step", marks);
+        m.before = b.add_buffer(kName, "displacement before colliders",
+                                std::uint64_t{b.plan.vertex_count} * 4 * b.real_size());
+    }
     const auto kind = linear::Preconditioner::block_jacobi;
     const auto inverse =
-        std::make_shared<linear::DeviceInverse>(b.paper(), matrix, pattern, kind, b.on_paper(m.held));
+        std::make_shared<linear::DeviceInverse>(b.paper(), matrix, pattern, kind, b.on_paper(m.marks));
     std::shared_ptr<const linear::Operator> system = matrix;
     if (!assembled)
     {
@@ -195,119 +192,6 @@ void add_vectors(PlanBuilder& b, ImplicitEuler& m)
     m.curvatures = make("curvatures of the guess", groups);
     if (b.scene.method.line_search > 0)
         m.trials = make("trials", (b.scene.method.line_search + 1ull) * m.parts() * groups);
-}
-
-void record_force(PlanBuilder& b, const ImplicitEuler& m)
-{
-    const std::uint32_t n = b.plan.vertex_count;
-    std::vector<Use> uses = {{b.plan.position},   {b.plan.delta},          {b.plan.predicted}, {m.springs},
-                             {m.spring_table, 2}, {b.plan.step_values, 0}, {m.solve->b(), 3}};
-    if (m.damped)
-        uses.push_back({b.plan.low});
-    b.dispatch(kName, "implicit_force", m.damped ? "damped" : "", uses,
-               kernels::implicit_force::Params{n, m.scale, m.lift}, n);
-}
-
-void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
-{
-    const std::uint32_t n = b.plan.vertex_count;
-    const std::uint32_t report = moment.last ? 1 : 0;
-    const Use springs[] = {{b.plan.position},       {b.plan.delta}, {m.springs},       {m.spring_table, 2},
-                           {b.plan.step_values, 0}, {m.values, 9},  {b.plan.events, 0}};
-    b.dispatch(kName, "implicit_matrix", "", springs, kernels::implicit_matrix::Params{n, report, m.scale},
-               n);
-    if (m.hinge_count > 0)
-    {
-        const Use hinges[] = {{b.plan.position},       {b.plan.delta},    {m.hinges},    {m.hinge_table, 2},
-                              {b.plan.step_values, 0}, {m.solve->b(), 3}, {m.values, 9}, {b.plan.events, 0}};
-        b.dispatch(kName, "implicit_hinges", "", hinges,
-                   kernels::implicit_hinges::Params{n, report, m.scale, m.lift}, n);
-    }
-    if (m.solid_count == 0)
-        return;
-    const Use state[] = {{b.plan.position, 4}, {b.plan.delta, 4},
-                         {m.solids},           {b.plan.step_values, 0},
-                         {m.solid_state, TAUT_SOLID_STATE}};
-    b.dispatch(kName, "implicit_solids", "", state,
-               kernels::implicit_solids::Params{m.solid_count, m.scale}, m.solid_count);
-    const Use blocks[] = {{m.solids, 4}, {m.solid_state, 4 * TAUT_SOLID_STATE},
-                          {m.solid_table, 2}, {m.solve->b(), 3}, {m.values, 9}};
-    b.dispatch(kName, "implicit_solid_blocks", "", blocks,
-               kernels::implicit_solid_blocks::Params{n, m.lift}, n);
-}
-
-/// The solver's start: the inertial guess, as far as it helps.
-void record_guess(PlanBuilder& b, const ImplicitEuler& m)
-{
-    b.record(kName, [&](Recorder& recorder) {
-        const linear::Gate always{m.solve->groups(), nullptr, 0};
-        const linear::Grid rows = linear::make_grid(3 * b.plan.vertex_count, always.groups);
-        const BufferPtr x = b.on_paper(m.solve->x());
-        m.solve->system().record_product(recorder, always, x, m.product, m.curvatures);
-        linear::launch(recorder, always, kernels::dot::info("", b.plan.precision),
-                       {x, b.on_paper(m.solve->b()), m.products},
-                       kernels::dot::Params{rows.count, rows.chunk, always.groups}, kName);
-        linear::launch(recorder, always, kernels::implicit_guess::info("", b.plan.precision),
-                       {m.products, m.curvatures, x},
-                       kernels::implicit_guess::Params{rows.count, rows.chunk, always.groups}, kName);
-    });
-}
-
-/// What nothing holds gets the momentum that it must have.
-void record_momentum(PlanBuilder& b, const ImplicitEuler& m)
-{
-    if (m.part_count == 0)
-        return;
-    const Use uses[] = {{m.part_start}, {m.part_members},   {b.plan.position},
-                        {b.plan.delta}, {b.plan.predicted}, {m.solve->x(), 3}};
-    b.dispatch(kName, "implicit_momentum", "", uses, kernels::implicit_momentum::Params{m.part_count, m.lift},
-               m.part_count, b.plan.vertex_count);
-}
-
-void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
-{
-    const linear::Gate always{m.solve->groups(), nullptr, 0};
-    const std::uint32_t trials = b.scene.method.line_search + 1;
-    std::uint32_t part = 0;
-    const auto add = [&](std::string_view variant, std::uint32_t count, std::vector<Recorder::Binding> more) {
-        const linear::Grid grid = linear::make_grid(count, always.groups);
-        std::vector<Recorder::Binding> bindings = {b.on_paper(b.plan.position), b.on_paper(b.plan.delta),
-                                                   b.on_paper(m.solve->x()), m.trials};
-        bindings.insert(bindings.end(), more.begin(), more.end());
-        linear::launch(recorder, always, kernels::implicit_trial::info(variant, b.plan.precision),
-                       std::move(bindings),
-                       kernels::implicit_trial::Params{grid.count, grid.chunk, always.groups, trials, part++,
-                                                       m.parts(), m.scale, m.lift},
-                       kName);
-    };
-    const BufferPtr step_values = b.on_paper(b.plan.step_values);
-    add("", b.plan.vertex_count, {b.on_paper(b.plan.predicted)});
-    if (m.spring_count > 0)
-        add("springs", m.spring_count, {b.on_paper(m.springs), step_values, b.on_paper(b.plan.low)});
-    if (m.hinge_count > 0)
-        add("hinges", m.hinge_count, {b.on_paper(m.hinges), step_values});
-    if (m.solid_count > 0)
-        add("solids", m.solid_count, {b.on_paper(m.solids), step_values});
-}
-
-void record_update(PlanBuilder& b, const ImplicitEuler& m)
-{
-    b.record(kName, [&](Recorder& recorder) {
-        const linear::Gate always{m.solve->groups(), nullptr, 0};
-        const linear::Grid grid = linear::make_grid(b.plan.vertex_count, always.groups);
-        std::vector<Recorder::Binding> bindings = {b.on_paper(b.plan.delta), b.on_paper(m.solve->x())};
-        if (m.trials)
-        {
-            record_trials(b, m, recorder);
-            bindings.push_back(m.trials);
-        }
-        linear::launch(recorder, always,
-                       kernels::implicit_update::info(m.trials ? "search" : "", b.plan.precision),
-                       std::move(bindings),
-                       kernels::implicit_update::Params{grid.count, grid.chunk, always.groups,
-                                                        b.scene.method.line_search + 1, m.parts(), m.lift},
-                       kName);
-    });
 }
 
 } // namespace
@@ -367,30 +251,6 @@ void prepare_implicit_euler(PlanBuilder& b)
         return;
     m.part_start = b.add_buffer<std::uint32_t>(kName, "free parts, start", parts.start);
     m.part_members = b.add_buffer<std::uint32_t>(kName, "free parts", parts.member);
-}
-
-void record_implicit_start(PlanBuilder& b, const Moment&)
-{
-    if (!b.implicit_euler)
-        return;
-    const ImplicitEuler& m = *b.implicit_euler;
-    const std::uint32_t n = b.plan.vertex_count;
-    const Use uses[] = {{b.plan.low}, {m.held, 3}, {b.plan.predicted}, {b.plan.delta}, {m.solve->x(), 3}};
-    b.dispatch(kName, "implicit_start", "", uses, kernels::implicit_start::Params{n, m.lift}, n);
-}
-
-void record_implicit_step(PlanBuilder& b, const Moment& moment)
-{
-    if (!b.implicit_euler)
-        return;
-    ImplicitEuler& m = *b.implicit_euler;
-    record_force(b, m);
-    record_matrix(b, m, moment);
-    if (moment.iteration == 0)
-        record_guess(b, m);
-    m.solve->record(b);
-    record_momentum(b, m);
-    record_update(b, m);
 }
 
 } // namespace taut

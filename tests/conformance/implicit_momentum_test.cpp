@@ -14,7 +14,8 @@ TEMPLATE_TEST_CASE("implicit_momentum shifts every free part to where its centre
     std::uint32_t count = 9; // vertices of no part
     for (const std::uint32_t n : sizes)
         count += n;
-    CAPTURE(size);
+    const bool contact = GENERATE(false, true); // a vertex of the first and of the third part is stopped
+    CAPTURE(size, contact);
     Random random(990 + size);
     auto position = random.vec4s<Real>(count, 1, 0.1, 30);
     const auto delta = random.vec4s<Real>(count, 1e-2, 0, 1),
@@ -31,12 +32,19 @@ TEMPLATE_TEST_CASE("implicit_momentum shifts every free part to where its centre
     c.in = {{"position", bytes_of(position)},   {"delta", bytes_of(delta)},
             {"predicted", bytes_of(predicted)}, {"x", bytes_of(x)},
             {"start", bytes_of(start)},         {"member", bytes_of(member)}};
-    c.launches = {make_launch(kernels::implicit_momentum::info("", c.precision),
+    std::vector<std::uint32_t> marks(3 * count, 0u);
+    for (const std::uint32_t k : {start[1] - 1, start[2] + 2})
+        std::fill_n(marks.begin() + 3 * member[k], 3, 1u);
+    if (contact)
+        c.in["marks"] = bytes_of(marks);
+    c.launches = {make_launch(kernels::implicit_momentum::info(contact ? "contact" : "", c.precision),
                               kernels::implicit_momentum::Params{parts, float(kLift)}, parts + 1)};
     Field& field = c.expected["x"];
     add_unchanged(field, x);
     for (std::uint32_t p = 0; p < parts; ++p)
     {
+        if (contact && p % 2 == 0)
+            continue;
         std::array<long double, 3> lack{};
         double whole = 0, terms = 0;
         for (std::uint32_t k = start[p]; k < start[p + 1]; ++k)

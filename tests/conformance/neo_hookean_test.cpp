@@ -61,13 +61,12 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
             s.multiplier[4 * k + j] = j < 2  ? before[static_cast<int>(j)]
                                       : keep ? s.multiplier[4 * k + j]
                                              : 0;
-    if (!(square > 1e-12))
-    {
-        s.events[TAUT_EVENT_DEGENERATE] += s.report && masses > 0 ? 1 : 0;
-        return;
-    }
     Eigen::Matrix3d cofactor;
     cofactor << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
+    const bool collapsed = square < 1e-6 || cofactor.squaredNorm() < 1e-13 * square * square;
+    s.events[TAUT_EVENT_DEGENERATE] += s.report && masses > 0 && collapsed ? 1 : 0;
+    if (!(square > 1e-12))
+        return;
     Eigen::Matrix<double, 12, 2> j;
     j << gradient(f / norm, b), gradient(cofactor, b);
     Gradient w;
@@ -147,8 +146,8 @@ void plant(Input<Real>& in, std::uint32_t colour)
     line[3] = {3, 0, 0};
     place(in, k, flat, {1, 1, 1, 1});
     place(in, k + 1, inverted, {1, 2, 3, 4});
-    place(in, k + 2, line, {1, 1, 1, 1});
-    place(in, k + 3, TetrahedronCorners{}, {1, 1, 1, 1}); // a point: skipped, counted
+    place(in, k + 2, line, {1, 1, 1, 1}); // counted, and moved along itself
+    place(in, k + 3, TetrahedronCorners{}, {1, 1, 1, 1}); // a point: counted, skipped
     place(in, k + 4, TetrahedronCorners{}, {0, 0, 0, 0}); // held besides: not counted
     place(in, k + 5, upright, {0, 0, 0, 1});
 }

@@ -215,7 +215,7 @@ void add_standing(std::vector<MapCase>& out)
                    s,
                    300,
                    stood(1, 0.05),
-                   kPositionBased | only(MethodKind::vbd) | only(MethodKind::implicit_euler) | kLattice,
+                   kPositionBased | only(MethodKind::vbd) | kLattice,
                    {},
                    -1});
 }

@@ -77,6 +77,25 @@ TEST_CASE("B09 to B15: with one iteration a substep they untangle too; x 10 says
     });
 }
 
+TEST_CASE("B11, B12: exactly on a line or in a point they stay, finite, and say so [hard]")
+{
+    on_every_device([](const auto& device) {
+        for (const Start& c : kExactStarts)
+            for (const std::uint32_t substeps : {1u, 20u})
+            {
+                INFO(c.name << ", substeps " << substeps);
+                const Scene scene = started(c, 0.3, substeps, 20 / substeps);
+                const Outcome out = settle(scene, device, steps_for(*device, 120, 3));
+                CHECK(out.reads);
+                CHECK(to_string(out.report.status) == "completed");
+                CHECK(out.highest <= 1 + 1e-6);
+                REQUIRE(out.report.warnings.count("degenerate") == 1);
+                CHECK(out.report.warnings.at("degenerate") >= 320); // every tetrahedron, once a step
+                CHECK(out.report.volume.inverted == 320);
+            }
+    });
+}
+
 TEST_CASE("A16: a stiff cube that hung for 2 s and is let go falls as everything does [hard]")
 {
     on_every_device([](const auto& device) {

@@ -121,7 +121,8 @@ void add_hinge(BlockNet<Real>& net, Random& random, std::uint32_t v, bool flat)
     net.corner.push_back(hinge);
 }
 
-/// A tetrahedron of which v is the second corner; flat, all in one point, or inverted ones among them.
+/// A tetrahedron of which v is the second corner; flat, all in one point or on a line, or inverted ones among
+/// them.
 template <typename Real>
 void add_tetrahedron(BlockNet<Real>& net, Random& random, std::uint32_t v, Solids solids)
 {
@@ -144,6 +145,11 @@ void add_tetrahedron(BlockNet<Real>& net, Random& random, std::uint32_t v, Solid
     {
         net.position[vertex[k]] = net.position[v];
         net.delta[vertex[k]] = net.delta[v];
+    }
+    for (std::uint32_t k = 0; k < 4 && planted == 3; ++k)
+    {
+        net.position[vertex[k]].y = net.position[v].y, net.position[vertex[k]].z = net.position[v].z;
+        net.delta[vertex[k]].y = net.delta[v].y, net.delta[vertex[k]].z = net.delta[v].z;
     }
     const double modulus = std::pow(10.0, random.uniform(0, 6)), log = random.below(2);
     BlockTetrahedron<Real> t;
@@ -343,7 +349,8 @@ struct Block
         bool first = true;
         for (const std::uint32_t other : {t.a, t.c, t.d})
             first = first && (t.b < other || net.held(other));
-        degenerate += first && stretched.squaredNorm() < 1e-6 ? 1 : 0;
+        const double square = stretched.squaredNorm();
+        degenerate += first && (square < 1e-6 || cofactor.squaredNorm() < 1e-13 * square * square) ? 1 : 0;
         const double turned = stretched.norm() + b.norm() * rounded;
         f_scale += mu * own.norm() * turned * (1 + stretched.norm()) +
                    lambda * (area / v * std::abs(value) + g.norm() * (space / v + double(t.rest)));

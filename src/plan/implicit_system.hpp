@@ -1,0 +1,34 @@
+#pragma once
+// What implicit Euler prepares (implicit_euler.cpp) and its passes bind (implicit_step.cpp). Internal to
+// src/plan.
+
+#include "taut/plan/builder.hpp"
+#include "taut/plan/solve.hpp"
+
+#include <optional>
+
+namespace taut {
+
+/// Everything that the passes of a Newton step bind. Kept by the builder until the plan is made.
+struct ImplicitEuler
+{
+    std::uint32_t springs = kNoBuffer, spring_table = kNoBuffer, spring_count = 0;
+    std::uint32_t hinges = kNoBuffer, hinge_table = kNoBuffer, hinge_count = 0;
+    std::uint32_t solids = kNoBuffer, solid_table = kNoBuffer, solid_state = kNoBuffer, solid_count = 0;
+    std::uint32_t held = kNoBuffer, values = kNoBuffer;
+    std::uint32_t marks = kNoBuffer; ///< as held, in this Newton step
+    std::uint32_t light = kNoBuffer, before = kNoBuffer; ///< what colliders may hold: implicit_hold.comp
+    std::uint32_t part_start = kNoBuffer, part_members = kNoBuffer, part_count = 0;
+    bool damped = false;
+    float scale = 1; ///< of mass: power of two
+    float lift = 1;  ///< of displacements: power of two
+    std::optional<PlanSolve> solve;
+    BufferPtr product, products, curvatures; ///< of the inertial guess
+    BufferPtr trials;                        ///< partial sums of the line search
+    std::uint32_t parts() const
+    {
+        return 1u + (spring_count > 0 ? 1u : 0u) + (hinge_count > 0 ? 1u : 0u) + (solid_count > 0 ? 1u : 0u);
+    }
+};
+
+} // namespace taut
