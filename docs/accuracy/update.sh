@@ -66,6 +66,7 @@ cloth_second()
 solids_first()
 {
     study beam examples/accuracy/beam.json --methods all --rest-seconds 8 $common
+    study beam_16 examples/accuracy/beam_16.json --methods all --rest-seconds 8 $common
     study ratio_mass_solids examples/accuracy/beam.json --methods all --ratio mass --ratios 1,10,100,1000 \
         --substeps 16 --rest-seconds 8 $common
 }
