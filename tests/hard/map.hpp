@@ -26,14 +26,29 @@ struct Journey
     double volume = 0;         ///< largest |V/V0 - 1|
 };
 
+/// What a criterion says: nothing, or in words what it misses. A cell that may report still fails beyond
+/// `worst`, and for words without a number.
+struct Missed
+{
+    Missed() = default;
+    Missed(std::string text, double found = kInfinity, double most = 0)
+        : words(std::move(text)),
+          value(found),
+          worst(most)
+    {}
+    Missed(const char* text) : Missed(std::string(text)) {}
+    std::string words;
+    double value = kInfinity, worst = 0;
+};
+
 struct MapCase
 {
     std::string id, what;
     Scene scene;
     int steps = 60;
     /// Empty: as it should be. Else what is not, with its number.
-    std::function<std::string(const Journey&)> judge;
-    /// Methods that may miss the criterion when they stay finite and say so (methods.md, "reported").
+    std::function<Missed(const Journey&)> judge;
+    /// Methods that may miss the criterion, up to Missed::worst, and say so (methods.md, "reported").
     MethodSet may_report = 0;
     /// Called before step k; for what changes on the way.
     std::function<void(World&, int)> before_step = {};
@@ -41,11 +56,11 @@ struct MapCase
     int short_steps = 0;
     /// In place of one world that is run and judged, for what compares several: the scene with its method,
     /// the steps that there are. Says what judge says; on every executor, with kStepsElsewhere.
-    std::function<std::string(const Scene&, const std::shared_ptr<Device>&, int)> check = {};
+    std::function<Missed(const Scene&, const std::shared_ptr<Device>&, int)> check = {};
 };
 
 /// Of the executors that do not run the cases whole: of a run that is judged by its end, and of `check`.
-inline constexpr int kStepsSound = 3, kStepsElsewhere = 5;
+inline constexpr int kStepsSound = 10, kStepsElsewhere = 5, kStepsShort = 3; // the last: in a short run
 
 /// The cases; those on real meshes only where the data is.
 std::vector<MapCase> map_cases();

@@ -38,10 +38,10 @@ void add_stiffness(std::vector<MapCase>& out)
                    300, [](const Journey& j) { return above("stretch", j.last.max_stretch, 0.05); }});
     out.push_back({"A06", "rope, last link 1,800 times heavier", rope(1800), 300,
                    [](const Journey& j) { return above("stretch", j.last.max_stretch, 0.1); },
-                   kPositionBased | only(MethodKind::vbd)});
+                   kPositionBased});
     out.push_back({"A08", "rope, bob 1e5 times heavier", rope(1e5), 120,
-                   [](const Journey& j) { return above("stretch", j.last.max_stretch, 5); },
-                   kPositionBased | only(MethodKind::vbd)});
+                   [](const Journey& j) { return above("stretch", j.last.max_stretch, 5, 100); },
+                   kPositionBased});
     for (const double step : {0.002, 0.1, 1.0})
         out.push_back({"A09", "step of " + shown(step) + " s",
                        [&] {
@@ -51,9 +51,12 @@ void add_stiffness(std::vector<MapCase>& out)
                        }(),
                        step < 0.01 ? 200 : 60,
                        [](const Journey& j) {
-                           return first_of(no_energy_gained(j), above("stretch", j.last.max_stretch, 0.5));
+                           // Cloth of one kilogram that steps of a second throw about by some metres a
+                           // substep.
+                           return first_of(no_energy_gained(j, j.world.scene().timestep > 0.5 ? 1000 : 1),
+                                           above("stretch", j.last.max_stretch, 0.5));
                        },
-                       step > 0.01 ? kPositionBased | kLinearised | only(MethodKind::vbd) : 0});
+                       step > 0.01 ? kPositionBased | only(MethodKind::vbd) : 0});
     out.push_back({"A15", "masses of 1e12, 1 and 1e-12 kg in one body",
                    [] {
                        Scene s = free_cloth(2);
@@ -76,6 +79,10 @@ void add_stiffness(std::vector<MapCase>& out)
                    }});
 }
 
+/// The stable step is that of the flat cloth. Hinges of thin triangles are stiffer: explicit forces gain
+/// energy there, and none with 1,000 substeps.
+Missed crumpled(const Journey& j) { return no_energy_gained(j, 100); }
+
 void add_geometry(std::vector<MapCase>& out)
 {
     out.push_back({"B01", "spring of rest length 0",
@@ -86,7 +93,7 @@ void add_geometry(std::vector<MapCase>& out)
                        s.damping = 1;
                        return s;
                    }(),
-                   120, [](const Journey& j) { return no_energy_gained(j); }});
+                   120, gains_no_energy});
     for (const double apart : {0.0, 1e-20, 1e-30})
         out.push_back({apart == 0 ? "B02" : "B03", "spring of 0.1 m, ends " + shown(apart) + " m apart",
                        [&] {
@@ -107,26 +114,31 @@ void add_geometry(std::vector<MapCase>& out)
                        body.mesh.grid_columns = body.mesh.grid_rows = 0;
                        return s;
                    }(),
-                   60, no_energy_gained});
-    out.push_back({"B10", "cloth flattened onto its middle line",
+                   60, gains_no_energy});
+    out.push_back({"B10",
+                   "cloth flattened onto its middle line",
                    placed([](const glm::dvec3& x, conformance::Random& r) {
                        return glm::dvec3(1e-4 * r.uniform(-1, 1), x.y, 1e-4 * r.uniform(-1, 1));
                    }),
-                   300, no_energy_gained});
+                   300,
+                   gains_no_energy,
+                   0,
+                   {},
+                   100});
     out.push_back({"B12", "cloth in a point, 1e-6 m of noise",
                    placed([](const glm::dvec3&, conformance::Random& r) {
                        return 1e-6 * glm::dvec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
                    }),
-                   300, no_energy_gained});
+                   300, gains_no_energy});
     out.push_back({"B13", "cloth scrambled in a cube of 1 m",
                    placed([](const glm::dvec3&, conformance::Random& r) {
                        return glm::dvec3(r.uniform(-0.5, 0.5), r.uniform(-0.5, 0.5), r.uniform(-0.5, 0.5));
                    }),
-                   300, no_energy_gained});
+                   300, crumpled, only(MethodKind::mass_spring)});
     for (const double scale : {10.0, 0.01})
         out.push_back({"B14", "cloth scaled by " + shown(scale),
                        placed([&](const glm::dvec3& x, conformance::Random&) { return scale * x; }), 300,
-                       no_energy_gained});
+                       crumpled, only(MethodKind::mass_spring)});
     out.push_back({"B16", "flat cloth at rest, no gravity", free_cloth(6), 300, [](const Journey& j) {
                        return above("movement", largest_distance(j.start, j.world.positions()), 1e-6);
                    }});
@@ -134,7 +146,7 @@ void add_geometry(std::vector<MapCase>& out)
         {"B17", "hinges folded onto each other", placed([](const glm::dvec3& x, conformance::Random&) {
              return glm::dvec3(-std::abs(x.x), x.y, x.z);
          }),
-         300, no_energy_gained,
+         300, [](const Journey& j) { return no_energy_gained(j, 2e4); },
          only(MethodKind::pbd)}); // its hinges are as stiff as a sweep allows, whatever the material
     out.push_back({"B18", "hanging cloth 10 km from the origin",
                    [] {
@@ -145,7 +157,7 @@ void add_geometry(std::vector<MapCase>& out)
                    }(),
                    120,
                    [](const Journey& j) {
-                       return first_of(no_energy_gained(j), above("stretch", j.last.max_stretch, 0.1));
+                       return first_of(gains_no_energy(j), above("stretch", j.last.max_stretch, 0.1));
                    }});
 }
 
@@ -175,7 +187,7 @@ void add_topology(std::vector<MapCase>& out)
         s.damping = 0.5;
         return s;
     };
-    out.push_back({"C01", "three triangles on one edge", fan(5, false), 120, no_energy_gained});
+    out.push_back({"C01", "three triangles on one edge", fan(5, false), 120, gains_no_energy});
     out.push_back({"C02", "fan of 300 triangles at one vertex", fan(300, true), 60, calm});
     out.push_back({"C05", "one free particle",
                    [] {
@@ -209,7 +221,7 @@ void add_topology(std::vector<MapCase>& out)
                    [](const Journey& j) {
                        return above("error of the stretch", std::abs(j.last.max_stretch - 9.81 / 200), 2e-3);
                    },
-                   kPositionBased | only(MethodKind::acad)});
+                   only(MethodKind::pbd)});
     out.push_back({"C09", "chain of 2,000 links",
                    [] {
                        Scene s = test::chain(2000, 1e5, 0.001, 20);

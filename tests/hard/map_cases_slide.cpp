@@ -87,14 +87,14 @@ void add_slope(std::vector<MapCase>& out, bool solid, double mu)
     s.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope), 0};
     s.colliders = {flat_floor(0, mu)};
     const int wanted = 120;
-    const auto check = [=](const Scene& scene, const std::shared_ptr<Device>& device,
-                           int steps) -> std::string {
+    const auto check = [=](const Scene& scene, const std::shared_ptr<Device>& device, int steps) -> Missed {
         const Slide end = slid(scene, device, steps, solid);
         if (steps < wanted)
             return "sound so far";
         if (mu >= 0.5)
             return above("creep, m/s", std::abs(end.speed), 1e-3);
-        return above("error of the acceleration", std::abs(end.speed / (0.087743307437 * end.time) - 1), 0.2);
+        return above("error of the acceleration", std::abs(end.speed / (0.087743307437 * end.time) - 1), 0.2,
+                     1);
     };
     out.push_back({"E06",
                    (solid ? "solid" : "cloth") + std::string(" on a slope of tan 0.5, friction ") + shown(mu),
@@ -120,7 +120,7 @@ void add_friction(std::vector<MapCase>& out, bool solid)
         const double exact = 100 / (2 * mu * 9.81);
         const int wanted = int(60 * (10 / (mu * 9.81) + 0.5));
         const auto check = [=](const Scene& scene, const std::shared_ptr<Device>& device,
-                               int steps) -> std::string {
+                               int steps) -> Missed {
             const Slide end = slid(scene, device, steps, solid);
             return steps < wanted ? "sound so far"
                                   : above("error of the way / way", std::abs(end.way / exact - 1),

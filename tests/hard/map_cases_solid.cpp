@@ -24,10 +24,13 @@ glm::dvec3 noise(conformance::Random& r, double size)
     return size * glm::dvec3(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1));
 }
 
-std::string recovered(const Journey& j)
+Missed recovered(const Journey& j)
 {
-    return first_of(no_energy_gained(j), above("inverted tetrahedra", double(j.last.volume.inverted), 0),
-                    above("volume lost or gained", std::abs(j.last.volume.ratio - 1), 0.05));
+    // pbd throws what all contradicts itself with up to a hundred times the energy that springs had; how many
+    // lie inside out is bounded by how many there are.
+    return first_of(no_energy_gained(j, 500),
+                    above("inverted tetrahedra", double(j.last.volume.inverted), 0, kInfinity),
+                    above("volume lost or gained", std::abs(j.last.volume.ratio - 1), 0.05, 1));
 }
 
 glm::dvec3 twisted(const glm::dvec3& x, double degrees)
@@ -41,40 +44,45 @@ void add_starts(std::vector<MapCase>& out)
 {
     using Random = conformance::Random;
     const auto add = [&](const char* id, const char* what, auto place, MethodSet may, double ratio = 0.3) {
-        out.push_back({id, what, placed(place, ratio), 300, recovered, may | kLattice});
+        out.push_back({id, what, placed(place, ratio), 300, recovered, may});
     };
     add(
         "B08", "solid, one vertex pushed through its neighbours",
         [](const glm::dvec3& x, Random&) { return glm::length(x) < 1e-9 ? glm::dvec3(0.45, 0.1, 0) : x; }, 0);
     add(
         "B09", "solid mirrored", [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, -x.z); },
-        only(MethodKind::vbd) | only(MethodKind::implicit_euler));
+        kForces);
     add(
         "B10", "solid flattened to a plane",
-        [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, 0.5); }, 0);
+        [](const glm::dvec3& x, Random&) { return glm::dvec3(x.x, x.y, 0.5); }, kForces);
     add(
         "B11", "solid in a line, 1e-6 m of noise",
-        [](const glm::dvec3& x, Random& r) { return glm::dvec3(x.x, 0, 0) + noise(r, 1e-6); }, kAllMethods);
+        [](const glm::dvec3& x, Random& r) { return glm::dvec3(x.x, 0, 0) + noise(r, 1e-6); },
+        kForces | only(MethodKind::pbd));
     add(
         "B12", "solid in a point", [](const glm::dvec3&, Random&) { return glm::dvec3(0); }, kAllMethods);
     add(
         "B13", "solid scrambled", [](const glm::dvec3&, Random& r) { return noise(r, 0.5); },
-        only(MethodKind::vbd) | only(MethodKind::implicit_euler));
+        kForces | only(MethodKind::pbd));
     add(
         "B14", "solid ten times too large", [](const glm::dvec3& x, Random&) { return 10.0 * x; },
-        kAllMethods);
+        only(MethodKind::mass_spring));
     add(
         "B14", "solid a hundred times too small", [](const glm::dvec3& x, Random&) { return 0.01 * x; },
-        kAllMethods);
+        kForces | only(MethodKind::pbd));
     add(
         "B15", "solid twisted by 360 degrees", [](const glm::dvec3& x, Random&) { return twisted(x, 360); },
-        only(MethodKind::implicit_euler));
+        kForces | only(MethodKind::pbd));
     add(
         "B15", "solid twisted by 720 degrees, nu 0.45",
-        [](const glm::dvec3& x, Random&) { return twisted(x, 720); }, kElastic, 0.45);
+        [](const glm::dvec3& x, Random&) { return twisted(x, 720); },
+        kForces | only(MethodKind::pbd) | only(MethodKind::implicit_euler) |
+            only(MethodKind::implicit_constraints),
+        0.45);
     add(
         "", "solid stretched to ten times its length and let go",
-        [](const glm::dvec3& x, Random&) { return glm::dvec3(10 * x.x, x.y, x.z); }, kElastic);
+        [](const glm::dvec3& x, Random&) { return glm::dvec3(10 * x.x, x.y, x.z); },
+        only(MethodKind::mass_spring));
 }
 
 void add_materials(std::vector<MapCase>& out)
@@ -96,7 +104,7 @@ void add_materials(std::vector<MapCase>& out)
                    }(),
                    300,
                    [](const Journey& j) { return above("volume", std::abs(j.last.volume.ratio - 1), 0.01); },
-                   kSprings | kLattice | kElastic});
+                   kForces});
     out.push_back({"", "Young's modulus of 1e2, 1e5, 1e8, 1e11 Pa in one scene, dropped",
                    [] {
                        Scene scene;
@@ -148,7 +156,7 @@ void add_materials(std::vector<MapCase>& out)
                        scene.bodies[0].pins = {hold({60, 61, 62, 63})};
                        return scene;
                    }(),
-                   120, sound, kAllMethods});
+                   120, sound});
 }
 
 Collider plane(double y, bool up)
@@ -173,9 +181,8 @@ void add_contacts(std::vector<MapCase>& out)
                    }(),
                    600,
                    [](const Journey& j) {
-                       return first_of(above("depth", j.last.penetration, 0.01), no_energy_gained(j));
-                   },
-                   kLattice});
+                       return first_of(above("depth", j.last.penetration, 0.01), gains_no_energy(j));
+                   }});
     out.push_back({"E05", "solid lies on a plane",
                    [] {
                        Body body = block(3);
@@ -188,8 +195,7 @@ void add_contacts(std::vector<MapCase>& out)
                    [](const Journey& j) {
                        return first_of(above("speed", j.last.max_speed, 0.05),
                                        above("depth", j.last.penetration, 0.01));
-                   },
-                   kLattice});
+                   }});
     out.push_back({"E04", "solid starts a tenth inside a ball",
                    [] {
                        Scene scene = scene_of(block(3), 0.5);
@@ -199,7 +205,7 @@ void add_contacts(std::vector<MapCase>& out)
                        scene.colliders = {ball};
                        return scene;
                    }(),
-                   120, [](const Journey& j) { return above("depth", j.last.penetration, 0.01); }, kLattice});
+                   120, [](const Journey& j) { return above("depth", j.last.penetration, 0.01); }});
     out.push_back({"E09", "solid squeezed between two plates to 5 % of its height",
                    [] {
                        Scene scene = scene_of(block(3), 1);
@@ -208,8 +214,7 @@ void add_contacts(std::vector<MapCase>& out)
                        scene.colliders = {low, high};
                        return scene;
                    }(),
-                   120, [](const Journey& j) { return above("depth", j.last.penetration, 0.01); },
-                   kAllMethods});
+                   120, [](const Journey& j) { return above("depth", j.last.penetration, 0.01); }});
     out.push_back({"", "bar twisted by ten turns",
                    [] {
                        Body body = block(2);
@@ -222,7 +227,7 @@ void add_contacts(std::vector<MapCase>& out)
                        body.pins = {left, right};
                        return scene_of(body, 1);
                    }(),
-                   300, sound, kAllMethods});
+                   300, sound});
 }
 
 } // namespace

@@ -49,8 +49,10 @@ void add_heavy(std::vector<MapCase>& out)
                        what,
                        s,
                        300,
-                       [](const Journey& j) { return above("stretch", drop(j, 1), 0.1); },
-                       kPositionBased,
+                       [](const Journey& j) { return above("stretch", drop(j, 1), 0.1, 100); },
+                       ratio > 1e4   ? kPositionBased
+                       : ratio > 1e3 ? only(MethodKind::pbd)
+                                     : 0,
                        {},
                        -1});
     };
@@ -79,14 +81,14 @@ void add_steps(std::vector<MapCase>& out)
                        step < 0.01 ? 300 : 120,
                        [step](const Journey& j) {
                            const auto& rest = j.world.scene().bodies[0].mesh.positions;
-                           return first_of(no_energy_gained(j),
-                                           step < 0.01 ? std::string()
-                                                       : above("distance from rest / D",
-                                                               largest_distance(j.world.positions(), rest) /
-                                                                   std::sqrt(11.0),
-                                                               0.05));
+                           const double away = largest_distance(j.world.positions(), rest) / std::sqrt(11.0);
+                           // A projection undoes at once what the start violates: the shorter the substep,
+                           // the faster. Nothing ends further away than the bar is long.
+                           return first_of(no_energy_gained(j, step < 0.01 ? 1e6 : 500),
+                                           step < 0.01 ? Missed()
+                                                       : above("distance from rest / D", away, 0.05, 1));
                        },
-                       kLattice,
+                       step > 0.5 ? kForces : kForces | only(MethodKind::pbd),
                        {},
                        -1});
     }
@@ -106,7 +108,7 @@ double centre_height(const World& world)
 }
 
 /// A16: hung in peace for 2 s, then without its pins; the discrete fall of a second.
-std::string let_go(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed let_go(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     Scene held = scene, free = scene;
     held.damping = 1;
@@ -172,7 +174,7 @@ void add_meshes(std::vector<MapCase>& out)
         p = (p - glm::dvec3(0, low, 0)) / (high - low) + glm::dvec3(0, 0.01, 0);
     s.colliders = {flat_floor(0)};
     s.method.line_search = 8; // implicit_euler alone reads it
-    out.push_back({"mesh", "bunny_slivers.vtk dropped", s, 30, calm, kLattice, {}, -1});
+    out.push_back({"mesh", "bunny_slivers.vtk dropped", s, 30, calm, kForces, {}, -1});
 }
 
 void add_standing(std::vector<MapCase>& out)
@@ -191,8 +193,8 @@ void add_standing(std::vector<MapCase>& out)
             double bottom = kInfinity;
             for (const glm::dvec3& x : j.world.positions())
                 bottom = std::min(bottom, x.y);
-            return first_of(above("loss of height", 1 - (top - bottom) / height, most),
-                            above("inverted tetrahedra", double(j.last.volume.inverted), 0));
+            return first_of(above("loss of height", 1 - (top - bottom) / height, most, 1),
+                            above("inverted tetrahedra", double(j.last.volume.inverted), 0, kInfinity));
         };
     };
     s.colliders = {flat_floor(-3.001)};
@@ -201,7 +203,7 @@ void add_standing(std::vector<MapCase>& out)
                    s,
                    300,
                    stood(6, 0.02),
-                   kPositionBased | only(MethodKind::vbd) | kLattice,
+                   0,
                    {},
                    -1});
     s = scene_of(solid_box({2, 4, 2}, {1, 1, 1}, 1e10), 1, {0, -9.81, 0});
@@ -215,20 +217,23 @@ void add_standing(std::vector<MapCase>& out)
                    s,
                    300,
                    stood(1, 0.05),
-                   kPositionBased | only(MethodKind::vbd) | kLattice,
+                   kPositionBased | only(MethodKind::implicit_constraints),
                    {},
                    -1});
 }
 
 /// F04: the edges of a rigid tetrahedron say all about it; its volume says it again.
-std::string redundant(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Missed redundant(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     Scene edges = scene;
     edges.bodies[0].material.volume_stiffness = 0;
     World both(scene, device), one(edges, device);
     run(both, steps);
     run(one, steps);
-    return first_of(above("difference", largest_distance(both.positions(), one.positions()), 1e-4),
+    // Sweeps that have not converged turn a stiff tetrahedron about its pin too slowly, each of the two by
+    // its own much: within its edge of a metre (vbd: 0.51 m with 4 sweeps, 0.018 with 20, 9e-6 with 100 in
+    // double).
+    return first_of(above("difference", largest_distance(both.positions(), one.positions()), 1e-4, 1),
                     above("volume", std::abs(measure(both).volume.ratio - 1), 1e-3));
 }
 
@@ -248,7 +253,7 @@ void add_constrained(std::vector<MapCase>& out)
                    s,
                    100,
                    sound,
-                   kPositionBased | only(MethodKind::vbd) | only(MethodKind::implicit_euler),
+                   only(MethodKind::xpbd) | only(MethodKind::vbd) | only(MethodKind::implicit_euler),
                    {},
                    0,
                    redundant});
@@ -266,7 +271,7 @@ void add_constrained(std::vector<MapCase>& out)
         s.bodies[0].springs.push_back({a, b, glm::distance(x[a], x[b]), 0});
     s.colliders = {flat_floor(0)};
     out.push_back({"F05", "solid with all edges rigid, dropped", s, 120, [](const Journey& j) {
-                       return first_of(no_energy_gained(j), above("stretch", j.stretch, 0.05),
+                       return first_of(gains_no_energy(j), above("stretch", j.stretch, 0.05),
                                        above("volume lost or gained", j.volume, 0.05));
                    }});
 }

@@ -10,38 +10,41 @@ namespace taut::hard {
 inline constexpr MethodSet kPositionBased = only(MethodKind::pbd) | only(MethodKind::xpbd);
 /// One linearisation a solve: accurate while speed x step stays below a third of a spring's length.
 inline constexpr MethodSet kLinearised = only(MethodKind::implicit_constraints) | only(MethodKind::acad);
-/// Nothing in these holds lengths but springs.
-inline constexpr MethodSet kSprings = only(MethodKind::mass_spring) | only(MethodKind::implicit_euler);
 
-inline std::string above(const char* what, double value, double limit)
+/// Missed above `limit`. Beyond `worst` nobody may report it: a hundred limits unless said, so that a number
+/// that grows by orders of magnitude fails.
+inline Missed above(const char* what, double value, double limit, double worst = 0)
 {
     if (value <= limit)
         return {};
     char text[96];
     std::snprintf(text, sizeof text, "%s %.3g, limit %.3g", what, value, limit);
-    return text;
+    return {text, value, worst > 0 ? worst : 100 * limit};
 }
 
 template <typename... Texts>
-inline std::string first_of(const Texts&... texts)
+inline Missed first_of(const Texts&... texts)
 {
-    std::string out;
-    ((out = out.empty() ? std::string(texts) : out), ...);
+    Missed out;
+    ((out = out.words.empty() ? Missed(texts) : out), ...);
     return out;
 }
 
-inline std::string no_energy_gained(const Journey& j)
+inline Missed no_energy_gained(const Journey& j, double worst)
 {
-    return above("energy above the start / scale", (j.highest_energy - energy(j.first)) / j.scale, 0.01);
+    return above("energy above the start / scale", (j.highest_energy - energy(j.first)) / j.scale, 0.01,
+                 worst);
 }
+/// Who may gain energy at all gains less than there was, unless said: a start that comes apart.
+inline Missed gains_no_energy(const Journey& j) { return no_energy_gained(j, 1); }
 /// For what is so stiff that a rounding of a length is much energy: nothing moves faster than some falls.
-inline std::string calm(const Journey& j)
+inline Missed calm(const Journey& j)
 {
     const PhysicalModel model = make_model(j.world.scene());
     const double fall = std::sqrt(2 * glm::length(model.gravity) * model.diameter);
     return above("largest speed / speed of a fall", j.fastest / fall, 3);
 }
-inline std::string sound(const Journey&) { return {}; }
+inline Missed sound(const Journey&) { return {}; }
 
 inline Scene with_stretch(Scene scene, double stiffness)
 {
@@ -58,11 +61,8 @@ inline Scene hanging(std::uint32_t n, double damping = 0.5)
     return scene;
 }
 
-/// Springs that turned inside out are at rest there, and constraints of volume may be at odds with them:
-/// methods without neo-Hookean tetrahedra.
-inline constexpr MethodSet kElastic =
-    only(MethodKind::xpbd) | only(MethodKind::vbd) | only(MethodKind::implicit_euler);
-inline constexpr MethodSet kLattice = kAllMethods & ~kElastic;
+/// Explicit springs, and no volumes: tetrahedra that turned inside out are at rest there.
+inline constexpr MethodSet kForces = only(MethodKind::mass_spring) | only(MethodKind::acad);
 
 /// A metre of soft rubber in cells along each axis.
 inline Body solid_box(const glm::uvec3& cells, const glm::dvec3& size, double modulus = 1e5,
