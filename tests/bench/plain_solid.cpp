@@ -1,6 +1,5 @@
 // Based on: Macklin et al. Small Steps in Physics Simulation. SCA 2019, algorithm 1, with one iteration;
-// volumes as
-//   in Mueller et al. Strain Based Dynamics. SCA 2014.
+//   volumes as in Mueller et al. Strain Based Dynamics. SCA 2014.
 // Departures: one parallel region a step, one loop a colour; without OpenMP the same loops are serial.
 
 #include "plain_solid.hpp"
