@@ -127,7 +127,7 @@ private:
         const double exact = share.elements / pieces(share.elements * cost, threads);
         std::uint64_t size = static_cast<std::uint64_t>(std::ceil(exact));
         // One element of a work-group kernel or of a costly kernel may be a chunk of its own.
-        if (cost * kLeastElements <= 10 * kSpareChunk)
+        if (cost * kLeastElements <= 2.5 * kSpareChunk)
             size = std::max<std::uint64_t>(size, kLeastElements);
         if (size >= kChunkMultiple)
             size = (size + kChunkMultiple - 1) / kChunkMultiple * kChunkMultiple;

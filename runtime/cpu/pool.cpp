@@ -199,7 +199,7 @@ Pool::Outcome Pool::run(Job& job, std::uint32_t chunks)
     for (auto chunk = claim(true); chunk; chunk = claim(true), ++own)
     {
         if (own == 1)
-            lost += wake(back_of(ticket_.load(std::memory_order_relaxed)) - *chunk);
+            lost += wake(back_of(ticket_.load(std::memory_order_relaxed)) - *chunk - 1);
         run_chunk(*chunk, true);
     }
     lost += await_workers(chunks - own);

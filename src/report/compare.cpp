@@ -69,7 +69,7 @@ CompareRow row_of(const Variant& variant, std::uint64_t frames)
     try
     {
         World world(variant.scene, variant.device);
-        row.springs = !make_model(variant.scene).springs.empty();
+        row.springs = !scene_springs(world.scene()).empty();
         run(world, frames, row);
     }
     catch (const Error& error)

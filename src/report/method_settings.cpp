@@ -43,7 +43,8 @@ constexpr Setting kSettings[] = {
      [](const MethodSettings& m) { return Json(m.relaxation); }},
     {"linear_iterations", kSolvers, [](const MethodSettings& m) { return Json(m.linear_iterations); }},
     {"linear_tolerance", kSolvers, [](const MethodSettings& m) { return Json(m.linear_tolerance); }},
-    {"linear_operator", kSolvers, [](const MethodSettings& m) { return Json(m.linear_operator); }},
+    {"linear_operator", only(MethodKind::implicit_euler) | only(MethodKind::implicit_constraints),
+     [](const MethodSettings& m) { return Json(m.linear_operator); }},
     {"line_search", only(MethodKind::implicit_euler),
      [](const MethodSettings& m) { return Json(m.line_search); }},
     {"constrained", kConstraints, [](const MethodSettings& m) { return Json(m.constrained); }},
@@ -115,9 +116,7 @@ bool reads_iterations(MethodKind kind) { return kind != MethodKind::mass_spring;
 
 std::vector<std::string_view> keys_read(MethodKind kind)
 {
-    std::vector<std::string_view> out;
-    if (reads_iterations(kind))
-        out.push_back("iterations");
+    std::vector<std::string_view> out = {"iterations"}; // mass_spring: of the volume within a surface
     for (const Setting& setting : kSettings)
         if (setting.methods & only(kind))
             out.push_back(setting.key);
@@ -158,7 +157,7 @@ std::string settings_details(const MethodSettings& settings)
 std::string settings_block(const MethodSettings& settings)
 {
     Json json = {{"type", settings.type}, {"substeps", settings.substeps}};
-    if (reads_iterations(method_named(settings.type)))
+    if (reads_iterations(method_named(settings.type)) || settings.iterations != 1)
         json["iterations"] = settings.iterations;
     json["precision"] = settings.precision;
     json.update(details(settings));

@@ -11,4 +11,6 @@ namespace taut::scene_file {
 /// larger than `max_bytes`.
 std::string read_file(const std::filesystem::path& file, std::uintmax_t max_bytes);
 
+inline constexpr std::uintmax_t kMaxSceneBytes = std::uintmax_t(1) << 28; ///< of a scene file
+
 } // namespace taut::scene_file

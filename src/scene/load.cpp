@@ -19,7 +19,6 @@ using scene_file::Field;
 using scene_file::read_material;
 
 constexpr int kVersion = 1;
-constexpr std::uintmax_t kMaxSceneBytes = std::uintmax_t(1) << 28;
 
 /// The one of the keys that the object has; none or two are an error.
 template <std::size_t N>
@@ -378,24 +377,11 @@ Scene parse_scene(std::string_view json, const std::filesystem::path& directory,
 
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> settings)
 {
-    Scene scene = parse_scene(scene_file::read_file(file, kMaxSceneBytes), file.parent_path(), file.string(),
+    Scene scene = parse_scene(scene_file::read_file(file, scene_file::kMaxSceneBytes), file.parent_path(), file.string(),
                               settings);
     if (scene.name.empty())
         scene.name = file.stem().string();
     return scene;
-}
-
-std::vector<std::string> given_method_keys(const std::filesystem::path& file,
-                                           std::span<const std::string> settings)
-{
-    nlohmann::json tree = scene_file::parse_json(scene_file::read_file(file, kMaxSceneBytes), file.string());
-    for (const std::string& setting : settings)
-        scene_file::set_value(tree, setting, file.string());
-    std::vector<std::string> keys;
-    if (tree.is_object() && tree.contains("method") && tree["method"].is_object())
-        for (const auto& [key, value] : tree["method"].items())
-            keys.push_back(key);
-    return keys;
 }
 
 Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name)

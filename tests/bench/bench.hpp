@@ -61,8 +61,8 @@ inline void take_turns(std::vector<Rival>& rivals, int turns, int warm_up = 3)
 }
 
 /// As take_turns, for rivals with threads of their own that spin on after their turn (libgomp's for some
-/// milliseconds), on cores that the next rival wants: every turn begins with a rest in which they fall asleep,
-/// and with a run that is not timed, which wakes the rival's own; five runs are timed then.
+/// milliseconds), on cores that the next rival wants: every turn begins with a rest in which they fall
+/// asleep, and with a run that is not timed, which wakes the rival's own; five runs are timed then.
 inline constexpr int kRunsOfTurn = 6;
 inline void take_turns_rested(std::vector<Rival>& rivals, int turns, int warm_up)
 {
@@ -74,7 +74,8 @@ inline void take_turns_rested(std::vector<Rival>& rivals, int turns, int warm_up
             {
                 const auto from = std::chrono::steady_clock::now();
                 rival.run();
-                const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - from;
+                const std::chrono::duration<double, std::milli> took =
+                    std::chrono::steady_clock::now() - from;
                 if (turn >= 0 && i > 0)
                     rival.milliseconds.push_back(took.count());
             }

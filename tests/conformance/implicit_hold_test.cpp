@@ -6,8 +6,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("implicit_hold keeps light vertices that a collider moved, for the rest of the substep", "",
-                   float, double)
+TEMPLATE_TEST_CASE("implicit_hold keeps light vertices that a collider moved, for the rest of the substep",
+                   "", float, double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 128u, 129u, 1000u);

@@ -77,8 +77,8 @@ void check_end(const Start& start, const Setting& setting, double ratio, const O
     // Ten times too large it comes back slowly under xpbd with one sweep a substep, and gains 6 % at nu 0.45.
     const bool slow =
         named(start, "B14 x10") && std::string(setting.method) == "xpbd" && setting.iterations == 1;
-    // Sweeps and solves that have not converged from the inertial guess let the energy rise a little where the
-    // body opens from a hundredth of its size (vbd_solid_test.cpp too): 4.5e-5 was measured.
+    // Sweeps and solves that have not converged from the inertial guess let the energy rise a little where
+    // the body opens from a hundredth of its size (vbd_solid_test.cpp too): 4.5e-5 was measured.
     CHECK(out.highest <= (slow ? 1.1 : named(start, "B14 x0.01") ? 1 + 1e-4 : 1 + 1e-5));
     if (lost(start))
     {

@@ -52,7 +52,8 @@ std::vector<glm::dvec3> squeezed(const Scene& scene, double share)
     {
         const auto angle = static_cast<double>(v);
         x[v].y *= share;
-        x[v] += 0.01 * std::min(std::abs(share), 1.0) * glm::dvec3(std::sin(3 * angle), std::sin(5 * angle), 0);
+        x[v] += 0.01 * std::min(std::abs(share), 1.0) *
+                glm::dvec3(std::sin(3 * angle), std::sin(5 * angle), 0);
     }
     return x;
 }
