@@ -1,7 +1,7 @@
 // Forces of springs, one invocation per spring: the force on its end `a` goes to the spring's own slot. The
 // pass `slot_sum` adds up what ends at each vertex, with the sign of the end.
 //
-// Based on: the lab's spring kernels (github.com/nakjun/Multi-Deformable-Objects-Simulation): slots for the
+// Based on: spring kernels of github.com/nakjun/Multi-Deformable-Objects-Simulation: slots for the
 //   forces of springs, a second pass that sums them.
 // Departures: one slot a spring, not one an end, because the two forces are opposite to the last bit; any
 //   number of springs at a vertex.

@@ -1,7 +1,7 @@
 // Second half of a constraint-centric Jacobi iteration of PBD: one invocation per vertex averages what its
 // constraints wrote into their slots (pbd_stretch, pbd_bend, pbd_volume, variant `slots`), in fixed order.
 //
-// Based on: the averaging pass of the laboratory's GPU solver as described in seed-methods.md 3.5 (sum of the
+// Based on: constraint-centric Jacobi as GPU solvers of position-based dynamics average it (sum of the
 //   corrections over their number, times 1.5).
 // Departures: slots and a gather instead of compare-and-swap additions of floats, so that runs repeat bit for
 //   bit; the factor is a setting.

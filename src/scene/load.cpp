@@ -377,8 +377,8 @@ Scene parse_scene(std::string_view json, const std::filesystem::path& directory,
 
 Scene load_scene(const std::filesystem::path& file, std::span<const std::string> settings)
 {
-    Scene scene = parse_scene(scene_file::read_file(file, scene_file::kMaxSceneBytes), file.parent_path(), file.string(),
-                              settings);
+    Scene scene = parse_scene(scene_file::read_file(file, scene_file::kMaxSceneBytes), file.parent_path(),
+                              file.string(), settings);
     if (scene.name.empty())
         scene.name = file.stem().string();
     return scene;

@@ -1,4 +1,4 @@
-// Hard cases of implicit constraints (methods.md 2.B, 2.C, 2.F): redundant, contradictory and degenerate
+// Hard cases of implicit constraints: redundant, contradictory and degenerate
 // rows.
 
 #include "hard/cases.hpp"

@@ -1,4 +1,4 @@
-// The recovery table (methods, Appendix B): neo-Hookean cubes that start far from rest, under xpbd and
+// The recovery table (docs/hard-cases.md): neo-Hookean cubes that start far from rest, under xpbd and
 // implicit_euler (vbd: vbd_solid_test.cpp). TAUT_RECOVERY=file writes the table of docs/hard-cases.md.
 
 #include "hard/solid_starts.hpp"

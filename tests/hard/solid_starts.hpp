@@ -1,5 +1,5 @@
 #pragma once
-// Cubes that start far from rest (methods 2.B B09 to B15, Appendix B): what the methods that move neo-Hookean
+// Cubes that start far from rest (B09 to B15 of docs/hard-cases.md): what the methods that move neo-Hookean
 // tetrahedra share.
 
 #include "hard/cases.hpp"

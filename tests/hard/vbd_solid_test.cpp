@@ -1,4 +1,4 @@
-// Vertex block descent of solids: starts far from rest, stiff bodies let go (methods 2.A, 2.B, Appendix B).
+// Vertex block descent of solids: starts far from rest, stiff bodies let go.
 
 #include "hard/solid_starts.hpp"
 #include "hard/vbd_cases.hpp"

@@ -1,4 +1,5 @@
-// ACAD: springs that become constraints beyond a strain (methods.md 5.3, F09 to F13; seed-methods.md 3.4).
+// ACAD: springs that become constraints beyond a strain (docs/methods/acad.md; F09 to F13 of
+// docs/hard-cases.md).
 
 #include "hard/cases.hpp"
 

@@ -1,5 +1,5 @@
-// First-order implicit constraints: golden numbers of methods.md (appendix A6, F01 to F03), the orders that
-// seed-methods.md 3.3 states, and what a spring of finite stiffness comes to.
+// First-order implicit constraints: golden positions of pendulum and rope, orders of the one-step
+// residual, and what a spring of finite stiffness comes to.
 
 #include "hard/cases.hpp"
 

@@ -1,4 +1,4 @@
-// Claims about closed surfaces under mass_spring that hold the volume within: seed-methods.md 3.6, F14.
+// Claims about closed surfaces under mass_spring that hold the volume within: F14 of docs/hard-cases.md.
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"

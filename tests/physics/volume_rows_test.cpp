@@ -1,4 +1,4 @@
-// Claims about volumes of tetrahedra as rows of implicit_constraints: seed-methods.md 3.7, F04.
+// Claims about volumes of tetrahedra as rows of implicit_constraints: F04 of docs/hard-cases.md.
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"

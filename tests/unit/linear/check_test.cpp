@@ -1,4 +1,4 @@
-// What is wrong with a system, in words (methods.md 2.D).
+// What is wrong with a system, in words.
 
 #include "taut/linear/check.hpp"
 #include "taut/runtime/base/error.hpp"
