@@ -21,7 +21,9 @@ surface="$springs; bodies[0].material.volume=surface; bodies[0].material.volume_
 ms="method.type=mass_spring; method.stability=substep"
 
 figure volume $scenes/drop.json \
-    "springs: device=cpu; $ms; $bare" "springs, volume of the surface: device=cpu; $ms; $surface" \
+    "springs: device=cpu; $ms; $bare" \
+    "springs, lengths held: device=cpu; method.type=implicit_constraints; method.substeps=5; method.constraint_compliance=0; method.linear_operator=matrix_free; $bare" \
+    "springs, volume of the surface: device=cpu; $ms; $surface" \
     "the same, native serial: device=cpu:serial; $ms; $surface" "the same, Vulkan: device=vulkan; $ms; $surface" \
     "the same, OpenGL: device=opengl; $ms; $surface"
 figure stiffness $scenes/stiffness.json \
@@ -54,6 +56,30 @@ figure schemes $scenes/iterations.json \
     "by constraints, native: device=cpu; method.scheme=constraint_centric" \
     "colours, Vulkan: device=vulkan" "by vertices, Vulkan: device=vulkan; method.scheme=node_centric" \
     "by constraints, Vulkan: device=vulkan; method.scheme=constraint_centric"
+
+# published NAME: mean volumes of the thesis beside ours, from the tables above.
+published()
+{
+    case "$wanted" in "  " | *" $1 "*) ;; *) return 0 ;; esac
+    mean() # FIGURE VARIANT
+    {
+        awk -v variant="$2" '
+            { line = $0 }
+            NR == 1 { n = split(line, head, ","); for (i = 1; i <= n; ++i) if (head[i] == "mean volume %") at = n - i }
+            index(line, variant ",") == 1 || index(line, "\"" variant "\",") == 1 {
+                n = split(line, cell, ","); print cell[n - at] }' "${page%.md}/$1.csv"
+    }
+    {
+        echo "| | published, mean volume % | here, mean volume % |"
+        echo "|---|---:|---:|"
+        echo "| mass-spring | 68.21 | $(mean volume springs) |"
+        echo "| distance constraints | 89.64 | $(mean volume 'springs, lengths held') |"
+        echo "| volume constraint | 98.70 | $(mean volume 'springs, volume of the surface') |"
+        echo "| position-based, 10 iterations | | $(mean iterations 10) |"
+    } > "$scratch/$1.md"
+    put "$page" "$1" "$scratch/$1.md"
+}
+published published
 
 # cheapest NAME SCENE: what taut tune finds by volume.
 cheapest()
