@@ -26,7 +26,7 @@ cp "$scratch/conserved_solids/momentum.svg" "$folder/conserved_solids_momentum.s
     echo
     echo "## Work-precision and convergence, problem by problem"
     problem beam "A neo-Hookean beam of 8 x 2 x 2 cells, clamped at one end, sags under its weight to rest (P6)."
-    problem beam_16 "The same beam of 16 x 4 x 4 cells: each size is compared with its own reference."
+    problem beam_16 "The same beam of 16 x 4 x 4 cells: each size is compared with its own reference; a few settings, for time."
     problem cube "A neo-Hookean cube, squeezed to half its height, is let go and swings (P7)."
     problem ball "A ball of springs and volumes of tetrahedra falls on a floor and bounces."
     echo
