@@ -64,7 +64,9 @@ std::optional<Scene> real_scene(double bending)
 /// J W J^T + compliance / h^2 at the start of the scene, by definition.
 EigenRows system_of(const Scene& scene)
 {
-    PlanBuilder b(scene, {}, {});
+    const DeviceTraits traits; // the builder keeps references
+    const PlanOptions plan_options;
+    PlanBuilder b(scene, traits, plan_options);
     const auto springs = all_springs(b);
     const auto compliances = row_compliances(b, springs);
     const CornerSet set = corner_set(b);
@@ -109,7 +111,9 @@ EigenRows system_of(const Scene& scene)
 /// The matrix that the plan's pass filled, in the pattern that the plan gave it.
 linear::SparseMatrix pattern_of(const Scene& scene)
 {
-    PlanBuilder b(scene, {}, {});
+    const DeviceTraits traits; // the builder keeps references
+    const PlanOptions plan_options;
+    PlanBuilder b(scene, traits, plan_options);
     const auto springs = all_springs(b);
     const Incidence at = incidence_of(b.plan.vertex_count, springs);
     const std::vector<std::uint32_t> corners = corner_set(b).corners();

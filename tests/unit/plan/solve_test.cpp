@@ -53,7 +53,9 @@ struct Made
 /// The same system solved `solves` times in a row, with or without two held rows.
 Made make(const Scene& scene, const linear::SparseMatrix& a, int solves, bool held)
 {
-    PlanBuilder builder(scene, {}, {});
+    const DeviceTraits traits; // the builder keeps references
+    const PlanOptions plan_options;
+    PlanBuilder builder(scene, traits, plan_options);
     const linear::UploadOptions options{linear::Format::bcsr3, builder.plan.precision, false, 0, false, true};
     const auto matrix = linear::DeviceMatrix::upload(builder.paper(), a, options);
     BufferPtr marks;
