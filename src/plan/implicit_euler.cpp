@@ -109,6 +109,55 @@ std::vector<std::uint32_t> light_vertices(const PlanBuilder& b)
     return out;
 }
 
+/// Which rows are not solved for: held vertices, and in further Newton steps light ones that a collider pushed.
+void add_marks(PlanBuilder& b, ImplicitEuler& m, const std::vector<bool>& solved)
+{
+    std::vector<std::uint32_t> marks;
+    for (const bool moves : solved)
+        marks.insert(marks.end(), 3, moves ? 0u : 1u);
+    m.held = b.add_buffer<std::uint32_t>(kName, "not solved for", marks);
+    m.marks = m.held;
+    if (b.scene.colliders.empty() || b.plan.iterations <= 1)
+        return;
+    const std::vector<std::uint32_t> light = light_vertices(b);
+    if (std::find(light.begin(), light.end(), 1u) == light.end())
+        return;
+    m.light = b.add_buffer<std::uint32_t>(kName, "light vertices", light);
+    m.marks = b.add_buffer<std::uint32_t>(kName, "stays in this Newton step", marks);
+    m.before = b.add_buffer(kName, "displacement before colliders",
+                            std::uint64_t{b.plan.vertex_count} * 4 * b.real_size());
+}
+
+/// What the product without a matrix reads, of those kinds of elements that there are.
+ImplicitBuffers product_buffers(PlanBuilder& b, const ImplicitEuler& m)
+{
+    ImplicitBuffers at{b.plan.vertex_count,
+                       b.plan.precision,
+                       m.scale,
+                       b.on_paper(b.plan.position),
+                       b.on_paper(b.plan.delta),
+                       b.on_paper(b.plan.step_values),
+                       b.on_paper(m.springs),
+                       b.on_paper(m.spring_table),
+                       nullptr,
+                       nullptr,
+                       nullptr,
+                       nullptr,
+                       nullptr};
+    if (m.hinge_count > 0)
+    {
+        at.hinges = b.on_paper(m.hinges);
+        at.hinge_table = b.on_paper(m.hinge_table);
+    }
+    if (m.solid_count > 0)
+    {
+        at.solids = b.on_paper(m.solids);
+        at.solid_state = b.on_paper(m.solid_state);
+        at.solid_table = b.on_paper(m.solid_table);
+    }
+    return at;
+}
+
 /// Matrix (stored, or of its diagonal blocks alone), tables, preconditioner, solver.
 void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, const std::vector<bool>& solved)
 {
@@ -131,52 +180,13 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
         check_trips(b, tables.solids, 4, "tetrahedra");
         m.solid_table = b.add_buffer<std::uint32_t>(kName, "tetrahedra at a vertex", tables.solids);
     }
-    std::vector<std::uint32_t> marks;
-    for (const bool moves : solved)
-        marks.insert(marks.end(), 3, moves ? 0u : 1u);
-    m.held = b.add_buffer<std::uint32_t>(kName, "not solved for", marks);
-    m.marks = m.held;
-    const std::vector<std::uint32_t> light = light_vertices(b);
-    const bool any = std::find(light.begin(), light.end(), 1u) != light.end();
-    if (any && !b.scene.colliders.empty() && b.plan.iterations > 1)
-    {
-        m.light = b.add_buffer<std::uint32_t>(kName, "light vertices", light);
-        m.marks = b.add_buffer<std::uint32_t>(kName, "stays in this Newton step", marks);
-        m.before = b.add_buffer(kName, "displacement before colliders",
-                                std::uint64_t{b.plan.vertex_count} * 4 * b.real_size());
-    }
+    add_marks(b, m, solved);
     const auto kind = linear::Preconditioner::block_jacobi;
     const auto inverse =
         std::make_shared<linear::DeviceInverse>(b.paper(), matrix, pattern, kind, b.on_paper(m.marks));
     std::shared_ptr<const linear::Operator> system = matrix;
     if (!assembled)
-    {
-        ImplicitBuffers at{b.plan.vertex_count,
-                           b.plan.precision,
-                           m.scale,
-                           b.on_paper(b.plan.position),
-                           b.on_paper(b.plan.delta),
-                           b.on_paper(b.plan.step_values),
-                           b.on_paper(m.springs),
-                           b.on_paper(m.spring_table),
-                           nullptr,
-                           nullptr,
-                           nullptr,
-                           nullptr,
-                           nullptr};
-        if (m.hinge_count > 0)
-        {
-            at.hinges = b.on_paper(m.hinges);
-            at.hinge_table = b.on_paper(m.hinge_table);
-        }
-        if (m.solid_count > 0)
-        {
-            at.solids = b.on_paper(m.solids);
-            at.solid_state = b.on_paper(m.solid_state);
-            at.solid_table = b.on_paper(m.solid_table);
-        }
-        system = std::make_shared<ImplicitProduct>(std::move(at));
-    }
+        system = std::make_shared<ImplicitProduct>(product_buffers(b, m));
     m.solve.emplace(b, kName, system, linear::Preconditioning{kind, inverse->inverse(), nullptr}, inverse);
 }
 
