@@ -3,6 +3,7 @@
 #include "taut/plan/stability.hpp"
 #include "taut/report/element_rates.hpp"
 #include "taut/report/hinge.hpp"
+#include "taut/report/looks.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -42,12 +43,6 @@ void append_vertices(PhysicalModel& model, const Body& body)
 
 void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first)
 {
-    for (StretchElement s : stretch_elements(body))
-    {
-        s.a += first;
-        s.b += first;
-        model.springs.push_back(s);
-    }
     std::size_t dropped = 0;
     for (BendElement h : bend_elements(body, &dropped))
     {
@@ -118,6 +113,7 @@ PhysicalModel make_model(const Scene& resolved)
     model.duration = resolved.duration;
     model.colliders = resolved.colliders;
     model.diameter = rest_diameter(resolved);
+    model.springs = scene_springs(resolved);
     for (const Body& body : resolved.bodies)
     {
         const auto first = static_cast<std::uint32_t>(model.mass.size());
