@@ -109,7 +109,7 @@ std::vector<std::uint32_t> light_vertices(const PlanBuilder& b)
     return out;
 }
 
-/// Which rows are not solved for: held vertices, and in further Newton steps light ones that a collider pushed.
+/// Rows not solved for: held vertices; in further Newton steps light ones that a collider pushed, too.
 void add_marks(PlanBuilder& b, ImplicitEuler& m, const std::vector<bool>& solved)
 {
     std::vector<std::uint32_t> marks;
