@@ -9,6 +9,7 @@ std::string_view to_string(Status status)
     case Status::completed: return "completed";
     case Status::interrupted: return "interrupted";
     case Status::diverged: return "diverged";
+    case Status::unconverged: return "unconverged";
     case Status::non_finite: return "non_finite";
     case Status::converged: return "converged";
     case Status::iteration_limit: return "iteration_limit";

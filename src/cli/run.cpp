@@ -83,22 +83,23 @@ public:
           every_(mesh_interval(options, simulation.scene())),
           moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
           meshes_(shown_scene(simulation.scene()), options.folder),
-          looks_(frames)
+          looks_(frames),
+          watch_(frames)
     {
         if (simulation.solvers() > 0)
             springs_ = scene_springs(simulation.scene());
     }
 
-    /// Up to the last frame, an interruption or a value that is not finite.
+    /// Up to the last frame, an interruption, energy from nowhere or a value that is not finite.
     void run(const InterruptGuard& guard)
     {
         Progress progress(frames_);
         look();
         keep();
-        while (done_ < frames_ && !guard.interrupted() && finite_)
+        while (goes_on(guard))
         {
             step();
-            if (done_ < frames_ && finite_ && !guard.interrupted())
+            if (goes_on(guard))
                 keep();
             progress.update(done_);
         }
@@ -114,8 +115,14 @@ public:
     double volume_min() const { return volume_min_; }
     const std::vector<Moment>& moments() const { return moments_; }
     const std::vector<Look>& looks() const { return looks_.list(); }
+    const SoundnessWatch& watch() const { return watch_; }
 
 private:
+    bool goes_on(const InterruptGuard& guard) const
+    {
+        return done_ < frames_ && finite_ && watch_.found().sound() && !guard.interrupted();
+    }
+
     void step()
     {
         const auto start = std::chrono::steady_clock::now();
@@ -127,6 +134,8 @@ private:
             volume_min_ =
                 std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).least);
         finite_ = simulation_.events().non_finite == 0;
+        if (simulation_.is_whole())
+            watch_.after(done_, simulation_.whole());
         if (finite_ && looks_.due(done_))
             look();
     }
@@ -183,6 +192,7 @@ private:
     bool has_volume_ = measure_volume(simulation_.scene(), simulation_.positions()).any;
     double volume_min_ = measure_volume(simulation_.scene(), simulation_.positions()).least;
     Looks looks_;
+    SoundnessWatch watch_;
     std::vector<StretchElement> springs_; ///< as of `looked_torn_`
     std::uint64_t looked_torn_ = 0;
     std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
@@ -242,6 +252,13 @@ void describe_counts(const Simulation& simulation, RunResult& result)
         result.report.status = Status::non_finite;
 }
 
+/// What the looks on the way found, beside the state at the end.
+void describe_soundness(const Runner& runner, RunResult& result)
+{
+    set_status(runner.watch().found(), result.report);
+    count(Warning::unconverged, runner.watch().unconverged(), result.report.warnings);
+}
+
 /// A hybrid run: who did what.
 void describe_parts(const Simulation& simulation, RunResult& result)
 {
@@ -250,6 +267,12 @@ void describe_parts(const Simulation& simulation, RunResult& result)
         return;
     result.device.executor = "hybrid";
     result.device.name = result.parts[0].device.name + " and " + result.parts[1].device.name;
+}
+
+/// What went wrong is worth a look, too, where there is a place for every vertex.
+bool drawable(Status status)
+{
+    return sound(status) || status == Status::unconverged;
 }
 
 void draw(const RunCommand& options, const World& world, const std::shared_ptr<Device>& device,
@@ -274,18 +297,22 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     const auto device = world.device().shared_from_this();
     RunResult result = describe(options, world, runner);
     describe_counts(*simulation, result);
+    describe_soundness(runner, result);
     describe_parts(*simulation, result);
     result.asleep = simulation->asleep();
     result.frames_wanted = frames;
     if (runner.done() < frames && sound(result.report.status))
         result.report.status = Status::interrupted;
-    if (!options.no_picture && sound(result.report.status))
+    if (!options.no_picture && drawable(result.report.status))
         draw(options, world, device, runner, result);
-    if (result.report.status == Status::completed && !guard.interrupted())
+    if (rank(result.report.status) < rank(Status::diverged) && !guard.interrupted() &&
+        runner.done() == frames)
     {
         const Residuals left = residuals_ahead(world);
         result.report.primal_residual = left.primal;
         result.report.dual_residual = left.dual;
+        result.report.imbalance = left.imbalance;
+        judge_residuals(world.scene(), result.report);
         if (result.parts.empty())
             result.passes = time_passes(world);
     }

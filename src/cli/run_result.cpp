@@ -71,6 +71,19 @@ std::string residuals(const StepReport& report)
     return text;
 }
 
+/// A body without springs has no stretch, one without tetrahedra no volume.
+std::string errors_line(const StepReport& report)
+{
+    std::string text = "errors  ";
+    if (report.springs)
+        text += "stretch " + number(100 * report.max_stretch, 3) + " % largest, " +
+                number(100 * report.rms_stretch, 3) + " % rms; ";
+    if (report.volume.any)
+        text += "volume " + number(100 * report.volume.ratio, 4) + " %, " +
+                std::to_string(report.volume.inverted) + " tetrahedra inverted; ";
+    return text + "penetration " + number(1000 * report.penetration, 3) + " mm" + residuals(report) + "\n";
+}
+
 } // namespace
 
 Json looks_json(const std::vector<Look>& looks)
@@ -98,6 +111,7 @@ Json to_json(const RunResult& result)
     json["constraints"] = result.constraints;
     json["colours"] = result.colours;
     json["status"] = to_string(report.status);
+    json["reason"] = report.reason.empty() ? Json(nullptr) : Json(report.reason);
     json["warnings"] = report.warnings;
     json["messages"] = result.messages;
     json["step_ms"] = {{"median", percentile(result.step_ms, 0.5)},
@@ -105,14 +119,17 @@ Json to_json(const RunResult& result)
     json["passes"] = passes_json(result.passes);
     if (!result.parts.empty())
         json["hybrid"] = parts_json(result.parts);
-    json["max_stretch"] = report.max_stretch;
-    json["rms_stretch"] = report.rms_stretch;
+    json["max_stretch"] = report.springs ? Json(report.max_stretch) : Json(nullptr);
+    json["rms_stretch"] = report.springs ? Json(report.rms_stretch) : Json(nullptr);
     json["penetration"] = report.penetration;
     json["kinetic_energy"] = report.kinetic_energy;
     json["potential_energy"] = report.potential_energy;
+    json["judged_energy"] = report.judged_energy;
+    json["energy_most"] = report.energy_most;
     json["momentum_error"] = known(report.momentum_error);
     json["primal_residual"] = known(report.primal_residual);
     json["dual_residual"] = known(report.dual_residual);
+    json["imbalance"] = known(report.imbalance);
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = known(report.active_share);
     json["series"] = result.solvers > 0 ? looks_json(result.looks) : Json(nullptr);
@@ -140,9 +157,9 @@ std::string summary(const RunResult& result)
     text += "step    " + number(percentile(result.step_ms, 0.5), 3) + " ms median, " +
             number(percentile(result.step_ms, 0.95), 3) + " ms at the 95th percentile, " +
             std::to_string(result.vertices) + " vertices\n";
-    text += "errors  stretch " + number(100 * report.max_stretch, 3) + " % largest, " +
-            number(100 * report.rms_stretch, 3) + " % rms; penetration " +
-            number(1000 * report.penetration, 3) + " mm" + residuals(report) + "\n";
+    if (!report.reason.empty())
+        text += "why     " + report.reason + "\n";
+    text += errors_line(report);
     if (result.solvers > 0)
         text += "solver  " + std::to_string(report.solver.solves) + " linear solves, " +
                 std::to_string(report.solver.iterations) + " iterations, " +

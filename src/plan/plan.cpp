@@ -147,6 +147,12 @@ void check_timestep(double timestep, std::uint32_t substeps, double largest)
 
 Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOptions& options)
 {
+    if (resolved.method.substeps == 0)
+    {
+        Scene counted = resolved;
+        counted.method.substeps = automatic_substeps(resolved);
+        return make_plan(counted, traits, options);
+    }
     check_settings(resolved, traits);
     PlanBuilder builder(resolved, traits, options);
     const std::vector<const Effect*> rows = wanted_effects(resolved, options);

@@ -43,7 +43,8 @@ void run(World& world, std::uint64_t frames, CompareRow& row)
     look(world, 0, looks, row);
     row.highest_energy = row.report.kinetic_energy + row.report.potential_energy;
     std::vector<double> times;
-    for (std::uint64_t k = 1; k <= frames && row.report.status == Status::completed; ++k)
+    const auto goes_on = [&] { return rank(row.report.status) < rank(Status::diverged); };
+    for (std::uint64_t k = 1; k <= frames && goes_on(); ++k)
     {
         const auto start = Clockwork::now();
         world.step();
@@ -56,8 +57,11 @@ void run(World& world, std::uint64_t frames, CompareRow& row)
     row.mean_volume /= row.measured;
     try
     {
-        if (row.report.status == Status::completed)
+        if (goes_on())
             row.residuals = residuals_ahead(world);
+        row.report.dual_residual = row.residuals.dual;
+        row.report.imbalance = row.residuals.imbalance;
+        judge_residuals(world.scene(), row.report);
     }
     catch (const Error&)
     {

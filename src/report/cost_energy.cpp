@@ -59,7 +59,7 @@ EnergyRun run_one(const Scene& scene, const std::shared_ptr<Device>& device, con
                 world.step();
             const StepReport report = measure(world);
             const double energy = report.kinetic_energy + report.potential_energy;
-            if (report.status != Status::completed || !std::isfinite(energy))
+            if (rank(report.status) >= rank(Status::diverged) || !std::isfinite(energy))
             {
                 out.reason = std::string(to_string(report.status)) + " in frame " + std::to_string(f);
                 break;

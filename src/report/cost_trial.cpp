@@ -51,6 +51,7 @@ double median(std::vector<double> values)
 
 Trial::Trial(const Scene& resolved, std::shared_ptr<Device> device, const MethodSettings& settings)
     : world_(with_settings(resolved, settings), std::move(device)),
+      budget_(world_.scene()),
       start_(world_.state()),
       x_(world_.positions())
 {}
@@ -87,6 +88,18 @@ void Trial::extend(Motion& motion, std::size_t frames)
         motion.frames.push_back(x_);
     while (motion.steps < frames && motion.reason.empty() && advance(motion))
         motion.frames.push_back(x_);
+    judge_end(motion);
+}
+
+void Trial::judge_end(Motion& motion)
+{
+    if (!motion.reason.empty() || motion.steps == 0)
+        return;
+    const Soundness end = judge(budget_, world_);
+    motion.status = end.status;
+    if (!end.sound())
+        motion.reason = std::string(to_string(end.status)) + ": " + end.reason + ", in frame " +
+                        std::to_string(motion.steps);
 }
 
 Motion Trial::trajectory(std::size_t frames)
@@ -132,6 +145,7 @@ Motion Trial::settle(const RestRule& rule)
     if (!out.rests)
         out.reason =
             "not at rest after " + std::to_string(static_cast<int>(rule.seconds)) + " simulated seconds";
+    judge_end(out);
     return out;
 }
 

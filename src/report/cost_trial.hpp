@@ -3,6 +3,7 @@
 
 #include "taut/report/cost.hpp"
 #include "taut/report/errors.hpp"
+#include "taut/report/soundness.hpp"
 
 namespace taut::cost {
 
@@ -56,8 +57,11 @@ public:
 
 private:
     bool advance(Motion& motion);
+    /// Gives a motion that came to its end the status of the state there.
+    void judge_end(Motion& motion);
 
     World world_;
+    EnergyBudget budget_;
     WorldState start_;
     std::vector<glm::dvec3> x_;
 };

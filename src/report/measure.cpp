@@ -7,8 +7,10 @@
 #include "taut/plan/methods.hpp"
 #include "taut/report/contact.hpp"
 #include "taut/report/report.hpp"
+#include "taut/report/soundness.hpp"
 #include "taut/report/warnings.hpp"
 #include "taut/report/world_view.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -31,6 +33,7 @@ void measure_stretch(const View& view, StepReport& out)
     {
         if (!(c.rest_length > 0))
             continue;
+        out.springs = true;
         const double stretch = (view.length(c) - c.rest_length) / c.rest_length;
         out.max_stretch = first ? stretch : std::max(out.max_stretch, stretch);
         first = false;
@@ -165,10 +168,10 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
     return worst;
 }
 
-/// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2): what its iterations left. -1
-/// with dampers, whose force depends on the way, not on the place, and where elements flow, whose rest shapes
+/// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2), and its share of all forces: what its
+/// iterations left. Not there with dampers, whose force depends on the way, not on the place, and where elements flow, whose rest shapes
 /// the model does not know.
-double implicit_residual(const View& view)
+void implicit_residual(const View& view, StepReport& out)
 {
     const bool damped = std::any_of(view.model.springs.begin(), view.model.springs.end(),
                                     [](const StretchElement& e) { return e.damping > 0; });
@@ -176,7 +179,7 @@ double implicit_residual(const View& view)
     const bool flows = std::any_of(bodies.begin(), bodies.end(),
                                    [](const Body& body) { return body.material.plastic_yield > 0; });
     if (view.plan.predicted == kNoBuffer || view.world.steps() == 0 || damped || flows)
-        return -1;
+        return;
     const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
     std::vector<glm::dvec3> force(view.x.size(), glm::dvec3(0));
@@ -184,16 +187,22 @@ double implicit_residual(const View& view)
     std::vector<glm::dvec3> gas(view.x.size(), glm::dvec3(0)); // of the guess, which it has pushed
     for (const GasElement& e : view.model.gases)
         add_gas_forces(e, view.x, gas);
-    double worst = 0;
+    std::vector<double> size(view.x.size(), 0.0);
+    add_force_sizes(view.model, view.x, size);
+    double worst = 0, lefts = 0, sizes = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
         if (view.model.pinned[i] || touches(view, i))
             continue;
-        const glm::dvec3 elastic = (force[i] - gas[i]) / view.model.mass[i] - view.model.gravity;
-        const glm::dvec3 left = (moved[i] - guess[i]) / (h * h) - elastic;
-        worst = std::max(worst, glm::length(left) / (gravity > 0 ? gravity : 1.0));
+        const double mass = view.model.mass[i];
+        const glm::dvec3 elastic = (force[i] - gas[i]) / mass - view.model.gravity;
+        const glm::dvec3 inertia = (moved[i] - guess[i]) / (h * h);
+        worst = std::max(worst, glm::length(inertia - elastic) / (gravity > 0 ? gravity : 1.0));
+        lefts += mass * glm::length(inertia - elastic);
+        sizes += mass * glm::length(inertia) + size[i];
     }
-    return worst;
+    out.primal_residual = worst;
+    out.imbalance = sizes > 0 ? lefts / sizes : 0;
 }
 
 void measure_residuals(const View& view, StepReport& out)
@@ -208,7 +217,7 @@ void measure_residuals(const View& view, StepReport& out)
                     [](const EffectCost& e) { return e.name == "strain_limit" || e.name == "attachment"; });
     const MethodKind kind = method_of(view.world.scene());
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
-        out.primal_residual = implicit_residual(view);
+        implicit_residual(view, out);
     const bool by_multipliers = kind == MethodKind::xpbd && kept;
     if (!by_multipliers || limited || view.plan.predicted == kNoBuffer || view.world.steps() == 0)
         return;
@@ -238,16 +247,7 @@ std::uint64_t hash_of(const WorldState& state)
     return hash;
 }
 
-/// Strain that counts as diverged where corrections are exaggerated: those of PBD can feed on themselves for
-/// long before a coordinate passes kDivergedExtent.
-constexpr double kDivergedStrain = 100;
-
-bool exaggerates(const MethodSettings& method)
-{
-    return method.type == "pbd" && (method.relaxation > 1 || method.spectral_radius > 0);
-}
-
-void judge(const View& view, StepReport& out)
+void judge_all(const View& view, StepReport& out)
 {
     const Events events = view.world.events();
     add_warnings(events, out.warnings);
@@ -255,22 +255,38 @@ void judge(const View& view, StepReport& out)
     count(Warning::solve_failed, out.solver.failed, out.warnings);
     for (const PlanWarning& warning : view.plan.warnings)
         out.warnings[warning.word] += warning.count;
-    bool finite = true;
-    double extent = 0;
-    for (std::size_t i = 0; i < view.x.size(); ++i)
-    {
-        finite = finite && std::isfinite(view.x[i].x) && std::isfinite(view.x[i].y) &&
-                 std::isfinite(view.x[i].z) && std::isfinite(glm::length(view.v[i]));
-        extent = std::max(extent, glm::length(view.x[i]));
-    }
-    if (!finite || events.non_finite > 0)
-        out.status = Status::non_finite;
-    else if (extent > kDivergedExtent ||
-             (exaggerates(view.world.scene().method) && out.max_stretch > kDivergedStrain))
-        out.status = Status::diverged;
+    const Soundness found = taut::judge(EnergyBudget(view.world.scene()), view.world);
+    out.judged_energy = found.energy;
+    out.energy_most = found.energy_most;
+    set_status(found, out);
 }
 
 } // namespace
+
+void set_status(const Soundness& found, StepReport& report)
+{
+    if (rank(found.status) <= rank(report.status))
+        return;
+    report.status = found.status;
+    report.reason = found.reason;
+}
+
+void judge_residuals(const Scene& scene, StepReport& report)
+{
+    if (report.dual_residual > scene.accept.stretch)
+        set_status({Status::unconverged, "by the multipliers a spring is " +
+                                             shown(100 * report.dual_residual, 3) +
+                                             " % of its length from where it should be, accept.stretch is " +
+                                             shown(100 * scene.accept.stretch, 3) +
+                                             " %; take more substeps or iterations"},
+                   report);
+    if (report.imbalance > scene.accept.residual)
+        set_status({Status::unconverged, "the solver left " + shown(100 * report.imbalance, 3) +
+                                             " % of the forces, accept.residual is " +
+                                             shown(100 * scene.accept.residual, 3) +
+                                             " %; take more substeps or iterations"},
+                   report);
+}
 
 StepReport measure(const World& world)
 {
@@ -288,7 +304,8 @@ StepReport measure(const World& world)
     out.position_hash = hash_of(world.state());
     out.solver = world.solver_report();
     out.active_share = world.active_share();
-    judge(view, out);
+    judge_all(view, out);
+    judge_residuals(world.scene(), out);
     return out;
 }
 

@@ -175,10 +175,12 @@ double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
     return energy;
 }
 
-void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<glm::dvec3>& out)
+namespace {
+
+/// Calls add(vertex, force) with what each compliant element does to each of its vertices.
+template <typename Add>
+void each_force(const PhysicalModel& model, std::span<const glm::dvec3> x, Add add)
 {
-    for (std::size_t i = 0; i < x.size(); ++i)
-        out[i] += model.mass[i] * model.gravity;
     for (const StretchElement& s : model.springs)
     {
         const glm::dvec3 d = x[s.a] - x[s.b];
@@ -186,8 +188,8 @@ void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::
         if (!(length > 0) || !(s.compliance > 0))
             continue;
         const glm::dvec3 f = ((length - s.rest_length) / (s.compliance * length)) * d;
-        out[s.a] -= f;
-        out[s.b] += f;
+        add(s.a, -f);
+        add(s.b, f);
     }
     for (const BendElement& h : model.hinges)
     {
@@ -199,7 +201,7 @@ void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::
         for (std::size_t c = 0; c < 4; ++c)
         {
             const Vec<double>& g = hinge.gradient[c];
-            out[vertex[c]] += torque * glm::dvec3(g.x, g.y, g.z);
+            add(vertex[c], torque * glm::dvec3(g.x, g.y, g.z));
         }
     }
     for (const VolumeElement& e : model.volumes)
@@ -209,20 +211,45 @@ void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::
         const double pressure = -(volume_of(e.vertex, x) - e.rest_volume) / e.compliance;
         const std::array<glm::dvec3, 4> gradient = volume_gradient(e.vertex, x);
         for (std::size_t c = 0; c < 4; ++c)
-            out[e.vertex[c]] += pressure * gradient[c];
+            add(e.vertex[c], pressure * gradient[c]);
     }
     for (const SolidElement& e : model.solids)
     {
         const std::array<glm::dvec3, 4> force = solid_forces(e, x);
         for (std::size_t c = 0; c < 4; ++c)
-            out[e.vertex[c]] += force[c];
+            add(e.vertex[c], force[c]);
     }
+}
+
+/// Of enclosed volumes and gases, which act on a whole surface.
+void add_surface_forces(const PhysicalModel& model, std::span<const glm::dvec3> x,
+                        std::vector<glm::dvec3>& out)
+{
     for (const SurfaceElement& e : model.surfaces)
         if (e.compliance > 0)
             add_volume_gradient(e.triangles, x,
                                 (e.rest_volume - enclosed_volume(e.triangles, x)) / e.compliance, out);
     for (const GasElement& gas : model.gases)
         add_gas_forces(gas, x, out);
+}
+
+} // namespace
+
+void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<glm::dvec3>& out)
+{
+    for (std::size_t i = 0; i < x.size(); ++i)
+        out[i] += model.mass[i] * model.gravity;
+    each_force(model, x, [&](std::uint32_t v, const glm::dvec3& f) { out[v] += f; });
+    add_surface_forces(model, x, out);
+}
+
+void add_force_sizes(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<double>& out)
+{
+    std::vector<glm::dvec3> surface(x.size(), glm::dvec3(0));
+    add_surface_forces(model, x, surface);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        out[i] += glm::length(surface[i]) + model.mass[i] * glm::length(model.gravity);
+    each_force(model, x, [&](std::uint32_t v, const glm::dvec3& f) { out[v] += glm::length(f); });
 }
 
 double total_weight(const PhysicalModel& model)

@@ -60,6 +60,9 @@ double gas_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
 /// N: elastic forces of compliant elements, gases and gravity. Rigid elements are left out. Pins included.
 void add_forces(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<glm::dvec3>& out);
 
+/// N: adds the sizes of the forces that every element and gravity have on each vertex.
+void add_force_sizes(const PhysicalModel& model, std::span<const glm::dvec3> x, std::vector<double>& out);
+
 /// N, mass times gravity of the vertices that move.
 double total_weight(const PhysicalModel& model);
 std::size_t rigid_element_count(const PhysicalModel& model);

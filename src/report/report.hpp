@@ -1,6 +1,7 @@
 #pragma once
 // How a run went, as values: statuses, errors of measure, energies, residuals.
 
+#include "taut/report/soundness.hpp"
 #include "taut/report/volume.hpp"
 #include "taut/runtime/base/status.hpp"
 #include "taut/world/world.hpp"
@@ -13,26 +14,33 @@
 namespace taut {
 
 /// Warnings: something a user should know though the run is sound. With their count.
-enum class Warning { degenerate, speed_clamp, conflict, precision, iteration_limit, solve_failed };
+enum class Warning { degenerate, speed_clamp, conflict, precision, iteration_limit, solve_failed, unconverged };
 std::string_view to_string(Warning warning);
 
 /// One look at a world. Lengths in m, energies in J, computed in fp64 on the host.
 struct StepReport
 {
     Status status = Status::completed;
+    std::string reason; ///< why it is not completed; a sentence
     std::map<std::string, std::uint64_t> warnings;
     std::uint64_t step = 0;
     double time = 0;
+    bool springs = false;        ///< there are any: else there is no stretch to speak of
     double max_stretch = 0;      ///< largest (l-L)/L over distance constraints, signed
     double rms_stretch = 0;      ///< root mean square of max(0, (l-L)/L)
     double penetration = 0;      ///< deepest vertex below a collider's surface, m
     double kinetic_energy = 0;
     double potential_energy = 0; ///< gravity + elastic, zero of gravity at the origin
+    double judged_energy = 0;    ///< J, kinetic and of what is strained beyond accept.stretch (soundness.hpp)
+    double energy_most = 0;      ///< J, that physics can have put into it
     double momentum_error =
         0; ///< |P - P0 - impulse| / (M v_ref); NaN is never used: -1 when pins or contacts make it undefined
     /// methods: ||M(x - x~) - J^T lambda|| / (m g h^2), -1 without multipliers; implicit_euler: r_acc
     double primal_residual = 0;
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
+    /// What the last substep left of all forces, added up by size, over those at hand (inertia, weight, those
+    /// of every element): 0 solved, 1 nothing done; -1 where primal_residual is.
+    double imbalance = -1;
     double max_speed = 0;        ///< m/s
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1
     SolverReport solver;         ///< of the run so far
@@ -41,9 +49,12 @@ struct StepReport
     std::uint64_t position_hash = 0; ///< FNV-1a over the raw position and low words in plan order
 };
 
-/// Coordinates beyond this count as diverged, m.
-inline constexpr double kDivergedExtent = 1e12;
-
 StepReport measure(const World& world);
+
+/// Makes a report's status and reason those found, where that is worse.
+void set_status(const Soundness& found, StepReport& report);
+
+/// The same with residuals of the report beyond what the scene accepts.
+void judge_residuals(const Scene& scene, StepReport& report);
 
 } // namespace taut

@@ -256,6 +256,8 @@ void check_world(const Scene& scene, const Checker& out)
     out.not_negative("max_speed", scene.max_speed, "m/s");
     out.not_negative("depenetration_speed", scene.depenetration_speed, "m/s");
     check_method(scene.method, out.at("method"));
+    out.positive("accept.stretch", scene.accept.stretch, "(a strain)");
+    out.positive("accept.residual", scene.accept.residual, "(a share of the forces)");
     check_wind(scene.wind, out.at("wind"));
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)
         check_collider(scene.colliders[i], out.at("colliders", i));

@@ -70,7 +70,8 @@ void check_method(const MethodSettings& method, const Checker& out)
 {
     constexpr std::array<std::string_view, 2> precisions = {"float", "double"};
     out.word("type", method.type, kMethodNames);
-    out.range("substeps", method.substeps, 1, kMaxIterations);
+    if (method.substeps != 0) // 0: automatic
+        out.range("substeps", method.substeps, 1, kMaxIterations);
     out.range("iterations", method.iterations, 1, kMaxIterations);
     out.word("precision", method.precision, precisions);
     check_explicit(method, out);

@@ -43,8 +43,9 @@ std::span<const KeySet> all_keys()
     static const std::vector<KeySet> sets = {
         {"scene",
          {"taut", "name", "timestep", "duration", "gravity", "damping", "max_speed", "depenetration_speed",
-          "external_forces", "method", "wind", "bodies", "colliders"}},
+          "external_forces", "method", "accept", "wind", "bodies", "colliders"}},
         method_keys(),
+        {"accept", {"stretch", "residual", "inverted"}},
         {"wind", {"density", "velocity", "keys"}},
         {"wind key", {"time", "velocity"}},
         {"body",

@@ -278,11 +278,24 @@ Collider read_collider(Field field)
     return collider;
 }
 
+void read_substeps(const Field& method, std::uint32_t& out)
+{
+    const auto substeps = method.find("substeps");
+    if (!substeps)
+        return;
+    if (!substeps->is_text())
+        out = substeps->count();
+    else if (substeps->text() != "automatic")
+        substeps->refuse("it must be a whole number from 1 to 1000, or \"automatic\"");
+    if (out == 0 && !substeps->is_text())
+        substeps->refuse("it must be a whole number from 1 to 1000, or \"automatic\"");
+}
+
 void read_method(Field field, MethodSettings& method)
 {
     field.object("method");
     field.read("type", method.type);
-    field.read("substeps", method.substeps);
+    read_substeps(field, method.substeps);
     field.read("iterations", method.iterations);
     field.read("precision", method.precision);
     field.read("integrator", method.integrator);
@@ -313,6 +326,16 @@ void read_method(Field field, MethodSettings& method)
     field.read("target", method.target);
     field.read("start", method.start);
     field.read("spectral_radius", method.spectral_radius);
+}
+
+Accept read_accept(Field field)
+{
+    field.object("accept");
+    Accept accept;
+    field.read("stretch", accept.stretch);
+    field.read("residual", accept.residual);
+    field.read("inverted", accept.inverted);
+    return accept;
 }
 
 Wind read_wind(Field field)
@@ -350,6 +373,8 @@ Scene read_scene(Field field)
     field.read("external_forces", scene.external_forces);
     if (const auto method = field.find("method"))
         read_method(*method, scene.method);
+    if (const auto accept = field.find("accept"))
+        scene.accept = read_accept(*accept);
     if (const auto wind = field.find("wind"))
         scene.wind = read_wind(*wind);
     if (const auto bodies = field.find("bodies"))

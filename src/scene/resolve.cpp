@@ -274,6 +274,8 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* warnings)
             resolve_pin(body, body.pins[p], held, at.at("pins", p));
         std::erase_if(body.pins, [](const Pin& pin) { return pin.vertices.empty(); });
     }
+    if (resolved.method.substeps == 0)
+        resolved.method.substeps = automatic_substeps(resolved);
     if (warnings)
         warnings->insert(warnings->end(), issues.begin(), issues.end());
     return resolved;

@@ -214,7 +214,8 @@ inline constexpr std::array<std::string_view, 7> kMethodNames = {
 struct MethodSettings
 {
     std::string type = "xpbd";
-    std::uint32_t substeps = 10; ///< per time step, 1..1000
+    /// Per time step, 1..1000; 0: automatic_substeps(), put in by resolve().
+    std::uint32_t substeps = 0;
     /// Per substep, 1..1000: sweeps (pbd, xpbd, vbd), Newton steps (implicit_euler), linear solves, each at
     /// the places that the one before led to (implicit_constraints, acad).
     std::uint32_t iterations = 1;
@@ -263,6 +264,16 @@ struct Wind
 /// The wind's velocity [m/s] at a time [s].
 glm::dvec3 wind_at(const Wind& wind, double time);
 
+/// What a run may leave undone and still be called completed (docs/statuses.md).
+struct Accept
+{
+    /// Strain, > 0: elements strained by more must be so by energy that was put in; what a method keeps at its
+    /// length, or within a strain_limit, may be off by no more.
+    double stretch = 0.1;
+    double residual = 1; ///< > 0, see StepReport::imbalance
+    std::uint32_t inverted = 0; ///< tetrahedra inside out at the end
+};
+
 struct Scene
 {
     int version = 1; ///< the key "taut"
@@ -275,6 +286,7 @@ struct Scene
     double depenetration_speed = 0.5; ///< m/s, fastest way out of an initial penetration
     bool external_forces = false;     ///< allow World::set_force; costs a buffer and a pass
     MethodSettings method;
+    Accept accept;
     Wind wind;
     std::vector<Body> bodies;
     std::vector<Collider> colliders;
@@ -303,6 +315,10 @@ std::vector<SceneIssue> check(const Scene& scene);
 
 /// The same for a scene whose bodies have meshes already: all values, and indices against the meshes.
 std::vector<SceneIssue> check_resolved(const Scene& scene);
+
+/// Substeps for a resolved scene that names none: under pbd and xpbd so many that sweeps leave a strain of
+/// about 1 % under the scene's weight, at least 10 and at most 1,000; 10 under other methods.
+std::uint32_t automatic_substeps(const Scene& resolved);
 
 /// Checks, generates or loads every body's mesh, applies transforms, resolves pins; returns a scene
 /// whose bodies have `mesh`, and whose pins have only `vertices` and `motion`. Warnings are appended.

@@ -37,7 +37,14 @@ void World::Impl::record()
 void World::Impl::restart_clock(const Clock& before)
 {
     const double time = before.at(steps);
-    clock = {steps, time, scene.timestep, scene.gravity, before.fall + before.gravity * (time - before.time)};
+    const double past = time - before.time;
+    clock = {steps,
+             time,
+             scene.timestep,
+             scene.gravity,
+             before.fall + before.gravity * past,
+             before.fall_length + glm::length(before.gravity) * past,
+             before.steady && (steps == 0 || before.gravity == scene.gravity)};
 }
 
 void World::Impl::write_inputs()
@@ -86,10 +93,17 @@ std::vector<std::byte> World::Impl::raw(std::uint32_t buffer) const
     return bytes;
 }
 
+void World::Impl::count_step()
+{
+    ++steps;
+    for (const auto& [vertex, size] : force_size)
+        push += size * scene.timestep;
+}
+
 /// Cloth that can tear is looked at between steps: one word says whether any spring is too long.
 void World::Impl::after_step()
 {
-    ++steps;
+    count_step();
     if (plan.torn == kNoBuffer)
         return;
     const std::uint32_t count = device->read<std::uint32_t>(buffers[plan.torn], 1).front();
@@ -108,7 +122,11 @@ Scene resolved(const Scene& scene)
     for (const Body& body : scene.bodies)
         if (body.mesh.positions.empty())
             return resolve(scene);
-    return scene;
+    if (scene.method.substeps != 0)
+        return scene;
+    Scene counted = scene;
+    counted.method.substeps = automatic_substeps(scene);
+    return counted;
 }
 
 bool has_constraints(const Scene& scene)
@@ -172,6 +190,13 @@ double World::time() const { return impl_->time(); }
 glm::dvec3 World::gravity_impulse() const
 {
     return impl_->clock.fall + impl_->clock.gravity * (time() - impl_->clock.time);
+}
+WorldDrive World::drive() const
+{
+    const Clock& clock = impl_->clock;
+    return {time(), impl_->plan.timestep / impl_->plan.substeps,
+            clock.fall_length + glm::length(clock.gravity) * (time() - clock.time), clock.steady,
+            impl_->push};
 }
 const Plan& World::plan() const { return impl_->plan; }
 const Scene& World::scene() const { return impl_->scene; }
@@ -254,7 +279,7 @@ void World::record_into(VkCommandBuffer_T* commands)
     impl_->write_inputs();
     if (impl_->recording)
         record_into_vulkan(*impl_->recording, commands);
-    ++impl_->steps;
+    impl_->count_step();
 }
 
 void World::set_timestep(double seconds)
@@ -298,6 +323,7 @@ void World::set_force(std::uint32_t vertex, const glm::dvec3& force)
         put(double{});
     else
         put(float{});
+    impl_->force_size[vertex] = glm::length(force);
 }
 
 } // namespace taut

@@ -23,6 +23,8 @@ struct Clock
     double timestep = 0;     ///< s, since then; 0 = that of the scene
     glm::dvec3 gravity{0};   ///< m/s^2, since then
     glm::dvec3 fall{0};      ///< m/s, integral of gravity over time up to `step`
+    double fall_length = 0;  ///< m/s, integral of its length
+    bool steady = true;      ///< gravity has been the scene's all the time
 
     double at(std::uint64_t now) const { return time + static_cast<double>(now - step) * timestep; }
 };
@@ -52,6 +54,16 @@ struct SolverReport
     std::uint64_t limited = 0;    ///< ended at the limit of iterations
     std::uint64_t failed = 0;     ///< ended as stagnated, indefinite_... or non_finite: what was gained stays
     Status last = Status::zero_right_hand_side; ///< how the last one ended
+};
+
+/// What has driven a world from outside since it was made, for accounts of energy.
+struct WorldDrive
+{
+    double time = 0;            ///< s
+    double substep = 0;         ///< s
+    double fall = 0;            ///< m/s, integral of the length of gravity over time
+    bool steady_gravity = true; ///< it has been that of the scene all the time
+    double push = 0;            ///< N s, integral of the lengths of all external forces
 };
 
 /// Device time of one step, summed by effect.
@@ -84,6 +96,7 @@ public:
     std::uint64_t steps() const;
     double time() const; ///< s
     glm::dvec3 gravity_impulse() const; ///< m/s, integral of gravity over the time so far
+    WorldDrive drive() const;
     const Plan& plan() const;
     const Scene& scene() const; ///< resolved
     Device& device() const;

@@ -4,6 +4,7 @@
 #include "taut/world/tearing.hpp"
 #include "taut/world/world.hpp"
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct World::Impl
     std::uint64_t steps = 0;
     Clock clock;
     bool moves = false;
+    std::map<std::uint32_t, double> force_size; ///< N, by scene-wide vertex, of forces set from outside
+    double push = 0;                            ///< N s, as WorldDrive::push
     PlanOptions options;
     DeviceTraits traits;
     std::uint64_t torn = 0;     ///< vertices that came apart
@@ -30,6 +33,7 @@ struct World::Impl
     void record();
     void write_inputs();
     void write_all_inputs();
+    void count_step();
     void after_step();
     void replace_scene(const TornScene& next);
     template <typename Real>

@@ -1,0 +1,249 @@
+#include "taut/report/energy_budget.hpp"
+
+#include "taut/report/contact.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut {
+namespace {
+
+constexpr int kSamples = 8; ///< of a stretch between two keys, where a turn may be faster than its chord
+
+/// Corners of the box of some places; a rigid motion moves none of the places faster than the fastest corner.
+std::vector<glm::dvec3> box_corners(const glm::dvec3& low, const glm::dvec3& high)
+{
+    std::vector<glm::dvec3> out;
+    for (int k = 0; k < 8; ++k)
+        out.emplace_back((k & 1) != 0 ? high.x : low.x, (k & 2) != 0 ? high.y : low.y,
+                         (k & 4) != 0 ? high.z : low.z);
+    return out;
+}
+
+/// A motion, and the corners of what it carries.
+struct Mover
+{
+    std::vector<Keyframe> motion;
+    std::vector<glm::dvec3> corners;
+};
+
+std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
+{
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    std::vector<Mover> out;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        for (const Pin& pin : scene.bodies[b].pins)
+        {
+            glm::dvec3 low(kFar), high(-kFar);
+            for (const std::uint32_t v : pin.vertices)
+            {
+                low = glm::min(low, model.start[model.body_start[b] + v]);
+                high = glm::max(high, model.start[model.body_start[b] + v]);
+            }
+            if (!pin.motion.empty() && low.x <= high.x)
+                out.push_back({pin.motion, box_corners(low, high)});
+        }
+    for (const Collider& c : scene.colliders)
+    {
+        // Of a plane, the part that the bodies can be at.
+        const double size = c.kind == ColliderKind::plane     ? model.diameter
+                            : c.kind == ColliderKind::cuboid  ? glm::length(c.half_size)
+                                                              : c.radius;
+        const glm::dvec3 end = c.kind == ColliderKind::capsule ? c.end : c.point;
+        if (!c.motion.empty())
+            out.push_back({c.motion, box_corners(glm::min(c.point, end) - size, glm::max(c.point, end) + size)});
+    }
+    return out;
+}
+
+/// The fastest and the longest way of a mover between two times, added to `reach`.
+void extend(const Mover& mover, double from, double to, MoverReach& reach)
+{
+    for (const glm::dvec3& corner : mover.corners)
+    {
+        glm::dvec3 before = pose(mover.motion, from, corner);
+        for (int k = 1; k <= kSamples; ++k)
+        {
+            const glm::dvec3 now = pose(mover.motion, from + (to - from) * k / kSamples, corner);
+            reach.speed = std::max(reach.speed, glm::distance(now, before) * kSamples / (to - from));
+            reach.travel = std::max(reach.travel, glm::distance(now, corner));
+            before = now;
+        }
+    }
+}
+
+std::vector<MoverReach> reach_of(const std::vector<Mover>& movers)
+{
+    std::vector<double> times;
+    for (const Mover& mover : movers)
+        for (const Keyframe& key : mover.motion)
+            if (key.time > 0)
+                times.push_back(key.time);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    std::vector<MoverReach> out{{}};
+    for (const double time : times)
+    {
+        MoverReach next = out.back();
+        next.time = time;
+        for (const Mover& mover : movers)
+            extend(mover, out.back().time, time, next);
+        out.push_back(next);
+    }
+    return out;
+}
+
+double deepest_start(const Scene& scene, const PhysicalModel& model)
+{
+    double depth = 0;
+    for (const Collider& c : scene.colliders)
+    {
+        const reference::Surface surface = reference::surface_at(c, 0);
+        for (std::size_t i = 0; i < model.start.size(); ++i)
+            if (!model.pinned[i])
+                depth = std::max(depth, model.gap[i] - surface.touch(model.start[i], 0).height);
+    }
+    return depth;
+}
+
+double kinetic_energy(const PhysicalModel& model)
+{
+    double out = 0;
+    for (std::size_t i = 0; i < model.mass.size(); ++i)
+        out += 0.5 * model.mass[i] * glm::dot(model.velocity[i], model.velocity[i]);
+    return out;
+}
+
+/// A rigid element that starts off its rest length has no energy to speak of: it counts as 0 here.
+double elastic_at_start(PhysicalModel model)
+{
+    const auto drop_rigid = [](auto& elements) {
+        std::erase_if(elements, [](const auto& e) { return !(e.compliance > 0); });
+    };
+    drop_rigid(model.springs);
+    drop_rigid(model.hinges);
+    drop_rigid(model.volumes);
+    drop_rigid(model.surfaces);
+    return elastic_energy(model, model.start);
+}
+
+/// m: how far springs that a method keeps by projection are from their length at the start. Such a step puts
+/// it right at once, at whatever speed that takes.
+double largest_violation(const Scene& scene, const PhysicalModel& model)
+{
+    const MethodSettings& method = scene.method;
+    const bool all = method.type == "pbd" || method.constraint_compliance == 0;
+    double out = 0;
+    for (const StretchElement& e : model.springs)
+        if (all || !(e.compliance > 0))
+            out = std::max(out, std::abs(glm::distance(model.start[e.a], model.start[e.b]) - e.rest_length));
+    return out;
+}
+
+/// N: of all triangles in a wind of this speed, were each square to it.
+double largest_wind_force(const Scene& scene, double speed)
+{
+    double out = 0;
+    for (const Body& body : scene.bodies)
+        for (const auto& t : body.mesh.triangles)
+        {
+            const auto& x = body.mesh.positions;
+            const double area = 0.5 * glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+            out += 0.5 * scene.wind.density * speed * speed * area *
+                   (body.material.drag + body.material.friction_drag);
+        }
+    return out;
+}
+
+double largest_wind(const Wind& wind)
+{
+    double out = glm::length(wind.velocity);
+    for (const Wind::Key& key : wind.keys)
+        out = std::max(out, glm::length(key.velocity));
+    return wind.density > 0 ? out : 0;
+}
+
+} // namespace
+
+EnergyBudget::EnergyBudget(const Scene& resolved)
+    : model_(make_model(resolved)),
+      reach_(reach_of(movers_of(resolved, model_))),
+      depth_(deepest_start(resolved, model_)),
+      violation_(largest_violation(resolved, model_)),
+      depenetration_(resolved.depenetration_speed),
+      wind_speed_(largest_wind(resolved.wind)),
+      wind_force_(largest_wind_force(resolved, wind_speed_))
+{
+    lightest_ = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < model_.mass.size(); ++i)
+        if (!model_.pinned[i])
+        {
+            mass_ += model_.mass[i];
+            lightest_ = std::min(lightest_, model_.mass[i]);
+        }
+    start_ = kinetic_energy(model_) + elastic_at_start(model_) + gas_energy(model_, model_.start);
+    gravity_start_ = gravity_energy(model_, model_.start);
+}
+
+MoverReach EnergyBudget::reach_at(double time) const
+{
+    // The stretch that `time` lies in counts whole.
+    const auto end = std::lower_bound(reach_.begin(), reach_.end(), time,
+                                      [](const MoverReach& r, double t) { return r.time < t; });
+    return end == reach_.end() ? reach_.back() : *end;
+}
+
+double EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive) const
+{
+    const MoverReach reach = reach_at(drive.time);
+    const double g = glm::length(model_.gravity);
+    double in = start_ - gas_energy(model_, x);
+    double root = 0; // what is added to sqrt(E)
+    if (drive.steady_gravity)
+        in += gravity_start_ - gravity_energy(model_, x) + mass_ * g * reach.travel;
+    else
+        root += std::sqrt(mass_ / 2) * drive.fall;
+    if (depth_ > 0)
+        in += mass_ * (g * depth_ + 0.5 * depenetration_ * depenetration_);
+    in += 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
+    if (wind_force_ > 0)
+    {
+        double moved = 0;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            moved = std::max(moved, glm::distance(x[i], model_.start[i]));
+        in += wind_force_ * moved;
+    }
+    root += kHits * std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force_ > 0 ? wind_speed_ : 0.0);
+    if (drive.push > 0)
+        root += drive.push / std::sqrt(2 * lightest_);
+    root += std::sqrt(std::max(in, 0.0));
+    return root * root;
+}
+
+double EnergyBudget::rounding(Precision precision, double substep) const
+{
+    const bool single = precision == Precision::float32;
+    const double digit = single ? 6e-8 : 1.1e-16; // of a coordinate
+    const double strain = single ? 1e-5 : 1e-12;  // that its rounding leaves
+    const double speed = 32 * digit * model_.diameter / substep;
+    double out = 0.5 * mass_ * speed * speed;
+    for (const StretchElement& e : model_.springs)
+        if (e.compliance > 0)
+            out += 0.5 * strain * strain * e.rest_length * e.rest_length / e.compliance;
+    for (const SolidElement& e : model_.solids)
+        out += 0.5 * strain * strain * (e.mu + e.lambda) * e.rest_volume;
+    for (const BendElement& e : model_.hinges)
+        if (e.compliance > 0)
+            out += 0.5 * strain * strain / e.compliance;
+    return out;
+}
+
+double EnergyBudget::small() const
+{
+    return 0.01 * mass_ * glm::length(model_.gravity) * model_.diameter;
+}
+
+} // namespace taut

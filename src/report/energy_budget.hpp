@@ -1,0 +1,61 @@
+#pragma once
+// How much energy a scene can hold: what it starts with, and what gravity, moving pins and colliders, wind,
+// gas and forces can have put in since. Soundness (soundness.hpp) compares runs with it.
+
+#include "taut/report/model.hpp"
+#include "taut/world/world.hpp"
+
+#include <span>
+#include <vector>
+
+namespace taut {
+
+/// How far and how fast what a scene moves by itself has gone by a time.
+struct MoverReach
+{
+    double time = 0;   ///< s: end of the stretch
+    double speed = 0;  ///< m/s, largest so far
+    double travel = 0; ///< m, longest way so far
+};
+
+/// Bounds on energy, fp64 on the host. Immutable after construction; const members may be called from any
+/// thread.
+///
+/// Based on: the work-energy theorem. A force that accelerates every part of a mass M by at most g raises
+///   sqrt(2 E / M) by at most g t; what moves at V passes on at most a multiple of V to what it meets.
+/// Departures: the work of moving pins and colliders is bounded by kHits times their speed, not integrated.
+class EnergyBudget
+{
+public:
+    /// `resolved` as the world had it at the start, before anything tore.
+    explicit EnergyBudget(const Scene& resolved);
+
+    const PhysicalModel& model() const { return model_; }
+
+    /// J: the most that kinetic and elastic energy can be together at places `x` [m, scene-wide].
+    double most(std::span<const glm::dvec3> x, const WorldDrive& drive) const;
+
+    /// J: what rounding and the last digits of strains can make: below it nothing is judged. `substep` in s.
+    double rounding(Precision precision, double substep) const;
+
+    /// J: a hundredth of a fall through the scene's own size.
+    double small() const;
+
+    double mass() const { return mass_; } ///< kg, of vertices that move
+
+    /// Speeds of colliders and pins count so often: a mass between two that close in is thrown faster.
+    static constexpr double kHits = 4;
+
+private:
+    MoverReach reach_at(double time) const;
+
+    PhysicalModel model_;
+    std::vector<MoverReach> reach_; ///< ascending in time
+    double mass_ = 0, lightest_ = 0, start_ = 0, gravity_start_ = 0, depth_ = 0;
+    double violation_ = 0;     ///< m: largest of what rigid elements must put right at the start
+    double depenetration_ = 0; ///< m/s
+    double wind_speed_ = 0;    ///< m/s
+    double wind_force_ = 0;    ///< N, of all triangles together
+};
+
+} // namespace taut

@@ -1,0 +1,245 @@
+#include "taut/report/soundness.hpp"
+
+#include "taut/plan/methods.hpp"
+#include "taut/report/looks.hpp"
+#include "taut/report/volume.hpp"
+#include "taut/runtime/base/shown.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+Soundness found(Status status, std::string reason)
+{
+    Soundness out;
+    out.status = status;
+    out.reason = std::move(reason);
+    return out;
+}
+
+double kinetic_energy(const PhysicalModel& model, std::span<const glm::dvec3> v)
+{
+    double out = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (!model.pinned[i])
+            out += 0.5 * model.mass[i] * glm::dot(v[i], v[i]);
+    return out;
+}
+
+bool is_finite(const glm::dvec3& a) { return std::isfinite(a.x + a.y + a.z); }
+
+Soundness judge_places(const RunState& state)
+{
+    for (std::size_t i = 0; i < state.x.size(); ++i)
+    {
+        if (!is_finite(state.x[i]) || !is_finite(state.v[i]))
+            return found(Status::non_finite, "vertex " + std::to_string(i) + " is not finite");
+        if (glm::length(state.x[i]) > kDivergedExtent)
+            return found(Status::diverged, "vertex " + std::to_string(i) + " is " +
+                                               shown(glm::length(state.x[i]), 3) + " m from the origin");
+    }
+    if (state.events.non_finite > 0)
+        return found(Status::non_finite, "displacements were not finite " +
+                                             std::to_string(state.events.non_finite) + " times");
+    return {};
+}
+
+/// Where the scene sets no limit, a clamp is the guard against overflow.
+Soundness judge_clamps(const RunState& state)
+{
+    const double clamped = static_cast<double>(state.events.speed_clamped);
+    const MethodKind kind = method_of(state.scene);
+    if (kind == MethodKind::implicit_constraints || kind == MethodKind::acad)
+        return {}; // there the count is of turned springs, too
+    if (state.scene.max_speed <= 0 && clamped > 0)
+        return found(Status::diverged, "speeds passed what float can square " +
+                                           std::to_string(state.events.speed_clamped) + " times");
+    if (clamped > kClampedShare * state.vertex_substeps)
+        return found(Status::unconverged,
+                     "max_speed cut " + shown(100 * clamped / state.vertex_substeps, 3) +
+                         " % of all speeds; raise it, or find what makes them");
+    return {};
+}
+
+/// What is strained beyond what the scene accepts.
+struct Strained
+{
+    double energy = 0;       ///< J, of elements with a stiffness
+    double kept_strain = 0;  ///< largest strain of those that the method keeps by projection
+    double limit_strain = 0; ///< largest strain above a strain_limit
+};
+
+bool any_plastic(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [](const Body& body) { return body.material.plastic_yield > 0; });
+}
+
+/// pbd asked for its full stiffness, or a spring that is rigid, is asked to keep its length.
+void add_springs(const Scene& scene, std::span<const glm::dvec3> x, double accepted, Strained& out)
+{
+    const MethodKind kind = method_of(scene);
+    const bool kept = kind == MethodKind::pbd && scene.method.stretch >= 1;
+    std::uint32_t first = 0;
+    for (const Body& body : scene.bodies)
+    {
+        for (const StretchElement& e : stretch_elements(body))
+        {
+            if (!(e.rest_length > 0))
+                continue;
+            const double stretch = glm::distance(x[first + e.a], x[first + e.b]) - e.rest_length;
+            const double strain = stretch / e.rest_length;
+            if (kept || !(e.compliance > 0))
+                out.kept_strain = std::max(out.kept_strain, strain);
+            else if (kind != MethodKind::pbd && std::abs(strain) > accepted)
+                out.energy += 0.5 * stretch * stretch / e.compliance;
+            if (body.material.strain_limit > 0)
+                out.limit_strain = std::max(out.limit_strain, strain - body.material.strain_limit);
+        }
+        first += static_cast<std::uint32_t>(body.mesh.positions.size());
+    }
+}
+
+Strained strained(const PhysicalModel& model, const RunState& state)
+{
+    const double accepted = state.scene.accept.stretch;
+    Strained out;
+    add_springs(state.scene, state.x, accepted, out);
+    if (method_of(state.scene) != MethodKind::pbd)
+        for (const SolidElement& e : model.solids)
+        {
+            const glm::dmat3 f = deformation(e, state.x);
+            const glm::dmat3 green = 0.5 * (glm::transpose(f) * f - glm::dmat3(1));
+            const double size = std::sqrt(glm::dot(green[0], green[0]) + glm::dot(green[1], green[1]) +
+                                          glm::dot(green[2], green[2]));
+            if (size > accepted)
+                out.energy += std::max(solid_energy(e, state.x), 0.0);
+        }
+    if (any_plastic(state.scene)) // the model does not know what has flowed
+        out.energy = 0;
+    return out;
+}
+
+std::string percent(double share) { return shown(100 * share, 3) + " %"; }
+
+Soundness judge_strain(const Strained& strain, double accepted)
+{
+    const auto beyond = [&](double value, const char* what) {
+        return found(Status::unconverged, std::string(what) + " stretched by " + percent(value) +
+                                              ", accept.stretch is " + percent(accepted) +
+                                              "; take more substeps or iterations");
+    };
+    if (strain.kept_strain > accepted)
+        return beyond(strain.kept_strain, "a spring that the method keeps at its length is");
+    if (strain.limit_strain > accepted)
+        return beyond(strain.limit_strain, "beyond its strain_limit, a spring is");
+    return {};
+}
+
+Soundness judge_inverted(const RunState& state)
+{
+    // Springs without volumes do not know an inside.
+    const bool keeps = std::any_of(state.scene.bodies.begin(), state.scene.bodies.end(), [](const Body& b) {
+        return is_elastic(b) || holds_volumes(b);
+    });
+    const VolumeReport volume = measure_volume(state.scene, state.x);
+    if (!keeps || volume.inverted <= state.scene.accept.inverted)
+        return {};
+    return found(Status::unconverged,
+                 std::to_string(volume.inverted) + " tetrahedra are inverted, accept.inverted is " +
+                     std::to_string(state.scene.accept.inverted) + "; take more substeps or iterations");
+}
+
+Soundness judge_energy(double energy, double most, double bound, Status status, const char* what)
+{
+    if (energy <= bound)
+        return {};
+    return found(status, std::string(what) + " " + shown(energy, 3) + " J; no more than " + shown(most, 3) +
+                             " J can have been put in");
+}
+
+} // namespace
+
+int rank(Status status)
+{
+    switch (status)
+    {
+    case Status::completed:
+    case Status::interrupted: return 0;
+    case Status::unconverged: return 1;
+    case Status::diverged: return 2;
+    default: return 3;
+    }
+}
+
+Soundness worse(const Soundness& a, const Soundness& b)
+{
+    return rank(b.status) > rank(a.status) ? b : a;
+}
+
+Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
+{
+    const Soundness places = judge_places(state);
+    if (!places.sound())
+        return places;
+    const double most = budget.most(state.x, state.drive);
+    const double slack = budget.small() + budget.rounding(state.precision, state.drive.substep);
+    const double energy = kinetic_energy(budget.model(), state.v);
+    Soundness out = judge_energy(energy, most, kDivergedKinetic * most + slack, Status::diverged,
+                                 "the kinetic energy is");
+    out = worse(out, judge_clamps(state));
+    out.energy = energy;
+    out.energy_most = most;
+    return out;
+}
+
+Soundness judge_state(const EnergyBudget& budget, const RunState& state)
+{
+    const Soundness motion = judge_motion(budget, state);
+    if (rank(motion.status) >= rank(Status::diverged))
+        return motion;
+    const Strained strain = strained(budget.model(), state);
+    const double most = motion.energy_most, energy = motion.energy + strain.energy;
+    const double slack = budget.small() + budget.rounding(state.precision, state.drive.substep);
+    const char* what = "the kinetic energy and that of what is strained beyond accept.stretch are";
+    Soundness out = judge_energy(energy, most, kDivergedEnergy * (most + slack), Status::diverged, what);
+    out = worse(out, motion);
+    out = worse(out, judge_strain(strain, state.scene.accept.stretch));
+    out = worse(out, judge_inverted(state));
+    out = worse(out, judge_energy(energy, most, kUnconvergedEnergy * most + slack, Status::unconverged, what));
+    out.energy = energy;
+    out.energy_most = most;
+    return out;
+}
+
+Soundness judge(const EnergyBudget& budget, const World& world, Judged what)
+{
+    const std::vector<glm::dvec3> x = world.positions(), v = world.velocities();
+    const Plan& plan = world.plan();
+    const double substeps = static_cast<double>(world.steps()) * plan.substeps;
+    const RunState state{world.scene(), x, v, world.drive(), plan.precision, world.events(),
+                         substeps * plan.vertex_count};
+    return what == Judged::motion ? judge_motion(budget, state) : judge_state(budget, state);
+}
+
+void SoundnessWatch::after(std::uint64_t frame, const World& world)
+{
+    const auto due = [&](std::uint64_t looks) { return frame % std::max<std::uint64_t>(frames_ / looks, 1) == 0; };
+    if (frame == 0 || frames_ < 16 || !due(16))
+        return;
+    if (!budget_ || torn_ != world.torn())
+        budget_.emplace(world.scene());
+    torn_ = world.torn();
+    const Soundness now = judge(*budget_, world, due(4) ? Judged::state : Judged::motion);
+    if (now.status == Status::unconverged)
+        ++unconverged_;
+    else
+        found_ = worse(found_, now);
+}
+
+} // namespace taut

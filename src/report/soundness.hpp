@@ -1,0 +1,84 @@
+#pragma once
+// Whether a run can be believed, judged by physics: energy against what can have been put in, strain, clamped
+// speeds, inverted elements. docs/statuses.md says how each bound was chosen.
+
+#include "taut/report/energy_budget.hpp"
+#include "taut/runtime/base/status.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace taut {
+
+/// A state of a run, to be judged. Spans are scene-wide.
+struct RunState
+{
+    const Scene& scene; ///< resolved, as it is now
+    std::span<const glm::dvec3> x, v; ///< m, m/s
+    WorldDrive drive;
+    Precision precision = Precision::float32;
+    Events events;
+    double vertex_substeps = 0; ///< vertices times substeps so far
+};
+
+struct Soundness
+{
+    Status status = Status::completed; ///< or unconverged, diverged, non_finite
+    std::string reason;                ///< a sentence with the numbers; empty when completed
+    double energy = 0;                 ///< J: kinetic, and of elements strained beyond accept.stretch
+    double energy_most = 0;            ///< J: EnergyBudget::most
+
+    bool sound() const { return status == Status::completed; }
+};
+
+/// How bad: 0 completed, 1 unconverged, 2 diverged, 3 anything else but an interruption.
+int rank(Status status);
+
+/// The worse of two; of two that are as bad, the first.
+Soundness worse(const Soundness& a, const Soundness& b);
+
+/// Factors of EnergyBudget::most: kinetic energy beyond the first, kinetic and strained energy beyond the
+/// third is `diverged`; kinetic and strained energy beyond the second is `unconverged`.
+inline constexpr double kDivergedKinetic = 2, kUnconvergedEnergy = 2, kDivergedEnergy = 100;
+/// Coordinates beyond this count as diverged, m.
+inline constexpr double kDivergedExtent = 1e12;
+/// Share of vertices times substeps whose speed was cut at the scene's own max_speed.
+inline constexpr double kClampedShare = 0.01;
+
+/// What moves too fast, is too far away or not finite. Costs a pass over the vertices.
+Soundness judge_motion(const EnergyBudget& budget, const RunState& state);
+
+/// That, and what is strained or inverted. Costs a pass over the elements.
+Soundness judge_state(const EnergyBudget& budget, const RunState& state);
+
+enum class Judged
+{
+    motion, ///< by judge_motion
+    state,  ///< by judge_state
+};
+/// A world that runs the scene that `budget` was made of, from its start. Waits.
+Soundness judge(const EnergyBudget& budget, const World& world, Judged what = Judged::state);
+
+/// Looks at a run of so many frames on its way: motion sixteen times, strain four times. Measured, that is
+/// below 1 % of the steps between (docs/statuses.md).
+class SoundnessWatch
+{
+public:
+    explicit SoundnessWatch(std::uint64_t frames) : frames_(frames) {}
+
+    /// After frame `frame` of a run of `world`. Waits where a look is due.
+    void after(std::uint64_t frame, const World& world);
+
+    /// The worst of what was `diverged` or `non_finite`; what is unconverged on the way may heal.
+    const Soundness& found() const { return found_; }
+    /// Looks at which the state was unconverged.
+    std::uint64_t unconverged() const { return unconverged_; }
+
+private:
+    std::uint64_t frames_, unconverged_ = 0, torn_ = 0;
+    std::optional<EnergyBudget> budget_; ///< made at the first look
+    Soundness found_;
+};
+
+} // namespace taut

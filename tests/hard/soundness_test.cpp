@@ -1,0 +1,191 @@
+// Both mistakes of soundness, against fp64 runs of small steps: a blow-up that is called completed, and a run
+// that is right and is called anything else. docs/statuses.md has the numbers of the whole form.
+
+#include "hard/cases.hpp"
+
+#include "taut/runtime/base/shown.hpp"
+
+#include <map>
+
+namespace taut::hard {
+namespace {
+
+using conformance::Random;
+
+double between(Random& random, double low, double high) // even in the logarithm
+{
+    return std::exp(random.uniform(std::log(low), std::log(high)));
+}
+
+template <std::size_t N>
+const char* one_of(Random& random, const char* const (&words)[N])
+{
+    return words[static_cast<std::size_t>(random.uniform(0, static_cast<double>(N) - 1e-6))];
+}
+
+Scene random_cloth(Random& random)
+{
+    Scene scene;
+    Body body;
+    body.shape.cells = {6, 6};
+    body.material.stretch_stiffness = between(random, 1, 1e9);
+    body.material.bending_stiffness = random.uniform(0, 1) < 0.5 ? 0 : between(random, 1e-6, 1e3);
+    body.material.stretch_damping = random.uniform(0, 1) < 0.7 ? 0 : between(random, 1e-4, 1);
+    if (random.uniform(0, 1) < 0.6)
+    {
+        Pin pin;
+        pin.corners = {"top_left", "top_right"};
+        body.pins = {pin};
+    }
+    else
+        body.transform.rotate_axis = {1, 0, 0}, body.transform.rotate_degrees = -90;
+    if (body.pins.empty() && random.uniform(0, 1) < 0.5)
+    {
+        Collider ball;
+        ball.point = {0, -0.45, 0};
+        ball.radius = 0.4;
+        scene.colliders = {ball};
+        body.velocity = {0, -between(random, 0.1, 100), 0};
+    }
+    scene.bodies = {body};
+    return scene;
+}
+
+Scene random_solid(Random& random)
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {3, 3, 3};
+    body.shape.box_size = glm::dvec3(between(random, 0.02, 1));
+    body.material = solid_material();
+    body.material.youngs_modulus = between(random, 1e2, 1e10);
+    body.material.poissons_ratio = random.uniform(0, 0.499);
+    scene.bodies = {body};
+    if (random.uniform(0, 1) < 0.5)
+    {
+        Collider floor;
+        floor.kind = ColliderKind::plane;
+        floor.point = {0, -0.55 * body.shape.box_size.y, 0};
+        scene.colliders = {floor};
+    }
+    return scene;
+}
+
+Scene random_scene(Random& random)
+{
+    const bool solid = random.uniform(0, 1) < 0.4;
+    Scene scene = solid ? random_solid(random) : random_cloth(random);
+    MethodSettings& m = scene.method;
+    m.type = solid ? one_of(random, {"xpbd", "vbd", "implicit_euler"})
+                   : one_of(random, {"xpbd", "vbd", "implicit_euler", "mass_spring", "pbd"});
+    m.stability = "ignore";
+    m.integrator = one_of(random, {"semi_implicit", "verlet", "explicit"});
+    m.substeps = static_cast<std::uint32_t>(between(random, 1, 50));
+    m.iterations = m.type == "mass_spring" ? 1 : static_cast<std::uint32_t>(between(random, 1, 8));
+    m.spectral_radius = m.type == "vbd" && random.uniform(0, 1) < 0.3 ? 0.95 : 0;
+    scene.timestep = between(random, 1e-3, 1.0 / 30);
+    return resolve(scene);
+}
+
+/// The same, solved: implicit steps in double, small and with as many Newton steps as they take.
+Scene solved(Scene scene)
+{
+    scene.method = {};
+    scene.method.type = "implicit_euler";
+    scene.method.precision = "double";
+    scene.method.substeps = 40;
+    scene.method.iterations = 4;
+    scene.method.line_search = 8;
+    scene.method.linear_tolerance = 1e-9;
+    return scene;
+}
+
+struct Outcome
+{
+    StepReport report;
+    double fastest = 0; ///< m/s, over all frames
+    double most = 0;    ///< J, kinetic energy over all frames
+    std::vector<glm::dvec3> x;
+};
+
+constexpr int kFrames = 30;
+
+Outcome outcome_of(const Scene& scene, const std::shared_ptr<Device>& device)
+{
+    World world(scene, device);
+    Outcome out;
+    for (int k = 0; k < kFrames; ++k)
+    {
+        world.step();
+        const std::vector<glm::dvec3> v = world.velocities();
+        double energy = 0;
+        for (const glm::dvec3& w : v)
+            energy += 0.5 * glm::dot(w, w);
+        out.most = std::max(out.most, energy);
+    }
+    out.report = measure(world);
+    out.x = world.positions();
+    return out;
+}
+
+/// "blown up": by orders of magnitude more motion than there can be, or places that nothing explains.
+/// "right": within a hundredth of the scene's size of the solved run. Else neither.
+std::string truth_of(const Scene& scene, const Outcome& run, const Outcome& solution)
+{
+    const double size = make_model(scene).diameter;
+    if (!finite(run.x))
+        return "blown up";
+    double far = 0;
+    for (std::size_t i = 0; i < run.x.size(); ++i)
+        far = std::max(far, glm::distance(run.x[i], solution.x[i]));
+    const double floor = 9.81 * 9.81 * 1e-4 * static_cast<double>(run.x.size());
+    if (run.most > 10 * solution.most + floor || far > 5 * size)
+        return "blown up";
+    return far < 0.01 * size ? "right" : "neither";
+}
+
+} // namespace
+
+TEST_CASE("no blow-up is called completed, and nothing that is right is called anything else [hard]")
+{
+    const auto device = test_device("cpu:serial");
+    const int cases = short_run() ? 40 : 2500;
+    std::map<std::string, std::map<std::string, int>> counts;
+    for (int k = 0; k < cases; ++k)
+    {
+        Random random(1000 + static_cast<unsigned>(k));
+        const Scene scene = random_scene(random);
+        try
+        {
+            const Outcome solution = outcome_of(solved(scene), device);
+            if (!solution.report.reason.empty())
+            {
+                ++counts["no solution"][std::string(to_string(solution.report.status))];
+                continue;
+            }
+            const Outcome run = outcome_of(scene, device);
+            const std::string truth = truth_of(scene, run, solution), word(to_string(run.report.status));
+            ++counts[truth][word];
+            INFO("case " << k << ", " << scene.method.type << ", " << truth << ": " << word << ", "
+                         << run.report.reason << "; kinetic energy " << shown(run.most, 3) << ", solved "
+                         << shown(solution.most, 3) << " (per kg and vertex)");
+            if (truth == "blown up")
+                CHECK(word != "completed");
+            if (truth == "right")
+                CHECK(word == "completed");
+        }
+        catch (const Error& error)
+        {
+            ++counts["refused"][std::string(to_string(error.code()))];
+        }
+    }
+    if (const char* wanted = std::getenv("TAUT_NOTES"); wanted && *wanted)
+        for (const auto& [truth, words] : counts)
+            for (const auto& [word, count] : words)
+                std::printf("soundness | %s | %s | %d\n", truth.c_str(), word.c_str(), count);
+    CHECK(counts.contains("right"));
+    CHECK(counts.contains("blown up"));
+}
+
+} // namespace taut::hard

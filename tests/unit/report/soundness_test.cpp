@@ -1,0 +1,154 @@
+// Soundness: what is called diverged and unconverged, and what is not.
+
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+#include "support/scenes.hpp"
+
+#include "taut/report/report.hpp"
+
+namespace taut {
+namespace {
+
+using Catch::Matchers::Contains;
+
+/// A square of cloth, 0.2 kg, free.
+Scene sheet(std::uint32_t cells = 4)
+{
+    Scene scene;
+    Body body;
+    body.shape.cells = {cells, cells};
+    scene.bodies = {body};
+    return resolve(scene);
+}
+
+RunState state_of(const Scene& scene, std::span<const glm::dvec3> x, std::span<const glm::dvec3> v,
+                  double time)
+{
+    return {scene, x, v, {time, 1.0 / 600, 9.81 * time, true, 0}, Precision::float32, {}, 0};
+}
+
+} // namespace
+
+TEST_CASE("a fall has the energy of its height, and no more")
+{
+    const Scene scene = sheet();
+    const EnergyBudget budget(scene);
+    std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), {0, -9.81, 0});
+    for (glm::dvec3& p : x)
+        p.y -= 0.5 * 9.81; // one second
+    const Soundness fall = judge_state(budget, state_of(scene, x, v, 1));
+    CHECK(fall.sound());
+    CHECK(fall.energy == Approx(0.5 * 0.2 * 9.81 * 9.81));
+    CHECK(fall.energy_most == Approx(fall.energy));
+    for (glm::dvec3& w : v)
+        w *= 1.5; // 2.25 times the energy
+    const Soundness faster = judge_state(budget, state_of(scene, x, v, 1));
+    CHECK(faster.status == Status::diverged);
+    CHECK_THAT(faster.reason, Contains("kinetic energy"));
+}
+
+TEST_CASE("without gravity or motion there is no energy to have")
+{
+    Scene scene = sheet();
+    scene.gravity = glm::dvec3(0);
+    const EnergyBudget budget(scene);
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+    CHECK(judge_state(budget, state_of(scene, x, std::vector(x.size(), glm::dvec3(0)), 1)).sound());
+    const std::vector<glm::dvec3> drift(x.size(), {0.1, 0, 0});
+    CHECK(judge_state(budget, state_of(scene, x, drift, 1)).status == Status::diverged);
+}
+
+TEST_CASE("what moves passes on its speed; what is pushed, its impulse")
+{
+    Scene scene = sheet();
+    scene.gravity = glm::dvec3(0);
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), {3, 0, 0});
+    Collider ball;
+    ball.point = {-5, 0, 0};
+    ball.motion = {{0, {0, 0, 0}}, {2, {2, 0, 0}}};
+    Scene hit = scene;
+    hit.colliders = {ball};
+    CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).sound()); // 1 m/s
+    hit.colliders[0].motion.back().time = 20;                              // 0.1 m/s
+    CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).status == Status::diverged);
+    RunState pushed = state_of(scene, x, v, 1);
+    pushed.drive.push = 1; // N s, to a sheet of 0.2 kg
+    CHECK(judge_state(EnergyBudget(scene), pushed).sound());
+}
+
+TEST_CASE("strain without the energy for it is unconverged, with it sound")
+{
+    Scene scene = sheet();
+    scene.bodies[0].material.stretch_stiffness = 1e6;
+    std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), glm::dvec3(0));
+    for (glm::dvec3& p : x)
+        p.x *= 1.2;
+    const Soundness stretched = judge_state(EnergyBudget(scene), state_of(scene, x, v, 1));
+    CHECK(stretched.status == Status::diverged); // 2e4 J
+    scene.bodies[0].material.stretch_stiffness = 1e3;
+    CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 1)).status == Status::unconverged);
+    scene.accept.stretch = 0.3;
+    CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 1)).sound());
+    scene.accept.stretch = 0.1;
+    scene.bodies[0].start_positions = x; // it began so
+    CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 1)).sound());
+}
+
+TEST_CASE("pbd answers for its springs, and tetrahedra for their inside")
+{
+    Scene scene = sheet();
+    scene.method.type = "pbd";
+    std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), glm::dvec3(0));
+    for (glm::dvec3& p : x)
+        p.x *= 1.2;
+    CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 1)).status == Status::unconverged);
+    scene.method.stretch = 0.5; // soft on purpose
+    CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 1)).sound());
+
+    Scene solid;
+    Body box;
+    box.shape.kind = ShapeKind::box;
+    box.shape.box_cells = {2, 2, 2};
+    box.material = solid_material();
+    solid.bodies = {box};
+    solid = resolve(solid);
+    std::vector<glm::dvec3> y = solid.bodies[0].mesh.positions;
+    const std::vector<glm::dvec3> still(y.size(), glm::dvec3(0));
+    CHECK(judge_state(EnergyBudget(solid), state_of(solid, y, still, 1)).sound());
+    for (glm::dvec3& p : y)
+        p.x = -p.x;
+    solid.bodies[0].start_positions = y;
+    const Soundness inside_out = judge_state(EnergyBudget(solid), state_of(solid, y, still, 1));
+    CHECK(inside_out.status == Status::unconverged);
+    CHECK_THAT(inside_out.reason, Contains("40 tetrahedra are inverted"));
+}
+
+TEST_CASE("a clamp that the scene did not ask for is a blow-up")
+{
+    Scene scene = sheet();
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), glm::dvec3(0));
+    RunState state = state_of(scene, x, v, 1);
+    state.vertex_substeps = 1e4;
+    state.events.speed_clamped = 50;
+    CHECK(judge_motion(EnergyBudget(scene), state).status == Status::diverged);
+    scene.max_speed = 10;
+    CHECK(judge_motion(EnergyBudget(scene), state).sound());
+    state.events.speed_clamped = 500;
+    CHECK(judge_motion(EnergyBudget(scene), state).status == Status::unconverged);
+}
+
+TEST_CASE("explicit springs beyond their stable step are diverged, long before 1e12 m")
+{
+    Scene scene = test::hanging(8);
+    scene.method.type = "mass_spring";
+    scene.method.substeps = 1;
+    scene.method.stability = "ignore";
+    World world(scene, Device::open("cpu:serial"));
+    for (int k = 0; k < 30; ++k)
+        world.step();
+    const StepReport report = measure(world);
+    CHECK(rank(report.status) >= rank(Status::diverged));
+    CHECK_FALSE(report.reason.empty());
+}
+
+} // namespace taut
