@@ -3,9 +3,9 @@
 // Based on: Macklin, Storey, Lu, et al. Small Steps in Physics Simulation. SCA 2019: one sweep a substep.
 //   At rest a constraint that carries n vertices of mass m is corrected once a substep by what restores the
 //   impulse n m g h^2, so it stays open by (w_a + w_b) n m g h^2 = 2 n g h^2: a strain of 2 n g h^2 / L.
-// Departures: n is estimated by the mesh: links from a pin, or across a body that is free (it may come to hang from
-//   one end), and the mass that hangs from the edges of pinned vertices; iterations count like substeps' squares. Measured in
-//   docs/methods.md.
+// Departures: n is estimated by the mesh: links from a pin, or across a body that is free (it may come to hang
+//   from one end), and the mass that hangs from the edges of pinned vertices; k iterations count like a
+//   substep of 1/sqrt(k). Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
