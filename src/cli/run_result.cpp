@@ -1,5 +1,6 @@
 #include "taut/cli/run_result.hpp"
 
+#include "taut/cli/tunnelling.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/version.hpp"
 
@@ -108,6 +109,7 @@ Json to_json(const RunResult& result)
     json["max_stretch"] = report.max_stretch;
     json["rms_stretch"] = report.rms_stretch;
     json["penetration"] = report.penetration;
+    json["tunnelling"] = tunnelling_json(result.crossings);
     json["kinetic_energy"] = report.kinetic_energy;
     json["potential_energy"] = report.potential_energy;
     json["momentum_error"] = known(report.momentum_error);

@@ -12,6 +12,8 @@ std::string_view to_string(Warning warning)
     case Warning::precision: return "precision";
     case Warning::iteration_limit: return "iteration_limit";
     case Warning::solve_failed: return "solve_failed";
+    case Warning::tunnelling: return "tunnelling";
+    case Warning::may_tunnel: return "may_tunnel";
     }
     return "unknown";
 }
