@@ -49,8 +49,8 @@ void TunnelWatch::look(std::uint64_t frame)
         watch_.set_scene(simulation_.scene());
     torn_ = simulation_.torn();
     looked_ = simulation_.time();
-    watch_.look(frame, looked_, simulation_.scene().timestep / simulation_.substeps(), simulation_.positions(),
-                simulation_.velocities());
+    const double substep = simulation_.scene().timestep / simulation_.substeps();
+    watch_.look(frame, looked_, substep, simulation_.positions(), simulation_.velocities());
 }
 
 void describe_crossings(const Crossings& crossings, std::map<std::string, std::uint64_t>& warnings,
@@ -69,9 +69,9 @@ void describe_crossings(const Crossings& crossings, std::map<std::string, std::u
 
 Json tunnelling_json(const Crossings& crossings)
 {
-    return {{"passed", crossings.passed},           {"elements", crossings.elements},
-            {"depth", crossings.depth},             {"may_tunnel", crossings.may_tunnel},
-            {"seen", list_json(crossings.seen)},    {"likely", list_json(crossings.likely)}};
+    return {{"passed", crossings.passed},        {"elements", crossings.elements},
+            {"depth", crossings.depth},          {"may_tunnel", crossings.may_tunnel},
+            {"seen", list_json(crossings.seen)}, {"likely", list_json(crossings.likely)}};
 }
 
 } // namespace taut::cli

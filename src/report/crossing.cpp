@@ -144,6 +144,20 @@ double CrossingWatch::speed_of(const Part& part, const Obstacle& obstacle, const
     return std::sqrt(square);
 }
 
+/// Half of how wide the collider is to a body that comes as its mean motion says.
+double CrossingWatch::width_of(const Part& part, const Obstacle& obstacle, const Moment& now) const
+{
+    const ColliderFrame frame = frame_at(obstacle.collider, now.time);
+    glm::dvec3 way(0);
+    for (std::size_t i = part.first; i < part.first + part.count; ++i)
+        way += now.v[i];
+    way = way / static_cast<double>(part.count) * now.substep;
+    way -= frame_at(obstacle.collider, now.time + now.substep).centre - frame.centre;
+    const double length = glm::length(way);
+    return width_across(obstacle.shape,
+                        length > 0 ? frame.inside(frame.centre + way) / length : glm::dvec3(0));
+}
+
 void CrossingWatch::note(std::vector<Crossing>& list, bool& noted, const Part& part, const Obstacle& obstacle,
                          const Moment& now, bool through) const
 {
@@ -216,6 +230,7 @@ void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pai
     double nearest = std::numeric_limits<double>::infinity(); // of a surface to the middle, at least
     std::uint64_t deep = 0;
     bool fits = false;
+    const double width = width_of(part, obstacle, now);
     for (const auto& e : part.elements)
     {
         const Corners now_at{after_[e[0] - part.first], after_[e[1] - part.first], after_[e[2] - part.first]};
@@ -225,7 +240,7 @@ void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pai
         const double distance = apart(low, high, shape.half) - shape.radius;
         if (distance > speed * timestep_)
             continue;
-        fits = fits || hole_of(now_at) > kTunnelHole * (shape.girth + part.gap);
+        fits = fits || hole_of(now_at) > kTunnelHole * (width + part.gap);
         if (distance <= 0 && lies_deep(shape, now_at, part.edge))
         {
             ++deep;

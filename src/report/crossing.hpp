@@ -18,21 +18,21 @@ struct Crossing
     std::string body, collider; ///< names, or numbers as "bodies[0]" where there is none
     std::uint64_t frame = 0;    ///< of the look
     double time = 0;            ///< s
-    bool through = false;       ///< the body's surface went through its middle; else an element lies deep in it
+    bool through = false;       ///< the surface went through the middle; else an element lies deep in it
 };
 
 struct Crossings
 {
     std::uint64_t elements = 0;   ///< triangles and links that lay deep in a collider, most at one look
     double depth = 0;             ///< m: of the deepest of them below the surface
-    std::uint64_t passed = 0;     ///< looks between which a surface went through the middle of a collider
+    std::uint64_t passed = 0;     ///< looks before which a surface went through a collider's middle
     std::uint64_t may_tunnel = 0; ///< looks at which sizes and speeds of a body near a collider allowed it
     std::vector<Crossing> seen;   ///< one of each body and collider at most
     std::vector<Crossing> likely; ///< the same of may_tunnel
 };
 
 /// What may_tunnel goes by. docs/statuses.md tells how they were chosen.
-inline constexpr double kTunnelHole = 1;     ///< a hole between vertices this many times as wide as a collider
+inline constexpr double kTunnelHole = 1;     ///< a hole between vertices over the width of a collider
 inline constexpr double kTunnelTravel = 0.5; ///< relative way of a vertex in a substep / a collider's size
 
 /// Watches one run. Needs no device; not thread-safe. Throws nothing but std::bad_alloc. A look costs about
@@ -100,9 +100,11 @@ private:
 
     Bounds bounds_of(const Part& part, std::span<const glm::dvec3> x) const;
     void look_at(const Part& part, const Obstacle& obstacle, Pair& pair, const Moment& now);
-    void look_closely(const Part& part, const Obstacle& obstacle, Pair& pair, const Moment& now, double speed);
+    void look_closely(const Part& part, const Obstacle& obstacle, Pair& pair, const Moment& now,
+                      double speed);
     bool went_through(const Part& part, const Obstacle& obstacle) const;
     double speed_of(const Part& part, const Obstacle& obstacle, const Moment& now) const;
+    double width_of(const Part& part, const Obstacle& obstacle, const Moment& now) const;
     void note(std::vector<Crossing>& list, bool& noted, const Part& part, const Obstacle& obstacle,
               const Moment& now, bool through) const;
 

@@ -56,7 +56,8 @@ double point_triangle(const glm::dvec3& p, const Corners& t)
         const glm::dvec3 normal = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
         return std::abs(glm::dot(p - t[0], normal));
     }
-    return std::min({point_segment(p, t[0], t[1]), point_segment(p, t[1], t[2]), point_segment(p, t[2], t[0])});
+    return std::min(
+        {point_segment(p, t[0], t[1]), point_segment(p, t[1], t[2]), point_segment(p, t[2], t[0])});
 }
 
 double two_segments(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d)
@@ -162,20 +163,23 @@ SolidShape solid_shape(const Collider& collider)
     SolidShape out;
     if (collider.kind == ColliderKind::cuboid)
     {
-        std::array<double, 3> sorted{collider.half_size.x, collider.half_size.y, collider.half_size.z};
-        std::sort(sorted.begin(), sorted.end());
         out.half = collider.half_size;
-        out.size = sorted[0];
-        out.girth = sorted[1];
+        out.size = std::min({out.half.x, out.half.y, out.half.z});
     }
     else
     {
         if (collider.kind == ColliderKind::capsule)
             out.half.y = 0.5 * glm::length(collider.end - collider.point);
-        out.radius = out.size = out.girth = collider.radius;
+        out.radius = out.size = collider.radius;
     }
     out.reach = glm::length(out.half) + out.radius;
     return out;
+}
+
+double width_across(const SolidShape& shape, const glm::dvec3& way)
+{
+    const glm::dvec3 across = glm::sqrt(glm::max(1.0 - way * way, 0.0)) * shape.half;
+    return shape.radius + std::max({across.x, across.y, across.z});
 }
 
 double depth_of(const SolidShape& shape, const Corners& element)

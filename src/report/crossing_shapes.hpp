@@ -18,12 +18,14 @@ struct SolidShape
     glm::dvec3 half{0};
     double radius = 0;
     double size = 0;  ///< the smallest of the three half sizes
-    double girth = 0; ///< the second smallest: what has to fit through a hole
     double reach = 0; ///< from the centre to the furthest point
 };
 
 /// Of anything but a plane, which has no inside that an element between vertices outside could reach.
 SolidShape solid_shape(const Collider& collider);
+
+/// Half of what has to fit through a hole when it moves along `way` (a unit vector; 0: whichever is widest).
+double width_across(const SolidShape& shape, const glm::dvec3& way);
 
 /// Of the deepest point of an element below the surface; 0 of one that is outside. Of a box: to 1e-6 of its
 /// smallest half size.

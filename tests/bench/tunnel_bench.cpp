@@ -183,8 +183,8 @@ void count(Tally& tally, const Outcome& o)
 
 void print(const char* name, const Tally& t)
 {
-    std::printf("%-10s runs %5d  through %4d: noticed %4d, missed %3d (without any word %d), may_tunnel %4d | "
-                "not through: pierced %4d, false alarms %3d, may_tunnel alone %4d\n",
+    std::printf("%-10s runs %5d  through %4d: noticed %4d, missed %3d (without any word %d), may_tunnel "
+                "%4d | not through: pierced %4d, false alarms %3d, may_tunnel alone %4d\n",
                 name, t.runs, t.through, t.noticed, t.missed, t.unwarned, t.warned, t.pierced, t.false_alarms,
                 t.idle_warnings);
 }
@@ -212,8 +212,8 @@ int main(int argc, char** argv)
             count(all, o);
             count(trial.speed < 5 ? slow : fast, o);
             if (list)
-                std::printf("%4d %-14s %-8s %-8s size %5.2f edges, %6.2f m/s, %2u substeps: through %d seen %d"
-                            " (passed %d, deep %d) fine %d may %d\n",
+                std::printf("%4d %-14s %-8s %-8s size %5.2f edges, %6.2f m/s, %2u substeps: through %d "
+                            "seen %d (passed %d, deep %d) fine %d may %d\n",
                             k, trial.scene.method.type.c_str(), trial.held, trial.shape, trial.size,
                             trial.speed, trial.substeps, o.through, int(o.coarse.seen.size()),
                             int(o.coarse.passed), int(o.coarse.elements), int(o.fine.seen.size()),

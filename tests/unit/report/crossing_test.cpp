@@ -52,7 +52,10 @@ struct Watched
     CrossingWatch watch;
     std::uint64_t frame = 0;
 
-    Watched(const Corners& corners, const Collider& collider) : scene(make(corners, collider)), watch(scene) {}
+    Watched(const Corners& corners, const Collider& collider)
+        : scene(make(corners, collider)),
+          watch(scene)
+    {}
 
     static Scene make(const Corners& corners, const Collider& collider)
     {
@@ -141,6 +144,16 @@ TEST_CASE("a hole is as wide as the smallest ball round the corners")
     CHECK(hole_of({glm::dvec3(0), glm::dvec3(3, 0, 0), glm::dvec3(0, 4, 0)}) == Approx(2.5)); // right
     CHECK(hole_of({glm::dvec3(0), glm::dvec3(4, 0, 0), glm::dvec3(2, 0.1, 0)}) == Approx(2)); // flat
     CHECK(hole_of(link({0, 0, 0}, {0, 6, 0})) == Approx(3));
+}
+
+TEST_CASE("a collider is as wide as it looks along its way")
+{
+    CHECK(width_across(solid_shape(ball(0.3)), {0, 1, 0}) == Approx(0.3));
+    CHECK(width_across(solid_shape(capsule(0.1, 1)), {0, 1, 0}) == Approx(0.1));
+    CHECK(width_across(solid_shape(capsule(0.1, 1)), {1, 0, 0}) == Approx(1.1));
+    CHECK(width_across(solid_shape(capsule(0.1, 1)), glm::dvec3(0)) == Approx(1.1));
+    CHECK(width_across(solid_shape(box({1, 0.1, 0.2})), {1, 0, 0}) == Approx(0.2));
+    CHECK(width_across(solid_shape(box({1, 0.1, 0.2})), {0, 0.6, 0.8}) == Approx(1));
 }
 
 TEST_CASE("the middle of a collider is its centre, its axis, its plane")
