@@ -9,6 +9,7 @@
 #include "taut/cli/progress.hpp"
 #include "taut/cli/run_result.hpp"
 #include "taut/cli/simulation.hpp"
+#include "taut/cli/tunnelling.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/report/residuals.hpp"
 #include "taut/report/warnings.hpp"
@@ -84,7 +85,8 @@ public:
           moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
           meshes_(shown_scene(simulation.scene()), options.folder),
           looks_(frames),
-          watch_(frames)
+          watch_(frames),
+          tunnelling_(simulation, frames)
     {
         if (simulation.solvers() > 0)
             springs_ = scene_springs(simulation.scene());
@@ -116,6 +118,7 @@ public:
     const std::vector<Moment>& moments() const { return moments_; }
     const std::vector<Look>& looks() const { return looks_.list(); }
     const SoundnessWatch& watch() const { return watch_; }
+    const Crossings& crossings() const { return tunnelling_.found(); }
 
 private:
     bool goes_on(const InterruptGuard& guard) const
@@ -138,6 +141,8 @@ private:
             watch_.after(done_, simulation_.whole());
         if (finite_ && looks_.due(done_))
             look();
+        if (finite_)
+            tunnelling_.after(done_);
     }
 
     /// Of methods that solve linear systems, which neither sleep nor let springs flow.
@@ -193,6 +198,7 @@ private:
     double volume_min_ = measure_volume(simulation_.scene(), simulation_.positions()).least;
     Looks looks_;
     SoundnessWatch watch_;
+    TunnelWatch tunnelling_;
     std::vector<StretchElement> springs_; ///< as of `looked_torn_`
     std::uint64_t looked_torn_ = 0;
     std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
@@ -230,6 +236,7 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.solvers = world.plan().solvers.size();
     result.report = measure(world);
     result.looks = runner.looks();
+    result.crossings = runner.crossings();
     result.volume_min = runner.volume_min();
     result.step_ms = runner.step_ms();
     for (const PlanWarning& warning : world.plan().warnings)
@@ -299,6 +306,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     describe_counts(*simulation, result);
     describe_soundness(runner, result);
     describe_parts(*simulation, result);
+    describe_crossings(result.crossings, result.report.warnings, result.messages);
     result.asleep = simulation->asleep();
     result.frames_wanted = frames;
     if (runner.done() < frames && sound(result.report.status))

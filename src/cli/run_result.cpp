@@ -1,5 +1,6 @@
 #include "taut/cli/run_result.hpp"
 
+#include "taut/cli/tunnelling.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/version.hpp"
 
@@ -122,6 +123,7 @@ Json to_json(const RunResult& result)
     json["max_stretch"] = report.springs ? Json(report.max_stretch) : Json(nullptr);
     json["rms_stretch"] = report.springs ? Json(report.rms_stretch) : Json(nullptr);
     json["penetration"] = report.penetration;
+    json["tunnelling"] = tunnelling_json(result.crossings);
     json["kinetic_energy"] = report.kinetic_energy;
     json["potential_energy"] = report.potential_energy;
     json["judged_energy"] = report.judged_energy;

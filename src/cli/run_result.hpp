@@ -2,6 +2,7 @@
 // What `taut run` found out, and how it prints that.
 
 #include "taut/cli/output.hpp"
+#include "taut/report/crossing.hpp"
 #include "taut/report/looks.hpp"
 #include "taut/world/hybrid.hpp"
 
@@ -23,6 +24,7 @@ struct RunResult
     std::map<std::string, std::uint64_t> constraints, colours; ///< by kind
     std::size_t solvers = 0; ///< linear systems of a step
     StepReport report;
+    Crossings crossings; ///< of bodies and colliders, over the run
     std::vector<Look> looks; ///< of methods that solve linear systems
     double volume_min = 1; ///< smallest V / V0 of all frames, of scenes with solids
     std::vector<double> step_ms;       ///< wall time of each frame, ms

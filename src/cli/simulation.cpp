@@ -22,6 +22,8 @@ public:
     const Scene& scene() const override { return world_.scene(); }
     double time() const override { return world_.time(); }
     std::vector<glm::dvec3> positions() const override { return world_.positions(); }
+    std::vector<glm::dvec3> velocities() const override { return world_.velocities(); }
+    std::uint32_t substeps() const override { return world_.plan().substeps; }
     Events events() const override { return world_.events(); }
     SolverReport solver_report() const override { return world_.solver_report(); }
     double active_share() const override { return world_.active_share(); }
@@ -47,6 +49,8 @@ public:
     const Scene& scene() const override { return hybrid_.scene(); }
     double time() const override { return hybrid_.time(); }
     std::vector<glm::dvec3> positions() const override { return hybrid_.positions(); }
+    std::vector<glm::dvec3> velocities() const override { return hybrid_.velocities(); }
+    std::uint32_t substeps() const override { return whole_.plan().substeps; }
     Events events() const override { return hybrid_.events(); }
     SolverReport solver_report() const override { return hybrid_.solver_report(); }
     std::size_t solvers() const override { return whole_.plan().solvers.size(); }
@@ -79,6 +83,8 @@ public:
     const Scene& scene() const override { return sleep_.scene(); }
     double time() const override { return sleep_.time(); }
     std::vector<glm::dvec3> positions() const override { return sleep_.positions(); }
+    std::vector<glm::dvec3> velocities() const override { return sleep_.velocities(); }
+    std::uint32_t substeps() const override { return whole_.plan().substeps; }
     Events events() const override { return sleep_.events(); }
     SolverReport solver_report() const override { return {}; } // such methods cannot sleep
     std::size_t solvers() const override { return 0; }

@@ -18,6 +18,8 @@ public:
     virtual const Scene& scene() const = 0;
     virtual double time() const = 0;
     virtual std::vector<glm::dvec3> positions() const = 0;
+    virtual std::vector<glm::dvec3> velocities() const = 0;
+    virtual std::uint32_t substeps() const = 0; ///< of a time step, as planned
     virtual Events events() const = 0;
     virtual SolverReport solver_report() const = 0;
     virtual double active_share() const { return -1; } ///< as World::active_share

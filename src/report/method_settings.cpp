@@ -156,7 +156,7 @@ std::string settings_details(const MethodSettings& settings)
 
 std::string settings_block(const MethodSettings& settings)
 {
-    Json json = {{"type", settings.type}, {"substeps", settings.substeps}};
+    Json json = {{"type", settings.type}, {"substeps", settings.substeps == 0 ? Json("automatic") : Json(settings.substeps)}};
     if (reads_iterations(method_named(settings.type)) || settings.iterations != 1)
         json["iterations"] = settings.iterations;
     json["precision"] = settings.precision;
@@ -166,7 +166,8 @@ std::string settings_block(const MethodSettings& settings)
 
 std::string settings_text(const MethodSettings& settings)
 {
-    std::string text = settings.type + ", " + counted(settings.substeps, "substep");
+    std::string text = settings.type + ", " +
+                       (settings.substeps == 0 ? "automatic substeps" : counted(settings.substeps, "substep"));
     if (reads_iterations(method_named(settings.type)))
         text += " x " + counted(settings.iterations, "iteration");
     const std::string more = settings_details(settings);

@@ -1,6 +1,7 @@
 #include "taut/report/picture.hpp"
 
 #include "taut/report/image.hpp"
+#include "taut/report/picture_frame.hpp"
 #include "taut/scene/collider.hpp"
 #include "taut/scene/embedding.hpp"
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 namespace taut {
 namespace {
@@ -30,103 +30,6 @@ constexpr Colours kBodies[] = {
 };
 constexpr glm::vec3 kSphere{0.80f, 0.79f, 0.77f};
 constexpr glm::vec3 kLightCell{0.90f, 0.90f, 0.895f}, kDarkCell{0.83f, 0.835f, 0.845f};
-
-bool finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-glm::dvec3 up_of(const Scene& scene)
-{
-    return glm::length(scene.gravity) > 0 ? -glm::normalize(scene.gravity) : glm::dvec3(0, 1, 0);
-}
-
-/// A unit vector across `axis`: world z for an upright y.
-glm::dvec3 across(const glm::dvec3& axis)
-{
-    const glm::dvec3 other = std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-    return glm::normalize(other - glm::dot(other, axis) * axis);
-}
-
-void add_ball(std::vector<glm::dvec3>& points, const glm::dvec3& centre, double radius)
-{
-    constexpr int kSteps = 4;
-    for (int x = -kSteps; x <= kSteps; ++x)
-        for (int y = -kSteps; y <= kSteps; ++y)
-            for (int z = -kSteps; z <= kSteps; ++z)
-                if (std::max({std::abs(x), std::abs(y), std::abs(z)}) == kSteps)
-                    points.push_back(centre + radius * glm::normalize(glm::dvec3(x, y, z)));
-}
-
-/// What a picture should hold of a collider; a plane has no end, so nothing of it.
-void add_collider(std::vector<glm::dvec3>& points, const Collider& collider, double time)
-{
-    const ColliderFrame frame = frame_at(collider, time);
-    if (collider.kind == ColliderKind::sphere)
-        add_ball(points, frame.centre, collider.radius);
-    else if (collider.kind == ColliderKind::capsule)
-        for (const double end : {-frame.half_length, frame.half_length})
-            add_ball(points, frame.outside({0, end, 0}), collider.radius);
-    else if (collider.kind == ColliderKind::cuboid)
-        for (const double x : {-1.0, 1.0})
-            for (const double y : {-1.0, 1.0})
-                for (const double z : {-1.0, 1.0})
-                    points.push_back(frame.outside(collider.half_size * glm::dvec3(x, y, z)));
-}
-
-/// Everything that a picture should hold.
-std::vector<glm::dvec3> points_of(const Scene& scene, std::span<const Moment> moments)
-{
-    std::vector<glm::dvec3> points;
-    for (const Moment& moment : moments)
-    {
-        std::copy_if(moment.positions.begin(), moment.positions.end(), std::back_inserter(points), finite);
-        for (const Collider& collider : scene.colliders)
-            add_collider(points, collider, moment.time);
-    }
-    if (points.empty())
-        add_ball(points, glm::dvec3(0), 1);
-    return points;
-}
-
-/// Camera position along one axis of the picture: where the extreme points touch both borders. `slope`:
-/// half the opening; points given as (along the axis, towards the camera).
-struct Fit
-{
-    double low = -std::numeric_limits<double>::infinity(), high = low;
-
-    void hold(double along, double towards, double slope)
-    {
-        low = std::max(low, slope * towards - along);
-        high = std::max(high, slope * towards + along);
-    }
-    double centre() const { return (high - low) / 2; }
-    double distance(double slope) const { return (high + low) / (2 * slope); }
-};
-
-Camera frame_camera(const Scene& scene, const std::vector<glm::dvec3>& points, double aspect, double margin)
-{
-    constexpr double kTurn = 0.55, kRise = 0.40; // radians: to the right, upwards
-    Camera camera;
-    const glm::dvec3 upright = up_of(scene);
-    const glm::dvec3 front = across(upright);
-    const glm::dvec3 side = glm::cross(upright, front);
-    const glm::dvec3 back = std::cos(kRise) * (std::cos(kTurn) * front + std::sin(kTurn) * side) +
-                            std::sin(kRise) * upright; // from the scene to the camera
-    const glm::dvec3 right = glm::normalize(glm::cross(upright, back));
-    const glm::dvec3 up = glm::cross(back, right);
-    const double slope_y = std::tan(camera.fov / 2) / margin;
-    const double slope_x = slope_y * aspect;
-    Fit x, y;
-    for (const glm::dvec3& p : points)
-    {
-        x.hold(glm::dot(p, right), glm::dot(p, back), slope_x);
-        y.hold(glm::dot(p, up), glm::dot(p, back), slope_y);
-    }
-    const double distance = std::max(x.distance(slope_x), y.distance(slope_y));
-    const glm::dvec3 eye = x.centre() * right + y.centre() * up + distance * back;
-    camera.eye = eye;
-    camera.target = eye - back;
-    camera.up = upright;
-    return camera;
-}
 
 /// A round number near `value`: 1, 2 or 5 times a power of ten.
 double round_number(double value)
@@ -231,29 +134,6 @@ std::shared_ptr<Device> drawing(std::shared_ptr<Device> device)
 }
 
 } // namespace
-
-Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width,
-                std::uint32_t height, double margin)
-{
-    const std::vector<glm::dvec3> points = points_of(resolved, moments);
-    glm::dvec3 low = points.front(), high = low;
-    for (const glm::dvec3& p : points)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    const glm::dvec3 focus = (low + high) / 2.0;
-    double radius = 1e-6;
-    for (const glm::dvec3& p : points)
-        radius = std::max(radius, glm::length(p - focus));
-    Shot shot;
-    shot.width = width;
-    shot.height = height;
-    shot.camera = frame_camera(resolved, points, double(width) / height, margin);
-    shot.focus = focus;
-    shot.radius = static_cast<float>(1.02 * radius);
-    return shot;
-}
 
 Pictures::Pictures(Scene resolved, std::shared_ptr<Device> device, const PictureOptions& options)
     : scene_(std::move(resolved)),

@@ -29,7 +29,9 @@ struct PictureOptions
 };
 
 /// A three-quarter view from above (against gravity) that holds every vertex of every moment and every
-/// sphere; `margin` is the room around them, 1 = none. Positions that are not finite are left out.
+/// collider that has an end; `margin` is the room around them, 1 = none. Of cloth that tears it holds the
+/// parts that hang from pins, or the largest, and what is near them: scraps that fall far leave the picture.
+/// Positions that are not finite are left out.
 Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width,
                 std::uint32_t height, double margin = 1.15);
 

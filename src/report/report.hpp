@@ -14,7 +14,18 @@
 namespace taut {
 
 /// Warnings: something a user should know though the run is sound. With their count.
-enum class Warning { degenerate, speed_clamp, conflict, precision, iteration_limit, solve_failed, unconverged };
+enum class Warning
+{
+    degenerate,
+    speed_clamp,
+    conflict,
+    precision,
+    iteration_limit,
+    solve_failed,
+    unconverged,
+    tunnelling,
+    may_tunnel
+};
 std::string_view to_string(Warning warning);
 
 /// One look at a world. Lengths in m, energies in J, computed in fp64 on the host.

@@ -13,6 +13,8 @@ std::string_view to_string(Warning warning)
     case Warning::iteration_limit: return "iteration_limit";
     case Warning::solve_failed: return "solve_failed";
     case Warning::unconverged: return "unconverged";
+    case Warning::tunnelling: return "tunnelling";
+    case Warning::may_tunnel: return "may_tunnel";
     }
     return "unknown";
 }

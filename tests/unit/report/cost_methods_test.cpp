@@ -117,9 +117,9 @@ TEST_CASE("details name what a method reads and is not as usual, and nothing els
     settings.start = "inertial";
     settings.integrator = "verlet"; // not vbd's
     CHECK(settings_details(settings) == "start inertial");
-    CHECK(settings_text(settings) == "vbd, 10 substeps x 1 iteration in float, start inertial");
+    CHECK(settings_text(settings) == "vbd, automatic substeps x 1 iteration in float, start inertial");
     settings.type = "mass_spring";
-    CHECK(settings_text(settings) == "mass_spring, 10 substeps in float, integrator verlet");
+    CHECK(settings_text(settings) == "mass_spring, automatic substeps in float, integrator verlet");
 }
 
 TEST_CASE("methods are listed once, in one order; a wrong name says which there are", "[methods]")

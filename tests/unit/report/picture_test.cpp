@@ -8,9 +8,6 @@
 
 #include "taut/report/picture.hpp"
 
-#include <glm/ext/matrix_clip_space.hpp>
-#include <glm/ext/matrix_transform.hpp>
-
 #include <algorithm>
 #include <cstdlib>
 
@@ -196,34 +193,6 @@ TEST_CASE("a renderer refuses what it cannot draw, by name")
     surface.buffer = test_device("cpu")->make_buffer(64, "elsewhere");
     check_refusal(ErrorCode::unsupported, [&] { draw(small_shot()); });
     CHECK_NOTHING_SAID(device);
-}
-
-TEST_CASE("every vertex of every moment lies inside the picture")
-{
-    const Scene scene = test::everything(6);
-    std::vector<Moment> moments(2);
-    for (const glm::dvec3& p : scene.bodies[0].mesh.positions)
-    {
-        moments[0].positions.push_back(p);
-        moments[1].positions.push_back(3.0 * p + glm::dvec3(1, -7, 2));
-    }
-    moments[1].positions[3] = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
-    const Shot shot = frame_shot(scene, moments, 400, 300);
-    const glm::mat4 view = glm::perspectiveRH_ZO(shot.camera.fov, 400.0f / 300.0f, 0.01f, 1000.0f) *
-                           glm::lookAtRH(shot.camera.eye, shot.camera.target, shot.camera.up);
-    float extreme = 0;
-    for (const Moment& moment : moments)
-        for (const glm::dvec3& p : moment.positions)
-        {
-            if (std::isnan(p.x))
-                continue;
-            const glm::vec4 clip = view * glm::vec4(glm::vec3(p), 1);
-            REQUIRE(clip.w > 0);
-            extreme = std::max({extreme, std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)});
-            CHECK(glm::length(glm::vec3(p) - shot.focus) <= shot.radius);
-        }
-    CHECK(extreme < 1.0f);
-    CHECK(extreme > 0.8f); // and the picture is not much larger than they need
 }
 
 TEST_CASE("one state gives the same picture from every executor, bit for bit")

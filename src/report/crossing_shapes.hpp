@@ -1,0 +1,51 @@
+#pragma once
+// Elements of a mesh against the inside of colliders, of which the methods know only the vertices. Pure
+// functions in fp64; all points are in the frame of the collider, m.
+
+#include "taut/scene/collider.hpp"
+
+#include <array>
+#include <vector>
+
+namespace taut {
+
+/// A triangle, or a link as one whose last two corners coincide.
+using Corners = std::array<glm::dvec3, 3>;
+
+/// A ball is a point, a capsule a segment along y, both with a radius round them; a box has no radius.
+struct SolidShape
+{
+    glm::dvec3 half{0};
+    double radius = 0;
+    double size = 0;  ///< the smallest of the three half sizes
+    double reach = 0; ///< from the centre to the furthest point
+};
+
+/// Of anything but a plane, which has no inside that an element between vertices outside could reach.
+SolidShape solid_shape(const Collider& collider);
+
+/// Half of what has to fit through a hole when it moves along `way` (a unit vector; 0: whichever is widest).
+double width_across(const SolidShape& shape, const glm::dvec3& way);
+
+/// Of the deepest point of an element below the surface; 0 of one that is outside. Of a box: to 1e-6 of its
+/// smallest half size.
+double depth_of(const SolidShape& shape, const Corners& element);
+
+/// Whether an element lies deeper than half the smallest half size. With its vertices outside, that takes an
+/// edge longer than 1.5 radii of a ball or a capsule, 1.4 half sizes of a cube. A box may be thinner than
+/// the cloth's edges, which then cut through it where cloth is laid over its rim: within 1.5 `edge` of a
+/// rim nothing counts. `edge`: the longest of the body at rest, m.
+bool lies_deep(const SolidShape& shape, const Corners& element, double edge);
+
+/// Points in the middle of a collider, closer to each other than its size: centre, axis, or middle plane
+/// less 1.5 `edge` at the rim.
+std::vector<glm::dvec3> middle_points(const SolidShape& shape, double edge);
+
+/// Whether `point` goes through an element whose corners move in straight lines from `before` to `after`.
+/// One that the point lies on at the start and leaves does not count. Links are never gone through.
+bool goes_through(const glm::dvec3& point, const Corners& before, const Corners& after);
+
+/// Radius of the smallest ball round an element: what is less wide may pass between the corners.
+double hole_of(const Corners& element);
+
+} // namespace taut
