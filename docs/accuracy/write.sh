@@ -37,7 +37,7 @@ cp "$scratch/conserved_free/momentum.svg" "$folder/conserved_free_momentum.svg"
     problem net_65 "The same of 65 x 65 vertices; a few settings of three methods, for time."
     problem cloth "Cloth of 33 x 33 vertices, hung by two corners from level."
     problem elastica "A heavy strip clamped level; density x gravity x length^3 / rigidity = 10."
-    problem slide "Cloth that falls freely, lands on a slope with friction and slides."
+    problem slide "Cloth that slides down a slope with friction, pushed across it: friction turns as the way does."
     echo
     echo "## Precision floor"
     echo

@@ -136,6 +136,7 @@ public:
     std::vector<glm::dvec3> start;         ///< plan order, m
     std::vector<double> gap;               ///< plan order, kept from colliders, m
     std::uint32_t pin_vertices = kNoBuffer;
+    bool coasts_first = false; ///< forces act before the guess, so Plan::coasting is taken before them
     const Method& method;
     PbdBuffers pbd;
     SurfaceBuffers surfaces;

@@ -16,13 +16,12 @@
 #include "taut/kernels/capsule.hpp"
 #include "taut/kernels/cuboid.hpp"
 #include "taut/plan/mass_spring.hpp"
+#include "taut/plan/motion.hpp"
 #include "taut/plan/vbd.hpp"
 #include "taut/kernels/damping.hpp"
 #include "taut/kernels/external_force.hpp"
-#include "taut/kernels/finish.hpp"
 #include "taut/kernels/pin_motion.hpp"
 #include "taut/kernels/plane.hpp"
-#include "taut/kernels/predict.hpp"
 #include "taut/kernels/sphere.hpp"
 
 #define TAUT_HOST
@@ -58,58 +57,6 @@ bool has_friction(const Scene& scene, ColliderKind kind)
 {
     return std::any_of(scene.colliders.begin(), scene.colliders.end(),
                        [&](const Collider& c) { return c.kind == kind && c.friction > 0; });
-}
-
-// ---------------------------------------------------------------- motion: the state and its two passes
-
-void prepare_motion(PlanBuilder& b)
-{
-    const std::uint64_t n = b.plan.vertex_count;
-    with_real(b.plan.precision, [&](auto zero) {
-        using Real = decltype(zero);
-        using Vec = glm::vec<4, Real>;
-        std::vector<Vec> position, low, velocity;
-        for (std::uint32_t v = 0; v < n; ++v)
-        {
-            const glm::vec<3, Real> high(b.start[v]);
-            position.emplace_back(high, static_cast<Real>(b.inverse_mass[v]));
-            low.emplace_back(glm::vec<3, Real>(b.start[v] - glm::dvec3(high)), static_cast<Real>(b.gap[v]));
-        }
-        velocity.resize(n, Vec(0));
-        for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-            for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
-                if (b.inverse_mass[b.plan_index[v]] > 0)
-                    velocity[b.plan_index[v]] =
-                        Vec(glm::vec<3, Real>(b.scene.bodies[body].velocity), Real(0));
-        b.plan.position = b.add_buffer<Vec>("motion", "position", position);
-        b.plan.low = b.add_buffer<Vec>("motion", "low", low);
-        b.plan.velocity = b.add_buffer<Vec>("motion", "velocity", velocity);
-        b.plan.delta = b.add_buffer("motion", "delta", n * sizeof(Vec));
-        b.plan.step_values = b.add_buffer("motion", "step values", sizeof(layout::StepValues<Real>));
-    });
-    b.plan.buffers[b.plan.step_values].host_written = true;
-    b.plan.events = b.add_buffer("motion", "events", TAUT_EVENT_COUNT * sizeof(std::uint32_t));
-    if (b.options.residuals || b.method.keeps_guess)
-        b.plan.predicted = b.add_buffer("motion", "predicted", n * 4 * b.real_size());
-}
-
-void record_predict(PlanBuilder& b, const Moment&)
-{
-    std::vector<Use> uses = {{b.plan.position},       {b.plan.low},      {b.plan.velocity}, {b.plan.delta},
-                             {b.plan.step_values, 0}, {b.plan.events, 0}};
-    const bool keep = b.plan.predicted != kNoBuffer;
-    if (keep)
-        uses.push_back({b.plan.predicted});
-    b.dispatch("motion", "predict", keep ? "kept" : "", uses, kernels::predict::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
-}
-
-void record_finish(PlanBuilder& b, const Moment&)
-{
-    const Use uses[] = {{b.plan.position},       {b.plan.low},      {b.plan.velocity}, {b.plan.delta},
-                        {b.plan.step_values, 0}, {b.plan.events, 0}};
-    b.dispatch("motion", "finish", "", uses, kernels::finish::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
 }
 
 // ---------------------------------------------------------------- forces
@@ -305,6 +252,7 @@ constexpr MethodSet kConstraints = only(MethodKind::implicit_constraints);
 constexpr MethodSet kAcad = only(MethodKind::acad);
 
 constexpr Effect kEffects[] = {
+    {"motion", Stage::force, wants_coast, nullptr, record_coast},
     {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr,
      record_damping},
     {"external_force", Stage::force, [](const Scene& s) { return has_bodies(s) && s.external_forces; },

@@ -139,6 +139,13 @@ void check_mass_spring(const Scene& scene, const DeviceTraits&) { refuse_rigid(s
 bool wants_forces_after(const Scene& scene) { return scene.method.integrator == "verlet"; }
 bool wants_kick_after(const Scene& scene) { return scene.method.integrator != "semi_implicit"; }
 
+double velocity_lead(const Scene& scene)
+{
+    if (method_of(scene) != MethodKind::mass_spring || !wants_kick_after(scene))
+        return -0.5;
+    return scene.method.integrator == "verlet" ? 0 : 0.5;
+}
+
 bool wants_kick(const Scene& scene)
 {
     return wants_kick_after(scene) ||

@@ -30,6 +30,8 @@ void check_mass_spring(const Scene& resolved, const DeviceTraits&);
 bool wants_forces_after(const Scene& scene);
 bool wants_kick(const Scene& scene);
 bool wants_kick_after(const Scene& scene);
+/// Plan::velocity_lead: before the step, but for the integrators that kick after the displacement.
+double velocity_lead(const Scene& scene);
 
 void prepare_spring_force(PlanBuilder& builder);
 void prepare_hinge_force(PlanBuilder& builder);

@@ -107,6 +107,14 @@ struct MovingPin
     glm::dvec3 rest{0};
 };
 
+/// What a vertex' half kick at a step is taken from (src/world/at_step.hpp).
+enum class Pull : std::uint8_t
+{
+    held,    ///< it moves only as it is led
+    gravity, ///< of a body on which nothing else acts from outside
+    shown,   ///< by what the last substep showed: contacts, pins, air and others may bear it
+};
+
 /// Something a user should know before anything runs. The words are those of docs/statuses.md.
 struct PlanWarning
 {
@@ -123,6 +131,10 @@ struct Plan
     double timestep = 0;
     std::uint32_t substeps = 1, iterations = 1;
     double largest_substep = 0; ///< s, beyond which the method is not stable; 0 = none
+    /// How far after the step the velocities that are kept stand, in substeps (docs/decisions.md 33): -1/2
+    /// where a displacement gives them, 1/2 where it takes them as they are, 0 of velocity Verlet.
+    double velocity_lead = -0.5;
+    std::vector<Pull> pull; ///< of each plan vertex
 
     std::vector<PlanBuffer> buffers;
     std::vector<Dispatch> passes; ///< one whole time step; buffer numbers index `buffers`; label = effect
@@ -145,9 +157,10 @@ struct Plan
     // Buffers the world writes and reads, kNoBuffer where the scene does not need them.
     std::uint32_t position = kNoBuffer; ///< rvec4: xyz m, w = inverse mass 1/kg
     std::uint32_t low = kNoBuffer; ///< rvec4: what position lost to rounding; w = gap kept from colliders, m
-    std::uint32_t velocity = kNoBuffer;  ///< rvec4: m/s
+    std::uint32_t velocity = kNoBuffer;  ///< rvec4: m/s, as velocity_lead says
     std::uint32_t delta = kNoBuffer;     ///< rvec4: displacement of the last substep, m
     std::uint32_t predicted = kNoBuffer; ///< rvec4: inertial guess of `delta`; with residuals, or a method's
+    std::uint32_t coasting = kNoBuffer; ///< rvec4: `delta` had gravity alone acted, m; where any Pull::shown
     std::uint32_t step_values = kNoBuffer; ///< layout::StepValues<real>
     std::uint32_t events = kNoBuffer;      ///< TAUT_EVENT_COUNT uint32
     std::uint32_t pin_targets = kNoBuffer; ///< 2 rvec4 per moving pin: start and end of the step

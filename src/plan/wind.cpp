@@ -17,11 +17,6 @@
 namespace taut {
 namespace {
 
-bool catches_air(const Body& body)
-{
-    return (body.material.drag > 0 || body.material.friction_drag > 0) && !body.mesh.triangles.empty();
-}
-
 /// The area of each triangle of a body at rest, m^2.
 std::vector<double> areas(const Mesh& mesh)
 {
@@ -58,6 +53,11 @@ void add_triangles(const PlanBuilder& b, std::size_t body, std::vector<layout::W
 }
 
 } // namespace
+
+bool catches_air(const Body& body)
+{
+    return (body.material.drag > 0 || body.material.friction_drag > 0) && !body.mesh.triangles.empty();
+}
 
 bool wants_wind(const Scene& scene)
 {

@@ -5,6 +5,7 @@
 
 namespace taut {
 
+bool catches_air(const Body& body);
 /// Air with a density, and a body of triangles that it takes hold of.
 bool wants_wind(const Scene& scene);
 void prepare_wind(PlanBuilder& builder);

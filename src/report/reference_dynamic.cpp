@@ -2,7 +2,7 @@
 // Based on: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006 (symplectic Euler,
 //   Stoermer-Verlet); Roache, Verification and Validation, 1998 (observed order, Richardson estimate).
 // Departures: contacts are projections of the position at the end of a step, the velocity follows; with
-//   them everything is first order. Damping is exp(-c h), before gravity. Spheres do not spin, and the
+//   them everything is first order, but for gravity, whose first kick is half. Damping is exp(-c h), before gravity. Spheres do not spin, and the
 //   speed limit of the scene is not applied.
 #include "taut/report/reference_dynamic.hpp"
 
@@ -35,6 +35,9 @@ public:
         for (const ModelPin& pin : model.pins)
             x_[pin.vertex] = pose(pin.motion, 0, model.start[pin.vertex]);
         add_forces(model_, x_, force_);
+        for (std::size_t i = 0; scheme == Scheme::symplectic_euler && i < x_.size(); ++i)
+            if (!model.pinned[i])
+                v_[i] -= h_ / 2 * model.gravity;
     }
 
     Frames frames(std::size_t count)

@@ -6,9 +6,9 @@
 namespace taut {
 namespace {
 
-std::array<std::vector<std::byte>*, 5> arrays_of(WorldState& s)
+std::array<std::vector<std::byte>*, kCarriedArrays> arrays_of(WorldState& s)
 {
-    return {&s.position, &s.low, &s.velocity, &s.delta, &s.force};
+    return {&s.position, &s.low, &s.velocity, &s.delta, &s.force, &s.coasting};
 }
 
 } // namespace

@@ -8,10 +8,12 @@
 
 namespace taut {
 
+inline constexpr std::size_t kCarriedArrays = 6;
+
 /// Per vertex of a whole scene what a world carries on: the arrays of WorldState.
 struct Carried
 {
-    std::array<std::vector<std::byte>, 5> arrays;
+    std::array<std::vector<std::byte>, kCarriedArrays> arrays;
     Clock clock;
     std::uint64_t step = 0;
 };

@@ -37,6 +37,7 @@ void World::Impl::record()
 void World::Impl::restart_clock(const Clock& before)
 {
     const double time = before.at(steps);
+    const Pace now = pace();
     const double past = time - before.time;
     clock = {steps,
              time,
@@ -44,7 +45,22 @@ void World::Impl::restart_clock(const Clock& before)
              scene.gravity,
              before.fall + before.gravity * past,
              before.fall_length + glm::length(before.gravity) * past,
-             before.steady && (steps == 0 || before.gravity == scene.gravity)};
+             before.steady && (steps == 0 || before.gravity == scene.gravity),
+             now.substep,
+             now.lead};
+}
+
+Pace World::Impl::pace() const
+{
+    return {scene.timestep / plan.substeps, scene.gravity, plan.velocity_lead};
+}
+
+/// That of a state; one without a clock is as the world's own.
+Pace World::Impl::pace(const Clock& of) const
+{
+    if (!(of.substep > 0))
+        return {of.timestep / plan.substeps, of.gravity, plan.velocity_lead};
+    return {of.substep, of.gravity, of.lead};
 }
 
 void World::Impl::write_inputs()
@@ -82,6 +98,59 @@ std::vector<glm::dvec3> World::Impl::vectors(std::uint32_t buffer, std::uint32_t
         return {};
     return plan.precision == Precision::float64 ? read_vectors<double>(buffer, added)
                                                 : read_vectors<float>(buffer, added);
+}
+
+/// In the plan's order.
+template <typename Real>
+std::vector<Kept> World::Impl::kept() const
+{
+    using Vec = glm::vec<4, Real>;
+    const auto velocity = device->read<Vec>(buffers[plan.velocity], plan.vertex_count);
+    const auto delta = device->read<Vec>(buffers[plan.delta], plan.vertex_count);
+    const bool shown = plan.coasting != kNoBuffer;
+    const auto coasting = shown ? device->read<Vec>(buffers[plan.coasting], plan.vertex_count) : delta;
+    std::vector<Kept> out;
+    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
+        out.push_back(
+            {plan.pull[v], glm::dvec3(velocity[v]), glm::dvec3(delta[v]), glm::dvec3(coasting[v])});
+    return out;
+}
+
+std::vector<glm::dvec3> World::Impl::velocities() const
+{
+    if (plan.velocity == kNoBuffer)
+        return {};
+    std::vector<glm::dvec3> out(plan.vertex_count);
+    const auto all = plan.precision == Precision::float64 ? kept<double>() : kept<float>();
+    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
+        out[plan.original[v]] = velocity_at_step(pace(), all[v]);
+    return out;
+}
+
+template <typename Real>
+void World::Impl::repace(const Pace& before)
+{
+    std::vector<glm::vec<4, Real>> velocity, coasting;
+    for (const Kept& vertex : kept<Real>())
+    {
+        const Kept moved = repaced(before, pace(), vertex);
+        velocity.emplace_back(glm::vec<3, Real>(moved.velocity), Real(0));
+        coasting.emplace_back(glm::vec<3, Real>(moved.coasting), Real(0));
+    }
+    device->write<glm::vec<4, Real>>(buffers[plan.velocity], velocity);
+    if (plan.coasting != kNoBuffer)
+        device->write<glm::vec<4, Real>>(buffers[plan.coasting], coasting);
+}
+
+/// Keeps the velocities at the step where those between the steps stood otherwise.
+void World::Impl::move_velocities(const Pace& before)
+{
+    if (before == pace() || plan.velocity == kNoBuffer)
+        return;
+    if (plan.precision == Precision::float64)
+        repace<double>(before);
+    else
+        repace<float>(before);
 }
 
 std::vector<std::byte> World::Impl::raw(std::uint32_t buffer) const
@@ -206,7 +275,7 @@ std::vector<glm::dvec3> World::positions() const
 {
     return impl_->vectors(impl_->plan.position, impl_->plan.low);
 }
-std::vector<glm::dvec3> World::velocities() const { return impl_->vectors(impl_->plan.velocity); }
+std::vector<glm::dvec3> World::velocities() const { return impl_->velocities(); }
 std::vector<glm::dvec3> World::displacements() const { return impl_->vectors(impl_->plan.delta); }
 std::vector<glm::dvec3> World::predictions() const { return impl_->vectors(impl_->plan.predicted); }
 
@@ -285,7 +354,9 @@ void World::record_into(VkCommandBuffer_T* commands)
 void World::set_timestep(double seconds)
 {
     check_timestep(seconds, impl_->plan.substeps, impl_->plan.largest_substep);
+    const Pace before = impl_->pace();
     impl_->scene.timestep = impl_->plan.timestep = seconds;
+    impl_->move_velocities(before);
     impl_->restart_clock(Clock(impl_->clock));
     impl_->write_all_inputs();
 }
@@ -294,7 +365,9 @@ void World::set_gravity(const glm::dvec3& gravity)
 {
     if (!std::isfinite(gravity.x) || !std::isfinite(gravity.y) || !std::isfinite(gravity.z))
         throw Error(ErrorCode::bad_input, "set_gravity: a component is not finite; gravity is in m/s^2");
+    const Pace before = impl_->pace();
     impl_->scene.gravity = gravity;
+    impl_->move_velocities(before);
     impl_->restart_clock(Clock(impl_->clock));
     impl_->write_all_inputs();
 }

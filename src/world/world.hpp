@@ -25,6 +25,8 @@ struct Clock
     glm::dvec3 fall{0};      ///< m/s, integral of gravity over time up to `step`
     double fall_length = 0;  ///< m/s, integral of its length
     bool steady = true;      ///< gravity has been the scene's all the time
+    double substep = 0;      ///< s, since then; 0 = that of the world
+    double lead = -0.5;      ///< Plan::velocity_lead of the world whose clock it is
 
     double at(std::uint64_t now) const { return time + static_cast<double>(now - step) * timestep; }
 };
@@ -37,6 +39,7 @@ struct WorldState
     std::vector<std::byte> position, low, velocity, delta, force; ///< raw device contents
     Clock clock = {};
     std::vector<std::vector<std::byte>> kept = {}; ///< of Plan::kept, in its order
+    std::vector<std::byte> coasting = {}; ///< of Plan::coasting; nothing follows from it but velocities()
 };
 
 /// What kernels counted since the world was made.
@@ -103,7 +106,8 @@ public:
 
     /// In the order of the scene: bodies one after another, vertices as in their meshes. Waits.
     std::vector<glm::dvec3> positions() const;  ///< m, hi + lo
-    std::vector<glm::dvec3> velocities() const; ///< m/s
+    /// m/s, at the step. WorldState::velocity is what a method goes on from (Plan::velocity_lead).
+    std::vector<glm::dvec3> velocities() const;
     std::vector<glm::dvec3> displacements() const; ///< of the last substep, m
     /// Inertial guess of the displacements of the last substep, m; empty unless residuals are kept.
     std::vector<glm::dvec3> predictions() const;
@@ -129,10 +133,12 @@ public:
     void set_force(std::uint32_t vertex, const glm::dvec3& force);
 
     /// From now on; the plan stays as it is. A state of another timestep may be restored, too: velocities
-    /// are in m/s, so a change makes no jump (A12). Throws Error{bad_timestep} outside (0, 1] s (A10) and
+    /// at the step stay, so a change makes no jump (A12). Waits, as velocities() does: those kept between the
+    /// steps are moved. Throws Error{bad_timestep} outside (0, 1] s (A10) and
     /// Error{unstable_timestep} where an explicit method would not be stable.
     void set_timestep(double seconds);
-    /// From now on, m/s^2. Throws Error{bad_input} when not finite. Both change nothing when they throw.
+    /// From now on, m/s^2; waits likewise. Throws Error{bad_input} when not finite. Both change nothing when
+    /// they throw.
     void set_gravity(const glm::dvec3& gravity);
 
     /// For engines: the buffer of rvec4 positions in plan order, and the step as commands.

@@ -1,6 +1,7 @@
 #pragma once
 // Internal to src/world: what a World owns. Shared by world.cpp and world_state.cpp.
 
+#include "taut/world/at_step.hpp"
 #include "taut/world/tearing.hpp"
 #include "taut/world/world.hpp"
 
@@ -29,6 +30,10 @@ struct World::Impl
 
     double time() const { return clock.at(steps); }
     void restart_clock(const Clock& before);
+    Pace pace() const;
+    Pace pace(const Clock& clock) const;
+    std::vector<glm::dvec3> velocities() const;
+    void move_velocities(const Pace& before);
     void create_buffers();
     void record();
     void write_inputs();
@@ -38,6 +43,10 @@ struct World::Impl
     void replace_scene(const TornScene& next);
     template <typename Real>
     std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
+    template <typename Real>
+    std::vector<Kept> kept() const;
+    template <typename Real>
+    void repace(const Pace& before);
     std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
     std::vector<std::byte> raw(std::uint32_t buffer) const;
 };

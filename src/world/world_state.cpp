@@ -40,7 +40,8 @@ void World::Impl::replace_scene(const TornScene& next)
 {
     const std::vector<std::byte> position = raw(plan.position), low = raw(plan.low),
                                  velocity = raw(plan.velocity), delta = raw(plan.delta),
-                                 force = raw(plan.force), events = raw(plan.events);
+                                 force = raw(plan.force), coasting = raw(plan.coasting),
+                                 events = raw(plan.events);
     std::vector<std::vector<std::byte>> logs; // of linear solves: they count over the whole run
     for (const PlanSolver& solver : plan.solvers)
         logs.push_back(raw(solver.log));
@@ -62,6 +63,8 @@ void World::Impl::replace_scene(const TornScene& next)
     device->write(buffers[plan.low], 0, spread(low, from, element));
     device->write(buffers[plan.velocity], 0, spread(velocity, from, element));
     device->write(buffers[plan.delta], 0, spread(delta, from, element));
+    if (plan.coasting != kNoBuffer)
+        device->write(buffers[plan.coasting], 0, spread(coasting, from, element));
     device->write(buffers[plan.events], 0, events);
     for (std::size_t k = 0; k < std::min(logs.size(), plan.solvers.size()); ++k)
         device->write(buffers[plan.solvers[k].log], 0, logs[k]);
@@ -78,6 +81,7 @@ WorldState World::state() const
         impl_->raw(plan.delta), impl_->raw(plan.force),    impl_->clock};
     for (const std::uint32_t buffer : plan.kept)
         out.kept.push_back(impl_->raw(buffer));
+    out.coasting = impl_->raw(plan.coasting);
     return out;
 }
 
@@ -138,10 +142,16 @@ void World::restore(const WorldState& state)
             impl_->device->write(impl_->buffers[buffer], 0, *bytes);
     for (std::size_t i = 0; i < plan.kept.size(); ++i)
         impl_->device->write(impl_->buffers[plan.kept[i]], 0, state.kept[i]);
+    // A world without this buffer says that gravity alone acted.
+    const bool told = state.coasting.size() == state.delta.size();
+    if (plan.coasting != kNoBuffer)
+        impl_->device->write(impl_->buffers[plan.coasting], 0, told ? state.coasting : state.delta);
     impl_->steps = state.step;
     const bool clocked = state.clock.timestep > 0;
     impl_->clock = clocked ? state.clock : Clock{0, 0, impl_->scene.timestep, impl_->scene.gravity};
-    if (impl_->clock.timestep != impl_->scene.timestep || impl_->clock.gravity != impl_->scene.gravity)
+    const Pace before = impl_->pace(impl_->clock);
+    impl_->move_velocities(before);
+    if (impl_->clock.timestep != impl_->scene.timestep || before != impl_->pace())
         impl_->restart_clock(impl_->clock);
     impl_->write_all_inputs();
 }

@@ -33,6 +33,7 @@ struct Tolerance
 inline constexpr Tolerance kTolerances[] = {
     {"predict", 4,
      "gravity product, sum, product with h, sum with low; a clamp adds a root, a quotient, a product"},
+    {"coast", 4, "as predict, without a clamp"},
     {"finish", 4, "one sum for the position (half a unit); a difference and a quotient for the velocity"},
     {"damping", 1, "one product"},
     {"external_force", 2, "two products and a sum"},

@@ -208,7 +208,6 @@ TEST_CASE("A16: a stiff sheet that is let go falls at once [hard]")
         };
         const double before = centre();
         run(world, 60);
-        const double n = 6000, fall = 9.81 * (n + 1) / (2 * n);
-        CHECK(before - centre() == Approx(fall).epsilon(1e-4));
+        CHECK(before - centre() == Approx(9.81 / 2).epsilon(1e-4));
     });
 }

@@ -94,7 +94,7 @@ TEST_CASE("explicit Euler grows by sqrt(1 + h^2 w^2) a substep, and the plan say
     });
 }
 
-TEST_CASE("free fall is each integrator's own parabola; Verlet's is the true one")
+TEST_CASE("free fall is the true parabola under each integrator")
 {
     on_every_device([](const auto& device) {
         for (const char* integrator : {"semi_implicit", "explicit", "verlet"})
@@ -105,11 +105,7 @@ TEST_CASE("free fall is each integrator's own parabola; Verlet's is the true one
             scene.bodies[0].springs = {{0, 1, 0.1, 1e-2}};
             World world(scene, device);
             run(world, 60);
-            const double n = 60, h = 1 / n;
-            const double sum = integrator[0] == 's'   ? n * (n + 1) / 2
-                               : integrator[0] == 'e' ? n * (n - 1) / 2
-                                                      : n * n / 2;
-            CHECK(-world.positions()[0].y == Approx(9.81 * h * h * sum).epsilon(1e-12));
+            CHECK(-world.positions()[0].y == Approx(9.81 / 2).epsilon(1e-12));
             CHECK(world.velocities()[1].y == Approx(-9.81).epsilon(1e-12));
             CHECK(world.positions()[1].x == Approx(0.1).epsilon(1e-12));
         }

@@ -5,29 +5,6 @@
 using namespace taut;
 using namespace taut::hard;
 
-TEST_CASE("free fall is the discrete parabola, over ten substeps a step too")
-{
-    on_every_device([](const auto& device) {
-        for (const std::uint32_t substeps : {1u, 10u})
-        {
-            Scene scene = free_cloth(3);
-            scene.gravity = {0, -9.81, 0};
-            scene.method.substeps = substeps;
-            World world(scene, device);
-            const auto start = world.positions();
-            run(world, 60);
-            const double n = 60.0 * substeps, h = 1 / n, fall = 9.81 * h * h * n * (n + 1) / 2;
-            const auto end = world.positions();
-            double worst = 0;
-            for (std::size_t v = 0; v < start.size(); ++v)
-                worst = std::max(worst, glm::length(start[v] - glm::dvec3(0, fall, 0) - end[v]) / fall);
-            note("physics", *device, substeps == 1 ? "free fall, 1 substep" : "free fall, 10 substeps",
-                 worst);
-            CHECK(worst < 1e-5);
-        }
-    });
-}
-
 TEST_CASE("inner forces keep momentum while a sheet falls, turns and swings")
 {
     on_every_device([](const auto& device) {

@@ -77,7 +77,7 @@ double slide(const Scene& scene)
 
 } // namespace
 
-TEST_CASE("free fall in discrete steps is exactly g h^2 n (n+1) / 2", "[dynamic]")
+TEST_CASE("symplectic Euler falls along the parabola, for its first kick of gravity is half", "[dynamic]")
 {
     DynamicOptions options;
     options.scheme = Scheme::symplectic_euler;
@@ -85,11 +85,10 @@ TEST_CASE("free fall in discrete steps is exactly g h^2 n (n+1) / 2", "[dynamic]
     const DynamicReference out = solve_dynamic(model, options);
     CHECK(out.verified);
     REQUIRE(out.frames.size() == 61);
-    const double n = std::round(1 / out.step);
-    CHECK(out.frames[60][0].y == Approx(2 - 9.81 * n * (n + 1) / 2 / (n * n)).epsilon(1e-12));
+    CHECK(out.frames[60][0].y == Approx(2 - 9.81 / 2).epsilon(1e-12));
     CHECK(out.frames[60][0].x == Approx(1).epsilon(1e-12));
-    CHECK(out.orders.back() == Approx(1).margin(1e-6)); // the error is g t h / 2 exactly
-    CHECK(out.largest_error == 0);                      // a particle has no size to measure by
+    CHECK(out.error < 1e-12);
+    CHECK(out.largest_error == 0); // a particle has no size to measure by
 }
 
 TEST_CASE("Verlet falls freely without error and says that only rounding is left", "[dynamic]")
@@ -219,8 +218,8 @@ TEST_CASE("a damped cloth settles where the static reference is", "[dynamic]")
 TEST_CASE("a box sticks on a slope below its friction and slides with the known distance above", "[dynamic]")
 {
     CHECK(slide(on_plane(0.5, 0.51)) < 1e-12);
-    CHECK(slide(on_plane(0.5, 0.49)) == Approx(0.043871653719).epsilon(2e-3));
-    CHECK(slide(on_plane(0.5, 0.3)) == Approx(0.5 * 1.754866148742).epsilon(2e-3));
+    CHECK(slide(on_plane(0.5, 0.49)) == Approx(0.043871653719).epsilon(1e-9));
+    CHECK(slide(on_plane(0.5, 0.3)) == Approx(0.5 * 1.754866148742).epsilon(1e-9));
     Scene flat = on_plane(0, 0.5, {5, 0, 0});
     flat.duration = 2;
     CHECK(slide(flat) == Approx(25 / (2 * 0.5 * 9.81)).epsilon(1e-3));

@@ -1,0 +1,16 @@
+#pragma once
+// Internal to src/plan: the state of a scene and the passes that move it.
+
+#include "taut/plan/builder.hpp"
+
+namespace taut {
+
+void prepare_motion(PlanBuilder& builder);
+/// Whether the velocity at a step needs a pass of its own: where forces act before the guess. Those of an
+/// integrator whose velocities stand at the steps belong to them; only what acts after the guess is new there.
+bool wants_coast(const Scene& scene);
+void record_coast(PlanBuilder& builder, const Moment& moment);
+void record_predict(PlanBuilder& builder, const Moment& moment);
+void record_finish(PlanBuilder& builder, const Moment& moment);
+
+} // namespace taut
