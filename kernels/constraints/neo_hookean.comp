@@ -1,14 +1,16 @@
 // XPBD stable neo-Hookean tetrahedron, one invocation per tetrahedron of one colour (no two share a vertex).
 //
 // Based on:
-//   Macklin, Mueller. A Constraint-based Formulation of Stable Neo-Hookean Materials. MIG 2021: the
-//     constraints C_D = |F| and C_H = det F - rest with compliances 1/(mu V), 1/(lambda V).
-//   Smith, de Goes, Kim. Stable Neo-Hookean Flesh Simulation. 2018: the logarithm, as the share of mu that
-//     it leaves at the current F.
-// Departures: both constraints are solved together; one after the other they pull against each other and the
-//   rest state shrinks. The gradient of C_D is taken times C_D, so that nothing divides by it, and less its
-//   part along that of C_H, so that the determinant is a sum of positive terms: near rest the two are
-//   parallel, and the difference of their products would have no digit left.
+//   Macklin, Mueller. A Constraint-based Formulation of Stable Neo-Hookean Materials. MIG 2021: the material
+//     of a tetrahedron as two constraints with compliances 1/(mu V), 1/(lambda V).
+//   Smith, de Goes, Kim. Stable Neo-Hookean Flesh Simulation. 2018: the energy.
+// Departures: the two constraints are others, zero at rest, and are the same energy
+//   (docs/theory/xpbd-solids.md): C_H = J - 1, J = det F, with Lame's lambda, and
+//   C_D = sqrt(2 (Psi - lambda/2 (J - 1)^2) / mu), real for every F. |F| and J - rest, which balance at rest
+//   only by their multipliers, move a stiff body on which nothing acts. Both are solved together. The
+//   gradient of C_D is taken times C_D, so that nothing divides by it, and less its part along that of C_H,
+//   so that the determinant is a sum of positive terms: where a shape only grows the two are parallel, and
+//   the difference of their products would have no digit left.
 // Bytes per element: 72 constraint + 128 read + 64 written (float).
 //! lanes
 //! variant lambda LAMBDA=1
@@ -44,6 +46,51 @@ UPDATE(5, rvec4, multiplier);
 #endif
 #endif
 
+/// C_D over `size`, squared, and C_D times its gradient by F over `size`, by columns.
+struct Rows
+{
+    rvec3 r0, r1, r2;
+    real square;
+    real size;   // 1, and |J - 1| where that is more, so that squares stay finite
+    real grown;  // C_H
+    real lambda; // Pa: of C_H
+};
+
+/// Psi / (mu/2) = slope (a - j) + curve j^2 + log (x - ln(1 + x)) + lambda/mu j^2 with j = J - 1,
+/// a = (|F|^2 - 3) / 2, x = a/2. c0, c1, c2: the cofactors of F.
+Rows rows_of(SolidTetrahedron t, Deformation f, rvec3 c0, rvec3 c1, rvec3 c2)
+{
+    real slope = real(2) - real(0.5) * t.log_term;
+    real curve = real(1) - real(0.375) * t.log_term;
+    real spare = t.lambda - curve * t.mu;
+    curve += min(spare, real(0)) / t.mu; // a negative Poisson's ratio: no compliance for C_H, all is in C_D
+    real j = f.volume - real(1);
+    Rows o;
+    o.grown = j;
+    o.lambda = max(spare, real(0));
+    o.size = max(abs(j), real(1));
+    real over = real(1) / o.size;
+    real across = f.share * over;
+    real along = (curve * j - real(0.5) * slope) * over;
+    o.r0 = f.f0 * across + c0 * along;
+    o.r1 = f.f1 * across + c1 * along;
+    o.r2 = f.f2 * across + c2 * along;
+    // C_D cancels against its gradient wherever forces balance: it says how far a step goes. So it may be
+    // approximate: x - ln(1 + x) is its Pade approximant, to 4 % (no two executors have the same logarithm);
+    // near rest, where the sum is a difference of equal terms and its root would be 3e-4 in float, it is what
+    // the gradient makes it to first order in the strain; and where the gradient is small far from rest, as
+    // in a collapsed tetrahedron, it is no more than that: a step from there leads anywhere.
+    real steep = (dot(o.r0, o.r0) + dot(o.r1, o.r1)) + dot(o.r2, o.r2);
+    real a = real(0.5) * (f.square - real(3));
+    real x = real(0.5) * a;
+    real bow = (x * (real(3) + x)) / ((real(6) + real(6) * x) + x * x);
+    real part = j * over;
+    real plain = ((slope * (a - j) + t.log_term * (x * bow)) * over) * over + curve * (part * part);
+    real mild = steep * (real(0.5) + t.log_term * REAL(0.16666666666666666667)); // steep / slope
+    o.square = SELECT(steep < REAL(1e-3), mild, min(plain, steep));
+    return o;
+}
+
 void project(ELEMENT k)
 {
     SolidTetrahedron t = constraint[k];
@@ -57,13 +104,14 @@ void project(ELEMENT k)
     rvec4 d3 = delta[t.d];
     Deformation f = deformation_of(t, rvec3((p1 - p0) + (d1 - d0)), rvec3((p2 - p0) + (d2 - d0)),
                                    rvec3((p3 - p0) + (d3 - d0)));
-    // r: C_D times its gradient; h: the gradient of C_H.
-    rvec3 r1 = gradient_b(t, f.f0, f.f1, f.f2);
-    rvec3 r2 = gradient_c(t, f.f0, f.f1, f.f2);
-    rvec3 r3 = gradient_d(t, f.f0, f.f1, f.f2);
     rvec3 c0 = cross(f.f1, f.f2);
     rvec3 c1 = cross(f.f2, f.f0);
     rvec3 c2 = cross(f.f0, f.f1);
+    Rows o = rows_of(t, f, c0, c1, c2);
+    // r: C_D times its gradient; h: the gradient of C_H.
+    rvec3 r1 = gradient_b(t, o.r0, o.r1, o.r2);
+    rvec3 r2 = gradient_c(t, o.r0, o.r1, o.r2);
+    rvec3 r3 = gradient_d(t, o.r0, o.r1, o.r2);
     rvec3 h1 = gradient_b(t, c0, c1, c2);
     rvec3 h2 = gradient_c(t, c0, c1, c2);
     rvec3 h3 = gradient_d(t, c0, c1, c2);
@@ -80,31 +128,29 @@ void project(ELEMENT k)
     // 1/alpha of both, J h^2, bounded so that products stay finite: beyond, both constraints are rigid.
     real inverse = step_values[0].inverse_substep;
     real stiff = t.volume / (inverse * inverse);
-    real grip_d = min(t.mu * f.share * stiff, REAL(1e15) / max(rr + along * along * hh, REAL(1e-30)));
-    real grip_h = min(t.lambda * stiff, REAL(1e15) / max(hh, REAL(1e-30)));
-    real pull_d = grip_d * f.square;
-    real pull_h = grip_h * (f.volume - t.rest);
+    real grip_d = min(t.mu * stiff, REAL(1e15) / max(max(rr + along * along * hh, hh), REAL(1e-30)));
+    real grip_h = min(o.lambda * stiff, REAL(1e15) / max(hh, REAL(1e-30)));
+    rbool usable = o.square > REAL(1e-30); // at rest there is no shape to restore
+    real pull_d = grip_d * (o.square * o.size);
+    real pull_h = grip_h * o.grown;
 #if LAMBDA
-    real size = sqrt(f.square);
+    real root = sqrt(SELECT(usable, o.square, real(0)));
     rvec4 before = first_iteration != 0u ? rvec4(real(0)) : multiplier[k];
-    pull_d += before.x * size;
+    pull_d += before.x * root;
     pull_h += before.y;
 #endif
-    // The push is W (r u + h v): (rr + |F|^2 / grip_d + along^2 / grip_h) u - along / grip_h v =
+    // The push is W (r u + h v): (rr + C_D^2 / grip_d + along^2 / grip_h) u - along / grip_h v =
     // (along pull_h) / grip_h - pull_d / grip_d and
     // (hh + 1 / grip_h) v - along / grip_h u = -pull_h / grip_h.
-    real shape = f.square + grip_d * rr;
+    real shape = o.square + grip_d * rr;
     real bulk = real(1) + grip_h * hh;
-    real determinant = bulk * shape + (along * along) * (grip_d * hh);
-    rbool usable = f.square > REAL(1e-20);
-    real safe = SELECT(usable, determinant, real(1));
+    real determinant = SELECT(usable, bulk * shape + (along * along) * (grip_d * hh), bulk);
     // Bracketed so: of a chain of products Mesa's OpenGL takes factors out, and the last bit differs.
-    real u = ((grip_d * hh) * (along * pull_h) - bulk * pull_d) / safe;
-    real v = (pull_h * shape + along * pull_d) / -safe;
+    real u = ((grip_d * hh) * (along * pull_h) - bulk * pull_d) / determinant;
     u = SELECT(usable, u, real(0));
-    v = SELECT(usable, v, real(0));
+    real v = SELECT(usable, pull_h * shape + along * pull_d, pull_h) / -determinant;
 #if LAMBDA
-    multiplier[k] = before + rvec4(u * size, v - along * u, real(0), real(0));
+    multiplier[k] = before + rvec4(u * root, v - along * u, real(0), real(0));
 #endif
     delta[t.a] = d0 + rvec4((r0 * u + h0 * v) * p0.w, real(0));
     delta[t.b] = d1 + rvec4((r1 * u + h1 * v) * p1.w, real(0));

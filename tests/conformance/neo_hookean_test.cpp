@@ -35,9 +35,42 @@ Gradient gradient(const Eigen::Matrix3d& by_f, const Eigen::Matrix3d& b)
     return out;
 }
 
+/// The first of the two rows: C, the share of Psi that it has, C times its gradient by F; the lambda of the
+/// second.
+struct Shape
+{
+    double square = 0, energy = 0;
+    Eigen::Matrix3d by_f;
+    double lambda = 0;
+};
+
+Eigen::Matrix3d cofactor_of(const Eigen::Matrix3d& f)
+{
+    Eigen::Matrix3d c;
+    c << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
+    return c;
+}
+
+/// Psi = mu/2 (|F|^2 - 3 - log ln((|F|^2 + 1)/4)) - mu slope/2 (J - 1) + lambda/2 (J - 1)^2 without
+/// lambda_H/2 (J - 1)^2, over mu/2. x - ln(1 + x) of x = (|F|^2 - 3)/4 is x^2 (3 + x) / (6 + 6 x + x^2); near
+/// rest and where the gradient is small C is bounded by it.
+Shape shape_of(const Eigen::Matrix3d& f, double mu, double lambda, double log)
+{
+    Shape out;
+    const double slope = log > 0 ? 1.5 : 2, hard = lambda / mu, most = log > 0 ? 0.625 : 1;
+    const double curve = std::min(hard, most), j = f.determinant() - 1, square = f.squaredNorm();
+    const double x = (square - 3) / 4, bow = x * x * (3 + x) / (6 + 6 * x + x * x);
+    const double rest = 2 * x - slope * j + curve * j * j + (log > 0 ? x : 2 * x);
+    out.lambda = (hard - curve) * mu;
+    out.by_f = (1 - log / (square + 1)) * f + (curve * j - slope / 2) * cofactor_of(f);
+    const double steep = out.by_f.squaredNorm(), size = std::max(1.0, j * j);
+    out.energy = rest + log * bow;
+    out.square = steep < 1e-3 * size ? steep / slope : std::min(out.energy, steep);
+    return out;
+}
+
 /// XPBD by definition, both constraints of a tetrahedron at once: (J W J^T + alpha) dlambda = -(C + alpha
-/// lambda) by Cholesky, C = (|F|, det F - rest), alpha = (1/(mu q V h^2), 1/(lambda V h^2)), q = 1 -
-/// log/(|F|^2 + 1).
+/// lambda), C = (shape_of, det F - 1), alpha = (1/(mu V h^2), 1/(lambda_H V h^2)).
 template <typename Real>
 void project(State& s, const Constraint<Real>& c, std::uint32_t k)
 {
@@ -52,39 +85,41 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
         if (v > 0)
             edges.col(static_cast<int>(v) - 1) << e.x, e.y, e.z;
     }
-    const Eigen::Matrix3d b = inverse_rest(c), f = edges * b;
-    const double square = f.squaredNorm(), norm = std::sqrt(square);
+    const Eigen::Matrix3d b = inverse_rest(c), f = edges * b, cofactor = cofactor_of(f);
+    const double square = f.squaredNorm();
     const bool keep = s.lambda && !s.first_iteration;
-    Eigen::Vector2d before(keep ? s.multiplier[4 * k] : 0, keep ? s.multiplier[4 * k + 1] : 0);
+    const Eigen::Vector2d before(keep ? s.multiplier[4 * k] : 0, keep ? s.multiplier[4 * k + 1] : 0);
     if (s.lambda)
         for (std::size_t j = 0; j < 4; ++j)
             s.multiplier[4 * k + j] = j < 2  ? before[static_cast<int>(j)]
                                       : keep ? s.multiplier[4 * k + j]
                                              : 0;
-    Eigen::Matrix3d cofactor;
-    cofactor << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
     const bool collapsed = square < 1e-6 || cofactor.squaredNorm() < 1e-13 * square * square;
     s.events[TAUT_EVENT_DEGENERATE] += s.report && masses > 0 && collapsed ? 1 : 0;
-    if (!(square > 1e-12))
-        return;
+    const Shape shape = shape_of(f, static_cast<double>(c.mu), static_cast<double>(c.lambda),
+                                static_cast<double>(c.log_term));
+    const bool acts = shape.square > 1e-24; // not at rest, not in a point
+    const double norm = acts ? std::sqrt(shape.square) : 0;
     Eigen::Matrix<double, 12, 2> j;
-    j << gradient(f / norm, b), gradient(cofactor, b);
+    j << (acts ? gradient(shape.by_f / norm, b) : Gradient::Zero().eval()), gradient(cofactor, b);
     Gradient w;
     for (int v = 0; v < 4; ++v)
         w.segment<3>(3 * v).setConstant(s.position[vertex[v]].w);
+    // In terms of 1 / alpha, which may be 0: (J W J^T / alpha + 1) dlambda = -(C / alpha + lambda).
     const double stiff = static_cast<double>(c.volume) / (s.inverse_substep * s.inverse_substep);
-    const double share = 1 - static_cast<double>(c.log_term) / (square + 1);
-    const Eigen::Vector2d soft(1 / (static_cast<double>(c.mu) * share * stiff),
-                               1 / (static_cast<double>(c.lambda) * stiff));
-    const Eigen::Vector2d value(norm, f.determinant() - static_cast<double>(c.rest));
-    const Eigen::Matrix2d system =
-        j.transpose() * w.asDiagonal() * j + Eigen::Matrix2d(soft.asDiagonal());
-    const Eigen::Vector2d change = system.ldlt().solve(-(value + soft.cwiseProduct(before)));
-    // Roundings of F go into all that follows, and the system's condition multiplies them.
+    const Eigen::Vector2d grip(acts ? static_cast<double>(c.mu) * stiff : 0, shape.lambda * stiff);
+    const Eigen::Vector2d value(norm, f.determinant() - 1);
+    const Eigen::Matrix2d weight = j.transpose() * w.asDiagonal() * j;
+    const Eigen::Matrix2d system = grip.asDiagonal() * weight + Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d pull = grip.cwiseProduct(value) + before;
+    Eigen::Vector2d change = -system.partialPivLu().solve(pull);
+    change[0] = acts ? change[0] : 0;
+    // Roundings of F go into all that follows, those of C times its gradient are those of its two terms, and
+    // the system's condition multiplies them.
     const double stretched = 1 + b.norm() * size, condition = stretched * stretched * stretched;
-    const double spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(system).eigenvalues().minCoeff();
-    const double terms = (value.norm() + soft.cwiseProduct(before).norm() + 1) * condition / spread +
-                         change.norm() * condition * system.norm() / spread;
+    const double blur = 1 + (acts ? (f.norm() + cofactor.norm()) / shape.by_f.norm() : 0);
+    const double back = system.inverse().norm() * blur * condition;
+    const double terms = back * (pull.norm() + grip.norm() + back * system.norm() * pull.norm());
     for (int v = 0; v < 4; ++v)
     {
         const Eigen::Vector3d by = j.block<3, 2>(3 * v, 0) * change * s.position[vertex[v]].w;
@@ -102,7 +137,7 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
 
 template <typename Real>
 Constraint<Real> record(const std::array<std::uint32_t, 4>& v, const TetrahedronCorners& rest, double modulus,
-                        bool log)
+                        double hard, bool log)
 {
     Eigen::Matrix3d edges;
     for (std::size_t k = 1; k < 4; ++k)
@@ -112,17 +147,19 @@ Constraint<Real> record(const std::array<std::uint32_t, 4>& v, const Tetrahedron
     const auto at = [&](int row, int column) { return static_cast<Real>(b(row, column)); };
     return {v[0], v[1], v[2], v[3], at(0, 0), at(0, 1), at(0, 2), at(1, 0), at(1, 1), at(1, 2), at(2, 0),
             at(2, 1), at(2, 2), static_cast<Real>(triple(rest) / 6), static_cast<Real>(modulus),
-            static_cast<Real>(1.5 * modulus), static_cast<Real>(1 + (log ? 0.75 : 1.0) / 1.5),
+            static_cast<Real>(hard * modulus), static_cast<Real>(1 + (log ? 0.75 : 1.0) / hard),
             static_cast<Real>(log ? 1 : 0)};
 }
 
 constexpr double kModuli[] = {1, 1e2, 1e4, 1e6};
+/// lambda over mu: Poisson's ratios of 0 without and with the logarithm, of less, and of more.
+constexpr double kHard[] = {1, 0.625, 0.4, 1.5, 60};
 
 template <typename Real>
 void add(Input<Real>& in, Random& random, std::uint32_t count)
 {
     add_tetrahedra(in, random, count, 4, [&](const auto& v, const TetrahedronCorners& rest) {
-        return record<Real>(v, rest, kModuli[random.below(4)], random.below(2) == 1);
+        return record<Real>(v, rest, kModuli[random.below(4)], kHard[random.below(5)], random.below(2) == 1);
     });
 }
 
@@ -137,7 +174,7 @@ void plant(Input<Real>& in, std::uint32_t colour)
     for (std::uint32_t i = 0; i < 6; ++i)
     {
         Constraint<Real>& c = in.constraint[k + i];
-        c = record<Real>({c.a, c.b, c.c, c.d}, upright, 1e3, i % 2 == 0);
+        c = record<Real>({c.a, c.b, c.c, c.d}, upright, 1e3, 1.5, i % 2 == 0);
     }
     TetrahedronCorners flat = upright, inverted = upright, line = upright;
     flat[3] = {0.5, 0.5, 0};
@@ -200,7 +237,7 @@ TEMPLATE_TEST_CASE("a neo-Hookean tetrahedron at rest stays where it is, soft or
     Random random(1470);
     Input<Real> in;
     add_tetrahedra(in, random, 100, 4, [&](const auto& v, const TetrahedronCorners& rest) {
-        return record<Real>(v, rest, modulus, log);
+        return record<Real>(v, rest, modulus, 1.5, log);
     });
     for (std::uint32_t k = 0; k < in.constraint.size(); ++k)
     {
@@ -226,5 +263,32 @@ TEMPLATE_TEST_CASE("a neo-Hookean tetrahedron at rest stays where it is, soft or
         for (const Real d : moved)
             most = std::max(most, std::abs(static_cast<double>(d)));
         CHECK(most < (sizeof(Real) == 4 ? 1e-5 : 1e-13));
+    }
+}
+
+TEST_CASE("the two constraints of a neo-Hookean tetrahedron are its energy, the first for every F")
+{
+    Random random(1480);
+    const double log = GENERATE(0.0, 1.0), size = GENERATE(1e-3, 1.0, 30.0);
+    const double hard = GENERATE(1.0, 1.5, 600.0) * (log > 0 ? 0.625 : 1);
+    CAPTURE(log, size, hard);
+    const double rest = 1 + (log > 0 ? 0.75 : 1) / hard;
+    for (int k = 0; k < 2000; ++k)
+    {
+        Eigen::Matrix3d f = size < 1 ? Eigen::Matrix3d::Identity().eval() : Eigen::Matrix3d::Zero().eval();
+        for (int i = 0; i < 9; ++i)
+            f(i) += size * random.uniform(-1, 1);
+        const double square = f.squaredNorm(), j = f.determinant(), flow = std::log((square + 1) / 4);
+        const double far = j - rest, at_rest = 1 - rest;
+        const double energy = square - 3 - log * flow + hard * (far * far - at_rest * at_rest);
+        const Shape shape = shape_of(f, 1, hard, log);
+        const double x = (square - 3) / 4, bow = x * x * (3 + x) / (6 + 6 * x + x * x);
+        const double exact = shape.energy + log * (x - flow - bow);
+        INFO(f);
+        const double both = exact + shape.lambda * (j - 1) * (j - 1);
+        CHECK(std::abs(both - energy) <= 1e-12 * (std::abs(energy) + square + hard));
+        CHECK(exact > 0);
+        CHECK(shape.energy > 0);
+        CHECK(std::abs(shape.energy / exact - 1) < 0.05);
     }
 }
