@@ -320,6 +320,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
         result.report.primal_residual = left.primal;
         result.report.dual_residual = left.dual;
         result.report.imbalance = left.imbalance;
+        result.report.stretch_residual = left.stretch;
         judge_residuals(world.scene(), result.report);
         if (result.parts.empty())
             result.passes = time_passes(world);

@@ -61,6 +61,7 @@ void run(World& world, std::uint64_t frames, CompareRow& row)
             row.residuals = residuals_ahead(world);
         row.report.dual_residual = row.residuals.dual;
         row.report.imbalance = row.residuals.imbalance;
+        row.report.stretch_residual = row.residuals.stretch;
         judge_residuals(world.scene(), row.report);
     }
     catch (const Error&)

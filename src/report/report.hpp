@@ -49,6 +49,7 @@ struct StepReport
     /// methods: ||M(x - x~) - J^T lambda|| / (m g h^2), -1 without multipliers; implicit_euler: r_acc
     double primal_residual = 0;
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
+    double stretch_residual = -1; ///< that of the distance constraints alone
     /// What the last substep left of all forces, added up by size, over those at hand (inertia, weight, those
     /// of every element): 0 solved, 1 nothing done; -1 where primal_residual is.
     double imbalance = -1;

@@ -15,7 +15,7 @@ Residuals residuals_ahead(const World& world)
     copy.restore(world.state());
     copy.step();
     const StepReport further = measure(copy);
-    return {further.primal_residual, further.dual_residual, further.imbalance};
+    return {further.primal_residual, further.dual_residual, further.imbalance, further.stretch_residual};
 }
 
 } // namespace taut

@@ -5,10 +5,10 @@
 
 namespace taut {
 
-/// As StepReport::primal_residual, dual_residual and imbalance; -1 where there is none.
+/// As StepReport::primal_residual, dual_residual, imbalance and stretch_residual; -1 where there is none.
 struct Residuals
 {
-    double primal = -1, dual = -1, imbalance = -1;
+    double primal = -1, dual = -1, imbalance = -1, stretch = -1;
 };
 
 /// Residuals of xpbd need multipliers, which a run does not keep. So they are those of a copy that keeps them
