@@ -1,8 +1,8 @@
 // Where gravity alone would take each vertex in a substep, from the velocity that the one before left: what
 // forces do in the substep shows against it. Runs before they act. One invocation per vertex.
 //
-// Based on: Hairer, Lubich, Wanner. Geometric Numerical Integration, 2nd ed. 2006, I.1.4 (leapfrog: a velocity
-//   at a step is the one before it and half the kick that follows).
+// Based on: Hairer, Lubich, Wanner. Geometric Numerical Integration, 2nd ed. 2006, I.1.4 (leapfrog: a
+//   velocity at a step is the one before it and half the kick that follows).
 // Departures: the kick is taken from the last substep, so that nothing is evaluated twice.
 // Bytes per element: 48 read, 16 written (float).
 //! lanes

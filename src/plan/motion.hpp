@@ -6,8 +6,8 @@
 namespace taut {
 
 void prepare_motion(PlanBuilder& builder);
-/// Whether the velocity at a step needs a pass of its own: where forces act before the guess. Those of an
-/// integrator whose velocities stand at the steps belong to them; only what acts after the guess is new there.
+/// Whether the velocity at a step needs a pass of its own: forces act before the guess of a method whose
+/// velocities stand before the step. Others kick after the displacement, and are asked for what follows it.
 bool wants_coast(const Scene& scene);
 void record_coast(PlanBuilder& builder, const Moment& moment);
 void record_predict(PlanBuilder& builder, const Moment& moment);

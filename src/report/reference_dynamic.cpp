@@ -2,8 +2,8 @@
 // Based on: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2006 (symplectic Euler,
 //   Stoermer-Verlet); Roache, Verification and Validation, 1998 (observed order, Richardson estimate).
 // Departures: contacts are projections of the position at the end of a step, the velocity follows; with
-//   them everything is first order, but for gravity, whose first kick is half. Damping is exp(-c h), before gravity. Spheres do not spin, and the
-//   speed limit of the scene is not applied.
+//   them everything is first order, but for gravity, whose first kick is half. Damping is exp(-c h), before
+//   gravity. Spheres do not spin, and the speed limit of the scene is not applied.
 #include "taut/report/reference_dynamic.hpp"
 
 #include "taut/report/contact.hpp"

@@ -17,8 +17,8 @@ struct Pace
     bool operator==(const Pace&) const = default;
 };
 
-/// A vertex as kept: its velocity, and of the last substep the displacement and what that had been had gravity
-/// alone acted (of methods that lead by 0 or more: without what acts after the guess).
+/// A vertex as kept: its velocity, and of the last substep the displacement and what that had been had
+/// gravity alone acted (of methods that lead by 0 or more: without what acts after the guess).
 struct Kept
 {
     Pull pull = Pull::held;
