@@ -62,8 +62,8 @@ std::vector<std::uint32_t> support_of(const PlanBuilder& b)
     return out;
 }
 
-/// From "previous" a sweep can only lower the potential.
-bool guarded(const PlanBuilder& b) { return b.scene.method.start != "previous"; }
+/// "inertial" is the start as published, for comparison; from "previous" sweeps can only lower the potential.
+bool guarded(const PlanBuilder& b) { return adaptive(b); }
 
 std::string variant_of(const BlockBuffers& f)
 {
