@@ -18,6 +18,7 @@
 #elif SOLIDS
 #include "shared/solid.glsl"
 #endif
+#include "shared/rise.glsl"
 
 PARAMS
 {
@@ -65,8 +66,7 @@ real rise_of(uint k, real share)
     real len = length(d);
     real after = length(d + w / real(lift));
     real both = len + after;
-    // (after^2 - len^2) / (after + len), lifted.
-    real longer = both > real(0) ? (real(2) * dot(d, w) + dot(w, w) / real(lift)) / both : real(0);
+    real longer = lengthening(d, w, both, real(lift));
     real stretch = ((both - s.rest_length) - s.rest_length) * real(lift);
     real elastic = real(0.5) * ((h * s.stiffness) * h) * (longer * stretch);
     real along = len > real(0) ? dot(d, w) / len : real(0);
@@ -103,62 +103,14 @@ rvec3 between(uint from, uint to)
     return rvec3(position[to] - position[from]) + rvec3(delta[to] - delta[from]);
 }
 
-/// u - ln(1 + u), u > -1, whose difference has no digits for a small u. With q = u / (2 + u) the logarithm is
-/// 2 (q + q^3/3 + q^5/5 + ...), and u - 2 q = u q. Roots bring a large u near; GLSL has no log of a double.
-real beyond_log(real u)
-{
-    bool close = abs(u) < real(0.25);
-    real whole = max(real(1) + u, REAL(1e-30));
-    real factor = real(2);
-    for (uint k = 0u; k < 10u; ++k)
-    {
-        bool far = !(whole > REAL(0.8) && whole < real(1.25));
-        whole = far ? sqrt(whole) : whole;
-        factor = far ? factor + factor : factor;
-    }
-    real q = close ? u / (real(2) + u) : (whole - real(1)) / (whole + real(1));
-    real q2 = q * q;
-    real tail = REAL(0.05882352941176470588); // 1/17
-    tail = REAL(0.06666666666666666667) + q2 * tail;
-    tail = REAL(0.07692307692307692308) + q2 * tail;
-    tail = REAL(0.09090909090909090909) + q2 * tail;
-    tail = REAL(0.11111111111111111111) + q2 * tail;
-    tail = REAL(0.14285714285714285714) + q2 * tail;
-    tail = REAL(0.2) + q2 * tail;
-    tail = REAL(0.33333333333333333333) + q2 * tail;
-    real cubes = q * (q2 * tail);
-    return close ? u * q - real(2) * cubes : u - factor * (q + cubes);
-}
-
-/// E(F + W) - E(F) by the powers of W: the first is the stress, which is small near rest though its two parts
-/// are not.
 real rise_of(uint k, real share)
 {
     SolidTetrahedron t = solid[k];
     real h = step_values[0].substep;
     Deformation f = deformation_of(t, between(t.a, t.b), between(t.a, t.c), between(t.a, t.d));
     rvec3 base = step_of(t.a);
-    // W and all that is linear in it lifted.
-    Deformation w = deformation_of(t, (step_of(t.b) - base) * share, (step_of(t.c) - base) * share,
-                                   (step_of(t.d) - base) * share);
-    real down = real(1) / real(lift);
-    rvec3 c0 = cross(f.f1, f.f2);
-    rvec3 c1 = cross(f.f2, f.f0);
-    rvec3 c2 = cross(f.f0, f.f1);
-    real shear = t.mu * f.share;
-    real push = t.lambda * (f.volume - t.rest);
-    real first = (dot(f.f0 * shear + c0 * push, w.f0) + dot(f.f1 * shear + c1 * push, w.f1)) +
-                 dot(f.f2 * shear + c2 * push, w.f2);
-    real along = (dot(f.f0, w.f0) + dot(f.f1, w.f1)) + dot(f.f2, w.f2);
-    real slope = (dot(c0, w.f0) + dot(c1, w.f1)) + dot(c2, w.f2);
-    real second = (dot(f.f0, cross(w.f1, w.f2)) + dot(f.f1, cross(w.f2, w.f0))) +
-                  dot(f.f2, cross(w.f0, w.f1));
-    real more = second + w.volume * down; // of det F, beyond its slope
-    real grown = slope + more * down;
-    real u = ((real(2) * along) * down + (w.square * down) * down) / (f.square + real(1));
-    real log_rise = t.log_term * (t.mu * ((beyond_log(u) * real(lift)) * real(lift)));
-    real rise = (first * real(lift) + push * more) +
-                real(0.5) * ((shear * w.square + t.lambda * (grown * grown)) + log_rise);
+    real rise = solid_rise(t, f, (step_of(t.b) - base) * share, (step_of(t.c) - base) * share,
+                           (step_of(t.d) - base) * share, real(lift));
     return ((h * t.volume) * h) * rise;
 }
 #else

@@ -1,10 +1,11 @@
 // Takes a Newton step: displacement += step, and clears the solver's vector for the next. With SEARCH the
-// step is the first of the trials that does not raise the incremental potential, or where all do the one
-// that raises it least. One group per chunk of vertices; every group decides alike.
+// step is the first of the trials that does not raise the incremental potential; where all do, none is taken.
+// One group per chunk of vertices; every group decides alike.
 //
 // Based on: Nocedal, Wright. Numerical Optimization, 2nd ed. 2006, 3.1 (backtracking).
 // Departures: all trials are evaluated at once, so that nothing waits for a decision of the host, and any
-//   decrease will do.
+//   decrease will do. Where no trial is a number the shortest is taken: a step
+//   that is none is seen and counted (finish.comp).
 // Bytes per vertex: 28 read, 28 written (float).
 //! variant search SEARCH=1
 #include "shared/portable.glsl"
@@ -41,17 +42,17 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         rise[trial] = sum[0];
         LANES_END
     }
-    real least = rise[0];
     real tried = real(1);
+    bool number = taut_is_finite(rise[0]);
+    share = rise[0] <= real(0) ? real(1) : real(0);
     for (uint trial = 1u; trial < trials; ++trial)
     {
         tried *= real(0.5);
-        if (!(least <= real(0)) && (rise[trial] < least || !taut_is_finite(least)))
-        {
-            least = rise[trial];
+        number = number || taut_is_finite(rise[trial]);
+        if (!(share > real(0)) && rise[trial] <= real(0))
             share = tried;
-        }
     }
+    share = number ? share : tried;
 #endif
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);

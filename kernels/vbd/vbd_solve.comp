@@ -15,9 +15,10 @@
 //   block is positive definite. Leaving compressed parts out of springs (Choi, Ko 2002) lets a
 //   stiff sheet that is slightly compressed gain energy: steps across are then far too long
 //   (docs/methods/vbd.md). Pivots of the 3 x 3 factorisation are at least the inertia m / h^2, below which no
-//   eigenvalue of the block lies, so rounding cannot turn a step around; dampers act along the spring, on the
-//   substep's own displacement. What rounding leaves of a length or an angle at rest counts as zero: steps of
-//   one vertex after another are not opposite, and would push a free sheet along by it.
+//   eigenvalue of the block lies, so rounding cannot turn a step around; a damper has a
+//   potential, of how much its spring became longer in the substep. What rounding leaves of a length or an
+//   angle at rest counts as zero: steps of one vertex after another are not opposite, and would push a free
+//   sheet along by it.
 // Bytes per vertex: 16 + 48 read, 16 written; per spring 24 + 32 (damped 48), per hinge 24 + 128,
 //   per held volume 24 + 96, per elastic tetrahedron 72 + 96 (float).
 //! variant hinges HINGES=1
@@ -42,6 +43,7 @@
 #if ELASTIC
 #include "shared/solid.glsl"
 #endif
+#include "shared/rise.glsl"
 
 PARAMS
 {
@@ -51,7 +53,7 @@ PARAMS
     float relaxation; // each step times this
 };
 
-READ(0, uint, row);        // four words a row, five with tetrahedra: row_word
+READ(0, uint, row);        // four words a row, five with tetrahedra: shared/vbd_rows.glsl
 READ(1, Spring, end);      // a = this vertex, b = the other; those of row k end where row k + 1 begins
 READ(2, rvec4, position);  // xyz m, w = inverse mass 1/kg
 READ(3, rvec4, predicted); // xyz: inertial guess of the displacement, m; w = inertia m / h^2, kg/s^2
@@ -77,49 +79,14 @@ READ(7, rvec4, low); // m: where in `delta` a vertex stood before the substep
 READ(6, rvec4, low);
 #endif
 
+#include "shared/vbd_rows.glsl"
+
 #if HINGES
 rvec3 from_to(uint a, uint b)
 {
     return rvec3(position[b] - position[a]) + rvec3(delta[b] - delta[a]);
 }
-
-BendingConstraint hinge_at(uint j)
-{
-#if ELASTIC
-    SolidTetrahedron t = corner[j];
-    BendingConstraint c;
-    c.edge0 = t.a;
-    c.edge1 = t.b;
-    c.wing0 = t.c;
-    c.wing1 = t.d;
-    c.rest_angle = t.b00;
-    c.compliance = t.b01;
-    return c;
-#else
-    return corner[j];
 #endif
-}
-
-/// Whether this vertex is the first corner that moves: it counts for the hinge.
-bool counts_for(uint v, BendingConstraint c)
-{
-    if (v == c.edge0) return true;
-    if (position[c.edge0].w > real(0)) return false;
-    if (v == c.edge1) return true;
-    if (position[c.edge1].w > real(0)) return false;
-    return v == c.wing0 || !(position[c.wing0].w > real(0));
-}
-#endif
-
-/// The words of a row: vertex, first spring end, first hinge corner, colour end, first tetrahedron.
-uint row_word(uint k, uint word)
-{
-#if VOLUMES || ELASTIC
-    return row[5u * k + word];
-#else
-    return row[4u * k + word];
-#endif
-}
 
 /// Relative size of what rounding leaves of the length of a spring at rest: two units of the last digit.
 real last_digits()
@@ -130,14 +97,6 @@ real last_digits()
     return REAL(2.4e-7);
 #endif
 }
-
-#if ELASTIC
-/// Whether v counts for an element before another of its vertices.
-bool leads(uint v, uint other, real inverse_mass)
-{
-    return v < other || !(inverse_mass > real(0));
-}
-#endif
 
 void solve(uint k)
 {
@@ -168,13 +127,18 @@ void solve(uint k)
         real stretch = len - s.rest_length;
         stretch = abs(stretch) > last_digits() * len ? stretch : real(0);
         real pull = s.stiffness * stretch;
+        real sideways = s.stiffness * across;
 #if DAMPED
+        // Of the potential c/2 (length - first length)^2 / h.
+        rvec3 change = moved - rvec3(far_delta - low[s.b]);
+        real first_length = length(e - change);
         real drag = s.damping * inverse_substep;
-        pull += drag * dot(n, moved - rvec3(far_delta - low[s.b]));
-        along += usable ? drag : real(0);
+        pull += drag * lengthening(e - change, change, len + first_length, real(1));
+        sideways = usable ? min(abs(pull) / len, s.stiffness + drag) : real(0);
+        along = usable ? (s.stiffness + drag) - sideways : real(0);
 #endif
         f -= n * pull;
-        even += s.stiffness * across;
+        even += sideways;
         diagonal += n * n * along;
         mixed += rvec3(n.x * n.y, n.x * n.z, n.y * n.z) * along;
         if (report != 0u)

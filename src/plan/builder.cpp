@@ -4,10 +4,17 @@
 #include "taut/plan/topology.hpp"
 #include "taut/runtime/base/error.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <limits>
 
 namespace taut {
 namespace {
+
+/// Of the sides of its elements that a vertex may come out of a collider in a substep: a neighbour that stays
+/// shows how far springs are stretched by it.
+constexpr double kWayOut = 0.25;
 
 /// A recording keeps every pass of a time step; beyond this it would fill the memory before it ran.
 constexpr std::size_t kMaxPasses = std::size_t(1) << 20;
@@ -45,6 +52,24 @@ std::vector<bool> held_vertices(const Body& body)
     return held;
 }
 
+/// Mean length of the sides of a body's elements, m; infinite without any.
+double mean_side(const Mesh& mesh)
+{
+    double sum = 0;
+    std::size_t count = 0;
+    const auto add = [&](const auto& element) {
+        for (std::size_t k = 0; k < element.size(); ++k)
+        {
+            sum += glm::distance(mesh.positions[element[k]],
+                                 mesh.positions[element[(k + 1) % element.size()]]);
+            ++count;
+        }
+    };
+    std::for_each(mesh.triangles.begin(), mesh.triangles.end(), add);
+    std::for_each(mesh.links.begin(), mesh.links.end(), add);
+    return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::infinity();
+}
+
 } // namespace
 
 PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOptions& o)
@@ -60,6 +85,9 @@ PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOption
     plan.substeps = taken.count;
     plan.largest_substep = taken.largest;
     plan.iterations = s.method.iterations;
+    plan.way_out = std::numeric_limits<double>::infinity();
+    for (const Body& body : s.bodies)
+        plan.way_out = std::min(plan.way_out, kWayOut * mean_side(body.mesh));
     plan.body_start.push_back(0);
     for (const Body& body : s.bodies)
         plan.body_start.push_back(plan.body_start.back() +

@@ -301,7 +301,7 @@ constexpr Effect kEffects[] = {
     {"acad", Stage::solve, any_stretch, nullptr, record_acad_solve, kAcad},
     {"strain_limit", Stage::contact, wants_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, wants_attachment, prepare_attachment, record_attachment},
-    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_mark, kVbd},
+    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
      prepare_plane, record_plane},

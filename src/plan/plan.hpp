@@ -135,6 +135,7 @@ struct Plan
     /// where a displacement gives them, 1/2 where it takes them as they are, 0 of velocity Verlet.
     double velocity_lead = -0.5;
     std::vector<Pull> pull; ///< of each plan vertex
+    double way_out = 0; ///< m, the furthest that a substep brings a vertex out of a collider it starts in
 
     std::vector<PlanBuffer> buffers;
     std::vector<Dispatch> passes; ///< one whole time step; buffer numbers index `buffers`; label = effect
@@ -171,6 +172,9 @@ struct Plan
     std::uint32_t capsules = kNoBuffer;  ///< layout::CapsuleCollider<real>
     std::uint32_t cuboids = kNoBuffer;   ///< layout::CuboidCollider<real>
     std::uint32_t wind = kNoBuffer;      ///< layout::WindValues<real>
+    /// layout::Spring<real>: forces of springs that flow (plasticity), each once or from either end, plan
+    /// order.
+    std::uint32_t flowing = kNoBuffer;
     std::uint32_t torn = kNoBuffer;      ///< uint32: springs beyond the length at which cloth tears, added up
 
     std::uint64_t bytes_allocated() const;

@@ -81,6 +81,8 @@ void add_springs(PlanBuilder& b, Plasticity& p, std::uint32_t records)
     if (list.empty())
         return;
     p.spring_records = records;
+    if (p.forces)
+        b.plan.flowing = records;
     p.spring_list = b.add_buffer<std::uint32_t>(kEffect, "springs that flow", list);
     p.spring_rules = b.add_buffer<Real>(kEffect, "yield of springs", rules);
     b.plan.kept.push_back(records);

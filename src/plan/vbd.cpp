@@ -1,5 +1,4 @@
-// Vertex block descent of springs, hinges and tetrahedra: rows of vertices by colour, sweeps over them, the
-// start of a substep and its history.
+// Vertex block descent of springs, hinges and tetrahedra: rows of vertices by colour, and sweeps over them.
 //
 // Based on: Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024.
 // Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a body
@@ -10,11 +9,8 @@
 #include "taut/plan/vbd.hpp"
 
 #include "taut/kernels/vbd_accelerate.hpp"
-#include "taut/kernels/vbd_mark.hpp"
 #include "taut/kernels/vbd_progress.hpp"
-#include "taut/kernels/vbd_share.hpp"
 #include "taut/kernels/vbd_solve.hpp"
-#include "taut/kernels/vbd_start.hpp"
 #include "taut/plan/grouping.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/plan/vbd_rows.hpp"
@@ -119,49 +115,6 @@ std::vector<BlockBuffers::Run> runs_of(const PlanBuilder& b,
     return runs;
 }
 
-/// Positions that an average row reads beside its own.
-std::uint32_t near_row(const BlockBuffers& f)
-{
-    return f.springs_each + (f.hinges ? 4 * f.hinges_each : 0) + (f.tetrahedra() ? 3 * f.tetrahedra_each : 0);
-}
-
-bool adaptive(const PlanBuilder& b) { return b.scene.method.start == "adaptive"; }
-
-/// 2 * body + 1 for bodies with held vertices, by vertex.
-std::vector<std::uint32_t> support_of(const PlanBuilder& b)
-{
-    std::vector<std::uint32_t> out;
-    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-    {
-        const std::uint32_t first = b.plan.body_start[body], end = b.plan.body_start[body + 1];
-        const bool held = std::any_of(b.inverse_mass.begin() + first, b.inverse_mass.begin() + end,
-                                      [](double w) { return !(w > 0); });
-        out.insert(out.end(), end - first, 2 * static_cast<std::uint32_t>(body) + (held ? 1 : 0));
-    }
-    return out;
-}
-
-void prepare_start(PlanBuilder& b, BlockBuffers& f)
-{
-    const std::uint64_t n = b.plan.vertex_count;
-    if (adaptive(b) || !f.omega.empty())
-        f.support = b.add_buffer<std::uint32_t>("vbd_start", "support", support_of(b));
-    if (!adaptive(b))
-        return;
-    with_real(b.plan.precision, [&](auto zero) {
-        using Real = decltype(zero);
-        const std::vector<Real> whole(n, Real(1));
-        f.share = b.add_buffer<Real>("vbd_start", "share of gravity", whole);
-    });
-    b.plan.kept.push_back(f.share);
-    if (b.scene.colliders.empty())
-        return;
-    f.touched = b.add_buffer("vbd_start", "touched", b.scene.bodies.size() * sizeof(std::uint32_t));
-    f.seen = b.add_buffer("vbd_start", "touched before", n * 2 * sizeof(std::uint32_t));
-    f.solved = b.add_buffer("vbd_start", "displacement before contact", n * 4 * b.real_size());
-    b.plan.kept.insert(b.plan.kept.end(), {f.touched, f.seen});
-}
-
 void prepare_acceleration(PlanBuilder& b, BlockBuffers& f)
 {
     if (f.omega.empty())
@@ -228,9 +181,9 @@ void prepare_vbd(PlanBuilder& b)
     for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
         most = std::max(most, elements.at(v));
     add_rows(b, f, elements, colours);
-    f.runs = runs_of(b, colours, near_row(f), most);
+    f.runs = runs_of(b, colours, f.near(), most);
     f.omega = chebyshev_factors(b.scene.method.spectral_radius, b.plan.iterations);
-    prepare_start(b, f);
+    prepare_vbd_start(b, f);
     prepare_acceleration(b, f);
     ConstraintSet set;
     set.kind = "vbd_solve";
@@ -242,27 +195,6 @@ void prepare_vbd(PlanBuilder& b)
     b.plan.constraints.push_back(set);
 }
 
-void record_vbd_start(PlanBuilder& b, const Moment&)
-{
-    const BlockBuffers& f = *b.blocks;
-    if (f.rows == 0)
-        return;
-    const bool previous = b.scene.method.start == "previous", contact = f.touched != kNoBuffer;
-    std::vector<Use> uses = {{b.plan.position}, {b.plan.predicted}, {b.plan.delta}, {b.plan.step_values, 0}};
-    if (previous)
-        uses.push_back({b.plan.low});
-    if (adaptive(b))
-        uses.push_back({f.share});
-    if (contact)
-        uses.insert(uses.end(), {{f.support}, {f.touched}, {f.seen, 2}});
-    b.dispatch("vbd_start", "vbd_start",
-               previous      ? "previous"
-               : contact     ? "contact"
-               : adaptive(b) ? "adaptive"
-                             : "",
-               uses, kernels::vbd_start::Params{b.plan.vertex_count}, b.plan.vertex_count);
-}
-
 void record_vbd_solve(PlanBuilder& b, const Moment& moment)
 {
     const BlockBuffers& f = *b.blocks;
@@ -270,13 +202,12 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
         return;
     if (!f.omega.empty())
         record_acceleration(b, moment.iteration);
-    const std::uint32_t near = 1 + near_row(f);
-    std::vector<Use> uses = {{f.row, f.tetrahedra() ? 5u : 4u}, {f.ends, f.springs_each},
+    const std::uint32_t near = 1 + f.near();
+    std::vector<Use> uses = {{f.row, f.row_words()}, {f.ends, f.springs_each},
                              {b.plan.position, near},
                              {b.plan.predicted}, {b.plan.delta, near}, {b.plan.events, 0}};
     if (f.corners != kNoBuffer)
-        uses.push_back(
-            {f.corners, (f.hinges ? f.hinges_each : 0) + (f.tetrahedra() ? f.tetrahedra_each : 0)});
+        uses.push_back({f.corners, f.corners_each()});
     const bool damped = f.damped || f.elastic; // elastic rows have one variant, with dampers
     if (damped)
         uses.push_back({b.plan.low, f.damped ? 1 + f.springs_each : 1});
@@ -291,29 +222,6 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
                                                 static_cast<float>(b.scene.method.relaxation)};
         b.dispatch("vbd_solve", "vbd_solve", variant, uses, params, run.grouped ? 1 : run.rows, run.rows);
     }
-}
-
-void record_vbd_mark(PlanBuilder& b, const Moment&)
-{
-    const BlockBuffers& f = *b.blocks;
-    if (f.rows == 0 || f.solved == kNoBuffer)
-        return;
-    const Use uses[] = {{b.plan.delta}, {f.solved}};
-    b.dispatch("vbd_start", "vbd_mark", "", uses, kernels::vbd_mark::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
-}
-
-void record_vbd_share(PlanBuilder& b, const Moment&)
-{
-    const BlockBuffers& f = *b.blocks;
-    if (f.rows == 0 || !adaptive(b))
-        return;
-    std::vector<Use> uses = {
-        {b.plan.predicted}, {b.plan.delta}, {f.support}, {f.share}, {b.plan.step_values, 0}};
-    if (f.solved != kNoBuffer)
-        uses.insert(uses.end(), {{f.solved}, {f.touched, 0}});
-    b.dispatch("vbd_start", "vbd_share", f.solved != kNoBuffer ? "contact" : "", uses,
-               kernels::vbd_share::Params{b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 } // namespace taut

@@ -3,7 +3,11 @@
 
 #include "taut/plan/builder.hpp"
 
+#include <limits>
+
 namespace taut {
+
+inline constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max(); ///< of a held vertex
 
 /// What the effects of vertex block descent share while a plan is made.
 struct BlockBuffers
@@ -21,6 +25,19 @@ struct BlockBuffers
     bool hinges = false, damped = false;
     bool volumes = false, elastic = false; ///< held volumes, neo-Hookean tetrahedra
     bool tetrahedra() const { return volumes || elastic; }
+    std::uint32_t row_words() const { return tetrahedra() ? 5 : 4; }
+    /// Words of the corners, and positions beside its own, that a row reads on average.
+    std::uint32_t corners_each() const
+    {
+        return (hinges ? hinges_each : 0) + (tetrahedra() ? tetrahedra_each : 0);
+    }
+    std::uint32_t near() const
+    {
+        return springs_each + (hinges ? 4 * hinges_each : 0) + (tetrahedra() ? 3 * tetrahedra_each : 0);
+    }
+    /// Of bodies' sums (vbd_rise, vbd_drift): groups, and where in `row` their table is.
+    std::uint32_t groups = 0, table = 0, sums = kNoBuffer;
+    bool loose = false; ///< a body of which nothing is held
     std::uint32_t row = kNoBuffer, ends = kNoBuffer, corners = kNoBuffer;
     std::uint32_t share = kNoBuffer, support = kNoBuffer;                    ///< adaptive start
     std::uint32_t touched = kNoBuffer, seen = kNoBuffer, solved = kNoBuffer; ///< and with colliders
@@ -37,9 +54,20 @@ void check_vbd(const Scene& resolved, const DeviceTraits&);
 std::vector<float> chebyshev_factors(double radius, std::uint32_t iterations);
 
 void prepare_vbd(PlanBuilder& builder);
+/// The row of a vertex and of how many elements it is.
+struct GuardedRow
+{
+    std::uint32_t row = kNoRow, elements = 0;
+};
+
+void prepare_vbd_start(PlanBuilder& builder, BlockBuffers& blocks);
+/// What vbd_rise and vbd_choose read behind the rows, nothing where the start needs no guard; counts its
+/// groups. `row_of`: by plan vertex.
+std::vector<std::uint32_t> guard_table(const PlanBuilder& builder, BlockBuffers& blocks,
+                                       std::span<const GuardedRow> row_of);
 void record_vbd_start(PlanBuilder& builder, const Moment& moment);
 void record_vbd_solve(PlanBuilder& builder, const Moment& moment);
-void record_vbd_mark(PlanBuilder& builder, const Moment& moment);
+void record_vbd_end(PlanBuilder& builder, const Moment& moment);
 void record_vbd_share(PlanBuilder& builder, const Moment& moment);
 
 } // namespace taut

@@ -130,7 +130,7 @@ void add_lists(PlanBuilder& b, BlockBuffers& f, const BlockElements& elements,
 {
     Lists<Real, Corner> lists;
     std::vector<std::uint32_t> row;
-    const std::size_t words = f.tetrahedra() ? 5 : 4;
+    std::vector<GuardedRow> row_of(b.plan.vertex_count);
     const auto mark = [&](std::uint32_t vertex, std::uint32_t end) {
         row.insert(row.end(), {vertex, static_cast<std::uint32_t>(lists.ends.size()),
                                static_cast<std::uint32_t>(lists.hinges.size()), end});
@@ -143,11 +143,13 @@ void add_lists(PlanBuilder& b, BlockBuffers& f, const BlockElements& elements,
         colour_end += static_cast<std::uint32_t>(colour.size());
         for (const std::uint32_t v : colour)
         {
+            row_of[v] = {static_cast<std::uint32_t>(row.size() / f.row_words()), elements.at(v)};
             mark(v, colour_end);
             lists.add(elements, v);
         }
     }
     mark(0, colour_end); // the end of the last row's elements
+    const std::size_t words = f.row_words();
     for (std::size_t k = 4; f.tetrahedra() && k < row.size(); k += words) // they stand behind the hinges
         row[k] += static_cast<std::uint32_t>(lists.hinges.size());
     const auto each = [&](std::size_t count) {
@@ -158,6 +160,8 @@ void add_lists(PlanBuilder& b, BlockBuffers& f, const BlockElements& elements,
     f.tetrahedra_each = each(lists.tetrahedra.size());
     if (lists.ends.empty())
         lists.ends.push_back({}); // never read
+    f.table = static_cast<std::uint32_t>(row.size());
+    append(row, guard_table(b, f, row_of));
     f.row = b.add_buffer<std::uint32_t>("vbd_solve", "rows", row);
     f.ends = b.add_buffer<layout::Spring<Real>>("vbd_solve", "spring ends", lists.ends);
     append(lists.hinges, lists.tetrahedra);

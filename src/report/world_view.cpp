@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <utility>
 
 namespace taut::reference {
 namespace {
@@ -86,6 +88,32 @@ std::vector<Record<double>> records(const World& world, std::string_view kind,
     return of_model;
 }
 
+/// Gives springs that flow as forces the rest lengths that they have come to.
+template <typename Real>
+void take_rest_lengths(const World& world, std::vector<DistanceRecord>& springs)
+{
+    const Plan& plan = world.plan();
+    const std::vector<std::byte> bytes = contents(world, plan.flowing);
+    using Ends = std::pair<std::uint32_t, std::uint32_t>;
+    std::map<Ends, std::vector<double>> at; // springs of the same ends in their order
+    for (std::size_t k = 0; k < bytes.size() / sizeof(layout::Spring<Real>); ++k)
+    {
+        layout::Spring<Real> record;
+        std::memcpy(&record, bytes.data() + k * sizeof record, sizeof record);
+        at[{plan.original[record.a], plan.original[record.b]}].push_back(double(record.rest_length));
+    }
+    std::map<Ends, std::size_t> taken;
+    for (DistanceRecord& spring : springs)
+    {
+        const Ends ends{spring.a, spring.b};
+        auto found = at.find(ends);
+        if (found == at.end()) // only the other end has it: this one is held
+            found = at.find({spring.b, spring.a});
+        if (found != at.end() && taken[ends] < found->second.size())
+            spring.rest_length = found->second[taken[ends]++];
+    }
+}
+
 } // namespace
 
 View::View(const World& w)
@@ -96,7 +124,14 @@ View::View(const World& w)
       v(w.velocities()),
       distance(records<layout::DistanceConstraint>(world, "distance", records_of(model.springs))),
       bending(records<layout::BendingConstraint>(world, "bending", records_of(model.hinges)))
-{}
+{
+    if (plan.flowing == kNoBuffer)
+        return;
+    if (plan.precision == Precision::float64)
+        take_rest_lengths<double>(world, distance);
+    else
+        take_rest_lengths<float>(world, distance);
+}
 
 double View::length(const DistanceRecord& c) const { return glm::length(x[c.a] - x[c.b]); }
 

@@ -236,7 +236,7 @@ struct MethodSettings
     double linear_tolerance = 1e-5;        ///< of |residual| / |right-hand side|, (0, 1)
     std::string linear_operator = "assembled"; ///< or "matrix_free"
     /// implicit_euler: so often a Newton step may be halved that would raise the incremental potential.
-    std::uint32_t line_search = 0;
+    std::uint32_t line_search = 2;
 
     std::string constrained = "all";    ///< implicit_constraints, acad: or "structural"; others stay springs
     double constraint_compliance = -1;  ///< m/N, >= 0; < 0: each spring's own ("material")

@@ -39,7 +39,7 @@ InputWrite step_values(const Scene& scene, const Plan& plan)
     v.gravity_z = static_cast<Real>(scene.gravity.z);
     v.damping_factor = static_cast<Real>(std::exp(-scene.damping * h));
     v.max_speed = static_cast<Real>(scene.max_speed > 0 ? scene.max_speed : kOverflowSpeed);
-    v.depenetration = static_cast<Real>(scene.depenetration_speed * h);
+    v.depenetration = static_cast<Real>(std::min(scene.depenetration_speed * h, plan.way_out));
     return write_of(plan.step_values, std::vector{v});
 }
 

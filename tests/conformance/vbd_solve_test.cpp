@@ -1,73 +1,13 @@
 #include "taut/kernels/vbd_solve.hpp"
 
-#include "support/block_net.hpp"
+#include "support/block_parts.hpp"
+#include "support/kernel_run.hpp"
 #include "support/kernel_run.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
 
 namespace {
-
-struct Kinds
-{
-    bool hinges = false, damped = false;
-    Solids solids = Solids::none;
-    std::uint32_t words() const { return solids == Solids::none ? 4 : 5; }
-    std::string variant(bool tail) const
-    {
-        std::string word = tail ? "tail" : "";
-        const bool held = solids == Solids::volumes, elastic = solids == Solids::elastic;
-        for (const auto& [on, name] : {std::pair{elastic, "elastic"}, std::pair{held, "volumes"},
-                                       std::pair{hinges && !held && !elastic, "hinges"},
-                                       std::pair{damped && !elastic, "damped"}})
-            if (on)
-                word += (word.empty() ? "" : "_") + std::string(name);
-        return word;
-    }
-};
-
-/// Rows of four or five words.
-template <typename Real>
-std::vector<std::uint32_t> rows_of(const BlockNet<Real>& net, const Kinds& kinds)
-{
-    std::vector<std::uint32_t> out;
-    for (std::size_t i = 0; 4 * i < net.row.size(); ++i)
-    {
-        out.insert(out.end(), net.row.begin() + static_cast<std::ptrdiff_t>(4 * i),
-                   net.row.begin() + static_cast<std::ptrdiff_t>(4 * i + 4));
-        if (kinds.words() == 5)
-            out.push_back(static_cast<std::uint32_t>(net.corner.size()) + net.first_tetrahedron[i]);
-    }
-    return out;
-}
-
-/// Hinges of all rows, then the tetrahedra.
-template <typename Real>
-std::vector<std::byte> corners_of(const BlockNet<Real>& net, const Kinds& kinds)
-{
-    auto plain = net.corner;
-    std::vector<layout::SolidTetrahedron<Real>> solid;
-    for (const auto& c : net.corner)
-        solid.push_back({c.edge0, c.edge1, c.wing0, c.wing1, c.rest_angle, c.compliance, 0, 0, 0, 0, 0, 0, 0,
-                         0, 0, 0, 0, 0});
-    for (const BlockTetrahedron<Real>& t : net.tetrahedra)
-    {
-        plain.push_back(t.volume);
-        solid.push_back(t.solid);
-    }
-    plain.push_back({}); // a buffer is not empty
-    solid.push_back({});
-    return kinds.solids == Solids::elastic ? bytes_of(solid) : bytes_of(plain);
-}
-
-template <typename Real>
-Buffers buffers_of(const BlockNet<Real>& net, const Kinds& kinds)
-{
-    return {{"row", bytes_of(rows_of(net, kinds))}, {"end", bytes_of(net.end)},
-            {"position", bytes_of(net.position)},   {"predicted", bytes_of(net.predicted)},
-            {"delta", bytes_of(net.delta)},         {"corner", corners_of(net, kinds)},
-            {"low", bytes_of(net.low)},             {"events", no_events()}};
-}
 
 /// Every variant but those of tails.
 std::vector<Kinds> all_kinds()

@@ -306,6 +306,7 @@ TEST_CASE("implicit Euler adds what its solves take and nothing else to a plan")
 {
     Scene scene = implicit(test::hanging(4));
     scene.method.linear_iterations = 8;
+    scene.method.line_search = 0;
     const auto passes = [&] { return make_plan(scene).passes.size(); };
     // Predict, start; force, matrix, product, dot, share of the guess; inverse, begin 3, 8 iterations of 3,
     // residual anew 3, end 6, log; update; finish.

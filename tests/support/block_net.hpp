@@ -69,9 +69,14 @@ struct BlockNet
     std::vector<layout::BendingConstraint<Real>> corner;
     std::vector<std::uint32_t> first_tetrahedron; ///< by row, and the end of the last
     std::vector<BlockTetrahedron<Real>> tetrahedra;
+    std::uint32_t moved = ~0u; ///< a vertex that stands further by `move`
+    glm::dvec3 move{0};
 
     glm::dvec3 before(std::uint32_t v) const { return glm::dvec3(position[v]); }
-    glm::dvec3 place(std::uint32_t v) const { return before(v) + glm::dvec3(delta[v]); }
+    glm::dvec3 place(std::uint32_t v) const
+    {
+        return before(v) + glm::dvec3(delta[v]) + (v == moved ? move : glm::dvec3(0));
+    }
     double size(std::uint32_t v) const { return glm::length(before(v)) + glm::length(glm::dvec3(delta[v])); }
     bool held(std::uint32_t v) const { return !(position[v].w > 0); }
 
@@ -261,22 +266,21 @@ struct Block
             return;
         }
         const glm::dvec3 n = d / length;
-        const double across = std::min(std::abs(1 - rest / length), 1.0), turn = size / length;
-        f -= k * (length - rest) * n;
-        h += k * across * glm::dmat3(1);
-        outer(n, n, k * (1 - across));
-        f_scale += k * (size + rest) + k * std::abs(length - rest) * (1 + turn);
-        h_scale += k * (1 + turn) * (1 + rest / length);
-        if (!damped)
-            return;
-        const double c = double(s.damping) * inverse_substep;
-        const glm::dvec3 moved = (glm::dvec3(net.delta[s.a]) - glm::dvec3(net.low[s.a])) -
-                                 (glm::dvec3(net.delta[s.b]) - glm::dvec3(net.low[s.b]));
-        f -= c * glm::dot(n, moved) * n;
-        outer(n, n, c);
+        // The damper's potential is c/2 (length - first)^2 / h: it pulls as a spring of the first length.
+        const glm::dvec3 change = (glm::dvec3(net.delta[s.a]) - glm::dvec3(net.low[s.a])) -
+                                  (glm::dvec3(net.delta[s.b]) - glm::dvec3(net.low[s.b]));
+        const double c = damped ? double(s.damping) * inverse_substep : 0;
+        const double first = glm::length(d - change), both = length + first;
+        const double grown = both > 0 ? glm::dot(change, d + (d - change)) / both : 0;
+        const double pull = k * (length - rest) + c * grown, turn = size / length;
+        const double across = std::min(std::abs(pull) / length, k + c);
+        f -= pull * n;
+        h += across * glm::dmat3(1);
+        outer(n, n, k + c - across);
+        f_scale += k * (size + rest) + std::abs(pull) * (1 + turn);
+        h_scale += k * (1 + turn) * (1 + rest / length) + c * (1 + turn) * (1 + first / length);
         f_scale += c * (glm::length(glm::dvec3(net.delta[s.a])) + glm::length(glm::dvec3(net.delta[s.b]))) *
-                   (1 + turn);
-        h_scale += c * (1 + turn);
+                   (1 + turn) * (1 + size / std::max(both, 1e-30));
     }
 
     void hinge(const BlockNet<Real>& net, const layout::BendingConstraint<Real>& c, std::uint32_t v)
