@@ -4,6 +4,7 @@
 #include <cassert>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 #include <unordered_map>
 
 namespace taut {
@@ -215,6 +216,12 @@ std::vector<Hazard> find_hazards(std::span<const Dispatch> dispatches,
         since_barrier.push_back(std::move(mine));
     }
     return hazards;
+}
+
+void check_no_hazard(std::span<const Dispatch> dispatches, const std::vector<bool>& barrier_before)
+{
+    if (const std::vector<Hazard> hazards = find_hazards(dispatches, barrier_before); !hazards.empty())
+        throw std::logic_error("a barrier is missing: " + hazards.front().text);
 }
 
 } // namespace taut

@@ -57,4 +57,8 @@ struct Hazard
 std::vector<Hazard> find_hazards(std::span<const Dispatch> dispatches,
                                  const std::vector<bool>& barrier_before);
 
+/// Throws std::logic_error with the first hazard, if there is one: a fault of the program, in every build,
+/// because a missing barrier is a wrong result on some devices only.
+void check_no_hazard(std::span<const Dispatch> dispatches, const std::vector<bool>& barrier_before);
+
 } // namespace taut

@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -167,7 +166,7 @@ Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOpti
     record_step(builder, rows);
     builder.finish_paper();
     builder.plan.barrier_before = derive_barriers(builder.plan.passes);
-    assert(find_hazards(builder.plan.passes, builder.plan.barrier_before).empty());
+    check_no_hazard(builder.plan.passes, builder.plan.barrier_before);
     return std::move(builder.plan);
 }
 

@@ -5,7 +5,7 @@
 // docs/hard-cases.md is made of them.
 
 #include "conformance/tolerances.hpp"
-#include "support/catch.hpp"
+#include "support/skip.hpp"
 #include "support/data.hpp"
 #include "support/devices.hpp"
 #include "support/random.hpp"
@@ -259,7 +259,7 @@ inline std::filesystem::path matrix_folder()
     const auto folder = data_folder() / "matrices";
     if (std::filesystem::exists(folder))
         return folder;
-    WARN("skipped: no folder " << folder << "; set TAUT_DATA to the folder of shared data");
+    TAUT_LEFT_OUT("no folder " << folder << "; set TAUT_DATA to the folder of shared data");
     return {};
 }
 

@@ -2,9 +2,10 @@
 // Real data that tests read where it lies: the folder that TAUT_DATA names, else ../shared/data beside the
 // source tree. What needs it skips, visibly, where it is not.
 
+#include "support/skip.hpp"
+
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 
@@ -17,14 +18,13 @@ inline std::filesystem::path data_folder()
                            : std::filesystem::path(TAUT_SOURCE_DIR) / "../shared/data";
 }
 
-/// The path of a file of the data; says on standard error that it is missing.
+/// The path of a file of the data; says so where it is missing (skip.hpp).
 inline std::optional<std::filesystem::path> find_data(const std::string& file)
 {
     const std::filesystem::path path = data_folder() / file;
     if (std::filesystem::exists(path))
         return path;
-    std::cerr << "SKIPPED: " << path.string()
-              << " is not there; set TAUT_DATA to the folder of shared data\n";
+    left_out(path.string() + " is not there; set TAUT_DATA to the folder of shared data");
     return {};
 }
 

@@ -5,14 +5,15 @@
 //   const auto device = taut::test_device(selector);
 //
 // TAUT_TEST_DEVICES=cpu,vulkan    takes these instead of all.
-// TAUT_REQUIRE_DEVICE=1           makes a missing executor an error; without it, standard error says what is
-//                                 left out, and why.
+// TAUT_REQUIRE_DEVICE=1           makes a missing executor an error; without it, the program says what
+//                                 is left out, and why, and ends as skipped (skip.hpp).
+
+#include "support/skip.hpp"
 
 #include "taut/runtime/device.hpp"
 
 #include <algorithm>
 #include <cstdlib>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -71,7 +72,7 @@ inline bool opens(const std::string& selector)
     {
         if (error.code() != ErrorCode::no_device || is_set("TAUT_REQUIRE_DEVICE"))
             throw;
-        std::cerr << "SKIPPED on " << selector << ": " << error.what() << '\n';
+        left_out(selector + ": " + error.what());
         return false;
     }
 }

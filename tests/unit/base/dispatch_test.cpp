@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <random>
+#include <stdexcept>
 
 using namespace taut;
 
@@ -140,7 +141,11 @@ TEST_CASE("a barrier taken away is found, and the sentence names kernels, bindin
     REQUIRE(barriers == std::vector<bool>{false, true, false});
     REQUIRE(find_hazards(list, barriers).empty());
 
+    CHECK_NOTHROW(check_no_hazard(list, barriers));
+
     barriers[1] = false;
+    // In every build, and not as an Error: nothing that a caller does is the cause.
+    CHECK_THROWS_AS(check_no_hazard(list, barriers), std::logic_error);
     const std::vector<Hazard> hazards = find_hazards(list, barriers);
     REQUIRE(hazards.size() == 1);
     CHECK(hazards[0].first == 0);

@@ -1,5 +1,5 @@
 #include "seeds.hpp"
-#include "support/catch.hpp"
+#include "support/skip.hpp"
 #include "support/data.hpp"
 #include "temporary.hpp"
 
@@ -249,7 +249,7 @@ TEST_CASE("real meshes have the counts that another program found")
 {
     if (!std::filesystem::exists(mesh_folder()))
     {
-        WARN("skipped: no folder " << mesh_folder() << "; set TAUT_DATA to the folder of shared data");
+        TAUT_LEFT_OUT("no folder " << mesh_folder() << "; set TAUT_DATA to the folder of shared data");
         return;
     }
     for (const Known& known : kKnown)
@@ -271,7 +271,7 @@ TEST_CASE("an independent reader finds the same triangles in real OBJ files")
 {
     if (!std::filesystem::exists(mesh_folder()))
     {
-        WARN("skipped: no folder " << mesh_folder() << "; set TAUT_DATA to the folder of shared data");
+        TAUT_LEFT_OUT("no folder " << mesh_folder() << "; set TAUT_DATA to the folder of shared data");
         return;
     }
     for (const char* name : {"skirt_seamless_20k_cm.obj", "dress_stage.obj", "bunny_10k.obj"})
