@@ -1,12 +1,13 @@
 #pragma once
-// The robustness map: hard cases of cloth and solids x methods. Every cell is run and judged by one rule;
-// docs/robustness.md is written from it.
+// The robustness map: hard cases of cloth and solids x methods. Every cell is run and judged by one rule and
+// held against the committed table (map_table.hpp); docs/robustness.md is written from that table.
 
 #include "hard/cases.hpp"
 
 #include "taut/plan/methods.hpp"
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,21 +25,26 @@ struct Journey
     double stretch = 0;        ///< largest (l - L)/L
     double deepest = 0;        ///< m below a collider
     double volume = 0;         ///< largest |V/V0 - 1|
+    double lowest_centre = 0;  ///< m, lowest place of the mean of all vertices along y
+    std::map<int, std::uint64_t> hashes = {}; ///< of the positions after so many steps (kLooks)
 };
 
-/// What a criterion says: nothing, or in words what it misses. A cell that may report still fails beyond
-/// `worst`, and for words without a number.
-struct Missed
+/// One criterion: what was measured, and the most that it may be.
+struct Measured
 {
-    Missed() = default;
-    Missed(std::string text, double found = kInfinity, double most = 0)
-        : words(std::move(text)),
-          value(found),
-          worst(most)
-    {}
-    Missed(const char* text) : Missed(std::string(text)) {}
-    std::string words;
-    double value = kInfinity, worst = 0;
+    std::string what;
+    double value = 0, limit = 0;
+    bool missed() const { return !(value <= limit); }
+};
+
+/// What a case says of a run: its criteria in a fixed order. The first is the cell's number while none is
+/// missed, else the first that is.
+struct Findings
+{
+    Findings() = default;
+    Findings(Measured one) : list{std::move(one)} {}
+    std::vector<Measured> list;
+    bool judged = true; ///< false: too few steps to say
 };
 
 struct MapCase
@@ -46,29 +52,67 @@ struct MapCase
     std::string id, what;
     Scene scene;
     int steps = 60;
-    /// Empty: as it should be. Else what is not, with its number.
-    std::function<Missed(const Journey&)> judge;
-    /// Methods that may miss the criterion, up to Missed::worst, and say so (methods.md, "reported").
+    /// The case's own criteria.
+    std::function<Findings(const Journey&)> judge;
+    /// Methods that may miss a criterion and say so, by no more than the committed number allows.
     MethodSet may_report = 0;
     /// Called before step k; for what changes on the way.
     std::function<void(World&, int)> before_step = {};
-    /// Steps of a short run (TAUT_HARD_SHORT) of a long case; 0 = all; < 0: a few, and nothing is judged.
+    /// Steps of a short run (TAUT_HARD_SHORT) of a long case; 0 = all; < 0: kStepsShort, and nothing is
+    /// judged, but the numbers are those of the table.
     int short_steps = 0;
-    /// In place of one world that is run and judged, for what compares several: the scene with its method,
-    /// the steps that there are. Says what judge says; on every executor, with kStepsElsewhere.
-    std::function<Missed(const Scene&, const std::shared_ptr<Device>&, int)> check = {};
+    /// For what compares several worlds: the scene with its method, the steps that there are. Its criteria
+    /// stand before those that the run of the scene itself is judged by.
+    std::function<Findings(const Scene&, const std::shared_ptr<Device>&, int)> check = {};
+    /// J that what moves the body (pins, colliders, wind, gravity that turns) may put into it at most.
+    std::function<double(const Journey&)> work = {};
+    /// Every case is judged by its energy, its inverted tetrahedra and its volume at the end; these are the
+    /// limits: (E - E0 - work)/(scale + work), and |V/V0 - 1|.
+    double most_energy = 0.01, most_volume = 0.05;
+    /// In place of `scene` in a whole run: the size that the literature names, too long for a short one.
+    std::function<Scene()> full_size = {};
+    /// About bits: compared on Vulkan in a short run too.
+    bool compares_bits = false;
 };
 
-/// Of the executors that do not run the cases whole: of a run that is judged by its end, and of `check`.
-inline constexpr int kStepsSound = 10, kStepsElsewhere = 5, kStepsShort = 3; // the last: in a short run
+/// The id of cases on data that may not be there.
+inline constexpr const char* kDataCase = "mesh";
+
+/// Steps of a short run of a case whose short_steps are < 0, and of the executors that do not run whole.
+inline constexpr int kStepsShort = 3;
+/// Of those other executors in a whole run: where the executors of software drivers stop, whose dispatches
+/// cost thousands of times their work. Only the hour of hanging cloth and 100,000 steps at rest are longer.
+inline constexpr int kStepsElsewhere = 5000;
+/// Positions are hashed after these steps, and after the last.
+inline constexpr int kHashed[] = {1, 3, 10, 30, 100, 300, 1000, 5000, 100000};
+
+/// What came of a cell.
+struct Outcome
+{
+    /// "pass", "reports" (missed, and the case says that the method may), "FAIL", "runs" (too few steps to
+    /// judge), "refuses bad_timestep", "stops diverged".
+    std::string verdict;
+    std::vector<Measured> own;     ///< the case's own criteria, then the three that all have
+    double energy = 0, volume = 0; ///< see MapCase::most_energy
+    double inverted = 0;           ///< tetrahedra
+    std::map<int, std::uint64_t> hashes = {};
+    bool refused() const { return verdict.rfind("refuses", 0) == 0; }
+    /// The criterion that the verdict is about; of a refusal none.
+    Measured shown() const;
+};
 
 /// The cases; those on real meshes only where the data is.
 std::vector<MapCase> map_cases();
 
-/// "pass", "refuses: unstable_timestep", "reports: stretch 4.2" or "FAIL: ...". `whole`: with all steps that
-/// the case has in this run, and judged; else "sound so far".
-std::string verdict(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
-                    bool whole);
+/// Steps of the case in this run.
+int steps_of(const MapCase& hard_case);
+
+/// Runs a cell and judges it.
+Outcome judged(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device);
+
+/// Runs a cell for so many steps and only looks at its hashes; of `check`, at the numbers of as many.
+Outcome repeated(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
+                 int steps);
 
 /// Settings under which the map runs a method. Solids are springs under methods without neo-Hookean
 /// tetrahedra, and hold no volumes under those that cannot (nor, unless asked, within their surface).

@@ -9,24 +9,41 @@ namespace {
 using Shared = std::shared_ptr<Device>;
 
 /// A10: neither a world nor a change of its step takes what is no time step.
-Missed bad_steps(const Scene& scene, const Shared& device, int steps)
+Findings bad_steps(const Scene& scene, const Shared& device, int steps)
 {
     World world(scene, device);
     run(world, steps);
     const WorldState before = world.state();
+    int taken = 0;
     for (const double bad : {0.0, -1.0 / 60, kNaN, 1e30})
     {
         Scene other = scene;
         other.timestep = bad;
         if (refusal_of([&] { World refused(other, device); }) != "bad_timestep" ||
             refusal_of([&] { world.set_timestep(bad); }) != "bad_timestep")
-            return "a step of " + shown(bad) + " s is not refused";
+            ++taken;
     }
-    return same_state(world.state(), before) ? "" : "a refused step has changed the state";
+    return each_of(above("bad steps that are not refused", taken, 0),
+                   never("a refused step has changed the state", !same_state(world.state(), before)));
 }
 
-/// A12: no jump of the velocity of a pendulum where the step changes.
-Missed changed_steps(const Scene& scene, const Shared& device, int steps)
+/// Angle of the pendulum of a metre from the vertical, let go at 30 degrees: Runge-Kutta, tiny steps.
+double pendulum_angle(double time)
+{
+    double angle = std::asin(0.5), speed = 0;
+    const int steps = 20000;
+    const double h = time / steps;
+    for (int k = 0; k < steps; ++k)
+    {
+        const double middle = angle + h / 2 * speed, fast = speed - h / 2 * 9.81 * std::sin(angle);
+        angle += h * fast;
+        speed -= h * 9.81 * std::sin(middle);
+    }
+    return angle;
+}
+
+/// A12: no jump of the velocity of a pendulum where the step changes, and its place is that of its time.
+Findings changed_steps(const Scene& scene, const Shared& device, int steps)
 {
     World world(scene, device);
     double jump = 0;
@@ -40,28 +57,33 @@ Missed changed_steps(const Scene& scene, const Shared& device, int steps)
             jump = std::max(jump, glm::length(world.velocities()[1] - velocity) / (9.81 * h));
         }
     }
-    return above("change of speed in a step / (g h)", jump, 2);
+    const glm::dvec3 bob = world.positions()[1];
+    return each_of(above("error of the angle, rad",
+                         std::abs(std::atan2(bob.x, -bob.y) - pendulum_angle(world.time())), 0.1),
+                   above("change of speed in a step / (g h)", jump, 2));
 }
 
 /// C07.
-Missed bad_springs(const Scene& scene, const Shared& device, int)
+Findings bad_springs(const Scene& scene, const Shared& device, int)
 {
     const std::vector<Body::Spring> bad = {{1, 1, 0.1, 1},  {0, 9, 0.1, 1},    {0, 1, kNaN, 1},
                                            {0, 1, -0.1, 1}, {0, 1, 0.1, kNaN}, {0, 1, 0.1, -1e-3}};
+    int taken = 0;
     for (const Body::Spring& spring : bad)
     {
         Scene other = scene;
         other.bodies[0].springs = {spring};
         if (refusal_of([&] { World refused(other, device); }) != "bad_input")
-            return "a spring from " + std::to_string(spring.a) + " to " + std::to_string(spring.b) + " of " +
-                   shown(spring.rest_length) + " m is not refused";
+            ++taken;
     }
-    return {};
+    return above("bad springs that are not refused", taken, 0);
 }
 
-/// C08: worlds of next to nothing.
-Missed nothing(const Scene& scene, const Shared& device, int steps)
+/// C08: worlds of next to nothing run, and what is there falls.
+Findings nothing(const Scene& scene, const Shared& device, int steps)
 {
+    double wrong = 0;
+    bool stopped = false;
     for (const std::size_t count : {0u, 1u, 2u})
     {
         Scene few = scene;
@@ -71,14 +93,16 @@ Missed nothing(const Scene& scene, const Shared& device, int steps)
             few.bodies = {particles(std::vector<glm::dvec3>(count, glm::dvec3(0)))};
         World world(few, device);
         run(world, steps);
-        if (!finite(world.positions()) || measure(world).status != Status::completed)
-            return std::to_string(count) + " particles do not run";
+        stopped = stopped || measure(world).status != Status::completed;
+        const double t = world.time();
+        for (const glm::dvec3& x : world.positions())
+            wrong = std::max(wrong, std::abs(x.y / (-9.81 * t * t / 2) - 1));
     }
-    return {};
+    return each_of(above("error of the fall", wrong, 0.05), never("one of them does not run", stopped));
 }
 
 /// F07: what is between two held vertices is left out.
-Missed between_pins(const Scene& scene, const Shared& device, int steps)
+Findings between_pins(const Scene& scene, const Shared& device, int steps)
 {
     Scene without = scene;
     without.bodies[0].springs.erase(without.bodies[0].springs.begin());
@@ -90,7 +114,7 @@ Missed between_pins(const Scene& scene, const Shared& device, int steps)
 }
 
 /// F04: every edge twice is every edge twice as stiff.
-Missed doubled(const Scene& scene, const Shared& device, int steps)
+Findings doubled(const Scene& scene, const Shared& device, int steps)
 {
     Scene twice = scene;
     for (const StretchElement& e : make_model(scene).springs)
@@ -105,7 +129,7 @@ Missed doubled(const Scene& scene, const Shared& device, int steps)
 void add_steps_and_input(std::vector<MapCase>& out)
 {
     const auto add = [&](const char* id, const char* what, const Scene& scene, int steps, auto check) {
-        out.push_back({id, what, scene, steps, sound, 0, {}, 0, check});
+        out.push_back({id, what, scene, steps, {}, 0, {}, 0, check});
     };
     const Scene small = with_stretch(hanging(2), 200);
     add("A10", "steps of 0, below 0, NaN, 1e30 s", small, 10, bad_steps);
@@ -147,29 +171,39 @@ void add_uneven(std::vector<MapCase>& out)
                            least = std::min(least, pull);
                            most = std::max(most, pull);
                        }
-                       return above("largest tension / mean - 1", most / (most + least) * 2 - 1, 0.01, 2);
+                       return above("largest tension / mean - 1", most / (most + least) * 2 - 1, 0.01);
                    },
                    // Explicit springs in float: at 4 m a rounding of a length is 0.2 N in 1e6 N/m, a substep
                    // and again, on a vertex of 10 g. In double they pass.
                    kPositionBased | only(MethodKind::vbd) | kForces});
     s = test::chain(50, 1e5, 0.01);
     s.bodies[0].vertex_masses.back() = 2;
-    s.damping = 0.5;
+    s.damping = 4;
     out.push_back({"A07", "rope, last of 50 links 200 times heavier", s, 300,
-                   [](const Journey& j) { return above("stretch", j.last.max_stretch, 0.1); },
-                   kPositionBased});
+                   [](const Journey& j) { return length_error(j, 1e5); }, kPositionBased});
+}
+
+Scene star_of(int springs)
+{
     std::vector<glm::dvec3> star = {{0, 0, 0}};
-    for (int k = 0; k < 400; ++k)
+    for (int k = 0; k < springs; ++k)
         star.emplace_back(1.05 * std::cos(k * 0.7), 1.05 * std::sin(k * 0.7), 0.1 * (k % 7));
     Body hub = particles(star, 0.01);
     for (std::uint32_t v = 1; v < star.size(); ++v)
         hub.springs.push_back({0, v, 1.0, 1e-2});
-    s = alone(hub);
-    s.damping = 1;
-    out.push_back({"C03", "star of 400 springs on one vertex", s, 30, gains_no_energy,
+    Scene s = alone(hub);
+    s.damping = 10;
+    return s;
+}
+
+void add_star(std::vector<MapCase>& out)
+{
+    out.push_back({"C03", "star of 400 springs on one vertex, in full 10,000", star_of(400), 60,
+                   [](const Journey& j) { return above("stretch left", j.last.max_stretch, 0.005); },
                    // Near its stable step the energy of explicit springs swings by some tenths; it does not
                    // grow, and with 1,000 substeps it passes.
-                   only(MethodKind::mass_spring)});
+                   kForces});
+    out.back().full_size = [] { return star_of(10000); };
 }
 
 void add_twice(std::vector<MapCase>& out)
@@ -179,13 +213,24 @@ void add_twice(std::vector<MapCase>& out)
     body.pins = {hold({0, 1})};
     Scene s = alone(body);
     s.gravity = {0, -9.81, 0};
-    out.push_back(
-        {"F07", "a violated spring between two held vertices", s, 60, sound, 0, {}, 0, between_pins});
+    s.damping = 5;
+    out.push_back({"F07",
+                   "a violated spring between two held vertices",
+                   s,
+                   180,
+                   [](const Journey& j) {
+                       return above("error of the length", std::abs(j.world.positions()[2].y / -1.0981 - 1),
+                                    0.01);
+                   },
+                   kOwnStiffness | kHoldsThreshold,
+                   {},
+                   0,
+                   between_pins});
     out.push_back({"F04",
                    "cloth, every edge twice",
                    with_stretch(hanging(4, 1), 250),
                    60,
-                   sound,
+                   {},
                    only(MethodKind::xpbd),
                    {},
                    0,
@@ -204,6 +249,7 @@ void add_more(std::vector<MapCase>& out)
 {
     add_steps_and_input(out);
     add_uneven(out);
+    add_star(out);
     add_twice(out);
 }
 

@@ -9,30 +9,6 @@
 namespace taut::hard {
 namespace {
 
-/// Vertices of the lowest layer at rest.
-std::vector<std::uint32_t> lowest(const Mesh& mesh)
-{
-    double low = kInfinity;
-    for (const glm::dvec3& x : mesh.positions)
-        low = std::min(low, x.y);
-    std::vector<std::uint32_t> out;
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
-        if (mesh.positions[v].y < low + 1e-9)
-            out.push_back(v);
-    return out;
-}
-
-/// By how much of its height the lowest layer has come down, or with a minus gone up.
-double drop(const Journey& j, double height)
-{
-    double sum = 0;
-    const auto low = lowest(j.world.scene().bodies[0].mesh);
-    const auto x = j.world.positions();
-    for (const std::uint32_t v : low)
-        sum += j.start[v].y - x[v].y;
-    return sum / double(low.size()) / height;
-}
-
 void add_heavy(std::vector<MapCase>& out)
 {
     const auto add = [&](const char* id, const char* what, double ratio) {
@@ -49,7 +25,9 @@ void add_heavy(std::vector<MapCase>& out)
                        what,
                        s,
                        300,
-                       [](const Journey& j) { return above("stretch", drop(j, 1), 0.1, 100); },
+                       [](const Journey& j) {
+                           return above("error of the lower end / height", std::abs(-lifted(j) - 0.05), 0.02);
+                       },
                        ratio > 1e4   ? kPositionBased
                        : ratio > 1e3 ? only(MethodKind::pbd)
                                      : 0,
@@ -67,7 +45,7 @@ void add_steps(std::vector<MapCase>& out)
     {
         Body body = solid_box({6, 2, 2}, {3, 1, 1}, 1e4);
         body.pins = {hold_face("left")};
-        Scene s = scene_of(body, 1);
+        Scene s = scene_of(body, 3);
         s.timestep = step;
         for (const glm::dvec3& x : s.bodies[0].mesh.positions)
         {
@@ -78,15 +56,11 @@ void add_steps(std::vector<MapCase>& out)
         out.push_back({"A09",
                        "solid bar twisted by 360 degrees, step of " + shown(step) + " s",
                        s,
-                       step < 0.01 ? 300 : 120,
-                       [step](const Journey& j) {
+                       step < 0.01 ? 2000 : 120,
+                       [](const Journey& j) {
                            const auto& rest = j.world.scene().bodies[0].mesh.positions;
                            const double away = largest_distance(j.world.positions(), rest) / std::sqrt(11.0);
-                           // A projection undoes at once what the start violates: the shorter the substep,
-                           // the faster. Nothing ends further away than the bar is long.
-                           return first_of(no_energy_gained(j, step < 0.01 ? 1e6 : 500),
-                                           step < 0.01 ? Missed()
-                                                       : above("distance from rest / D", away, 0.05, 1));
+                           return above("distance from rest / D", away, 0.05);
                        },
                        step > 0.5 ? kForces : kForces | only(MethodKind::pbd),
                        {},
@@ -94,21 +68,8 @@ void add_steps(std::vector<MapCase>& out)
     }
 }
 
-double centre_height(const World& world)
-{
-    const PhysicalModel model = make_model(world.scene());
-    double sum = 0, mass = 0;
-    const auto x = world.positions();
-    for (std::size_t v = 0; v < x.size(); ++v)
-    {
-        sum += model.mass[v] * x[v].y;
-        mass += model.mass[v];
-    }
-    return sum / mass;
-}
-
 /// A16: hung in peace for 2 s, then without its pins; the fall of a second.
-Missed let_go(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Findings let_go(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     Scene held = scene, free = scene;
     held.damping = 1;
@@ -117,16 +78,16 @@ Missed let_go(const Scene& scene, const std::shared_ptr<Device>& device, int ste
     free.bodies[0].pins.clear();
     free.bodies[0].start_positions = rest.positions();
     World world(free, device);
-    const double before = centre_height(world);
+    const double before = centre(world).y;
     run(world, steps);
     const double right = 9.81 * world.time() * world.time() / 2;
-    return above("error of the fall", std::abs((before - centre_height(world)) / right - 1), 1e-3);
+    return above("error of the fall", std::abs((before - centre(world).y) / right - 1), 1e-3);
 }
 
 void add_releases(std::vector<MapCase>& out)
 {
     out.push_back(
-        {"A16", "cloth let go after 2 s", with_stretch(hanging(4, 0), 500), 60, sound, 0, {}, 0, let_go});
+        {"A16", "cloth let go after 2 s", with_stretch(hanging(4, 0), 500), 60, {}, 0, {}, 0, let_go});
     for (const double modulus : {1e6, 1e8})
     {
         Body body = block(3, modulus);
@@ -135,7 +96,7 @@ void add_releases(std::vector<MapCase>& out)
                        "solid of " + shown(modulus) + " Pa let go after 2 s",
                        scene_of(body, 0, {0, -9.81, 0}),
                        60,
-                       sound,
+                       {},
                        0,
                        {},
                        modulus > 1e7 ? -1 : 0,
@@ -145,7 +106,7 @@ void add_releases(std::vector<MapCase>& out)
 
 void add_meshes(std::vector<MapCase>& out)
 {
-    const auto refused = [](const Journey&) { return std::string("it was not refused"); };
+    const auto refused = [](const Journey&) { return never("it was not refused", true); };
     Scene flat = scene_of(block(1)), turned = flat;
     flat.bodies[0].mesh.positions[flat.bodies[0].mesh.tetrahedra[0][3]] =
         flat.bodies[0].mesh.positions[flat.bodies[0].mesh.tetrahedra[0][2]];
@@ -154,7 +115,16 @@ void add_meshes(std::vector<MapCase>& out)
     out.push_back({"B07", "a left-handed tetrahedron given by hand", turned, 3, refused});
     Body rope = solid_box({400, 1, 1}, {40, 0.1, 0.1}, 1e6);
     rope.pins = {hold_face("left")};
-    out.push_back({"C09", "solid bar of 400 cells in a row", scene_of(rope, 0.5, {0, -9.81, 0}), 20, calm});
+    out.push_back({"C09", "solid bar of 400 cells in a row", scene_of(rope, 0, {0, -9.81, 0}), 20,
+                   [](const Journey& j) {
+                       // Bending reaches some cells from where it is held: the other end falls.
+                       const double t = j.world.time();
+                       const auto x = j.world.positions();
+                       const double fall = j.start.back().y - x.back().y;
+                       return each_of(above("error of the free end's fall",
+                                            std::abs(fall / (9.81 * t * t / 2) - 1), 0.05),
+                                      back_in_shape(j, 0.05));
+                   }});
     const auto path = find_data("tets/bunny_slivers.vtk");
     if (!path)
         return;
@@ -173,7 +143,7 @@ void add_meshes(std::vector<MapCase>& out)
         p = (p - glm::dvec3(0, low, 0)) / (high - low) + glm::dvec3(0, 0.01, 0);
     s.colliders = {flat_floor(0)};
     s.method.line_search = 8; // implicit_euler alone reads it
-    out.push_back({"mesh", "bunny_slivers.vtk dropped", s, 30, calm, kForces, {}, -1});
+    out.push_back({kDataCase, "bunny_slivers.vtk dropped", s, 30, calm, kForces, {}, -1});
 }
 
 void add_standing(std::vector<MapCase>& out)
@@ -192,8 +162,8 @@ void add_standing(std::vector<MapCase>& out)
             double bottom = kInfinity;
             for (const glm::dvec3& x : j.world.positions())
                 bottom = std::min(bottom, x.y);
-            return first_of(above("loss of height", 1 - (top - bottom) / height, most, 1),
-                            above("inverted tetrahedra", double(j.last.volume.inverted), 0, kInfinity));
+            return each_of(above("loss of height", 1 - (top - bottom) / height, most),
+                           above("gain of height", (top - bottom) / height - 1, most));
         };
     };
     s.colliders = {flat_floor(-3.001)};
@@ -222,7 +192,7 @@ void add_standing(std::vector<MapCase>& out)
 }
 
 /// F04: the edges of a rigid tetrahedron say all about it; its volume says it again.
-Missed redundant(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
+Findings redundant(const Scene& scene, const std::shared_ptr<Device>& device, int steps)
 {
     Scene edges = scene;
     edges.bodies[0].material.volume_stiffness = 0;
@@ -232,8 +202,8 @@ Missed redundant(const Scene& scene, const std::shared_ptr<Device>& device, int 
     // Sweeps that have not converged turn a stiff tetrahedron about its pin too slowly, each of the two by
     // its own much: within its edge of a metre (vbd: 0.51 m with 4 sweeps, 0.018 with 20, 9e-6 with 100 in
     // double).
-    return first_of(above("difference", largest_distance(both.positions(), one.positions()), 1e-4, 1),
-                    above("volume", std::abs(measure(both).volume.ratio - 1), 1e-3));
+    return each_of(above("difference", largest_distance(both.positions(), one.positions()), 1e-4),
+                   above("volume", std::abs(measure(both).volume.ratio - 1), 1e-3));
 }
 
 void add_constrained(std::vector<MapCase>& out)
@@ -251,7 +221,7 @@ void add_constrained(std::vector<MapCase>& out)
                    "tetrahedron of six stiff edges with its volume, and without",
                    s,
                    100,
-                   sound,
+                   {},
                    only(MethodKind::xpbd) | only(MethodKind::vbd) | only(MethodKind::implicit_euler),
                    {},
                    0,
@@ -270,8 +240,8 @@ void add_constrained(std::vector<MapCase>& out)
         s.bodies[0].springs.push_back({a, b, glm::distance(x[a], x[b]), 0});
     s.colliders = {flat_floor(0)};
     out.push_back({"F05", "solid with all edges rigid, dropped", s, 120, [](const Journey& j) {
-                       return first_of(gains_no_energy(j), above("stretch", j.stretch, 0.05),
-                                       above("volume lost or gained", j.volume, 0.05));
+                       return each_of(above("stretch", j.stretch, 0.05),
+                                      above("volume lost or gained", j.volume, 0.05));
                    }});
 }
 
@@ -303,13 +273,13 @@ void add_surfaces(std::vector<MapCase>& out)
         x *= glm::dvec3(std::sqrt(2.0), 0.5, std::sqrt(2.0));
     out.push_back(
         {"F14", "volume of a surface, cube squeezed to half its height", s, 300, [](const Journey& j) {
-             return first_of(above("volume lost or gained", j.volume, 0.01),
-                             above("momentum", drift(j.world), 1e-5));
+             return each_of(above("volume lost or gained", j.volume, 0.01),
+                            above("momentum", drift(j.world), 1e-5));
          }});
     s.bodies[0].start_positions.clear();
     s.bodies[0].mesh.triangles.pop_back();
     out.push_back({"F15", "volume of an open surface", s, 3,
-                   [](const Journey&) { return std::string("it was not refused"); }});
+                   [](const Journey&) { return never("it was not refused", true); }});
 }
 
 void add_rest(std::vector<MapCase>& out)
@@ -326,7 +296,7 @@ void add_rest(std::vector<MapCase>& out)
                    [](const Journey& j) {
                        const glm::dvec3 moved = mean(j.world.positions()) - mean(j.start);
                        const double d = std::sqrt(3.0);
-                       return first_of(
+                       return each_of(
                            above("speed / sqrt(g D)", j.last.max_speed / std::sqrt(9.81 * d), 1e-3),
                            above("drift along the floor / D", std::hypot(moved.x, moved.z) / d, 1e-3),
                            above("sinking / D", std::abs(moved.y) / d, 0.05));

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# The suites that take longer than a build should: run before a release, one line of summary a part.
+#   tests/matrix.sh [PART...]      parts: release asan tsan clang hard mutants; all by default
+# release: tests/run.sh. asan (address and undefined), tsan: the presets. clang: the release build by clang, where
+# it is installed. hard: the hard cases and the whole map in full on every executor (hours). mutants: every 10th
+# mutant that tests/mutants.csv does not answer, for half an hour.
+# A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any failed.
+# shellcheck disable=SC2317 # parts are called by name
+set -uo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+logs=$root/build/matrix
+jobs=${TAUT_JOBS:-$(nproc)}
+mkdir -p "$logs"
+
+# preset NAME: configured, built, tested; the short form of the hard cases.
+preset() {
+    cd "$root" && cmake --preset "$1" && cmake --build --preset "$1" --parallel "$jobs" &&
+        ctest --preset "$1" --parallel "$jobs"
+}
+
+part_release() { "$root/tests/run.sh"; }
+part_asan() { preset asan; }
+part_tsan() { preset tsan; }
+
+part_clang() {
+    command -v clang++ > /dev/null || { echo "clang++ is not installed"; return 77; }
+    cd "$root" &&
+        cmake -S . -B build/clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DTAUT_BUILD_TESTS=ON &&
+        cmake --build build/clang --parallel "$jobs" &&
+        TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} ctest --test-dir build/clang --output-on-failure \
+            --no-tests=error --parallel "$jobs"
+}
+
+part_hard() {
+    local program=$root/build/release/tests/test_hard
+    [ -x "$program" ] || { echo "$program is not built"; return 1; }
+    env -u TAUT_HARD_SHORT TAUT_REQUIRE_DEVICE="${TAUT_REQUIRE_DEVICE:-1}" "$program"
+}
+
+part_mutants() { "$root/tests/mutants.sh" --sample 10 --budget 1800; }
+
+[ $# -gt 0 ] || set -- release asan tsan clang hard mutants
+failed=0
+for part in "$@"; do
+    if ! declare -F "part_$part" > /dev/null; then
+        echo "no part is called $part" >&2
+        exit 2
+    fi
+    begin=$SECONDS status=0
+    ("part_$part") > "$logs/$part.log" 2>&1 || status=$?
+    case $status in
+    0) word=passed ;;
+    77) word="skipped: $(tail -1 "$logs/$part.log")" ;;
+    *) word="FAILED, see $logs/$part.log" failed=1 ;;
+    esac
+    printf '%-8s %6d s  %s\n' "$part" $((SECONDS - begin)) "$word"
+done
+exit $failed

@@ -1,0 +1,261 @@
+#!/usr/bin/env bash
+# Breaks one kernel or one decision of the host at a time and writes down which tests notice.
+#   tests/mutants.sh [--kernels GLOB] [--kinds LIST] [--suites LIST] [--sample N] [--budget SECONDS]
+#                    [--limit SECONDS] [--out FILE] [--again] [--report]
+# --kernels: 'vbd_*'. --kinds: of nothing,sign,drop,host (all). --suites: of
+# conformance,unit,physics,golden,hard (all), in this order. --sample: every Nth mutant only. --budget: no new
+# mutant after so long. --limit: of one run of one suite, 1,800 s; a suite that takes longer has noticed.
+# --again: runs mutants that the table has. --report: the table in Markdown, runs nothing.
+#
+# A run goes on where the last one stopped: a suite that a row of the table answers is not run again. Kinds:
+#   nothing  the kernel returns at once
+#   sign     its first sum becomes a difference, or the other way about
+#   drop     its first sum loses its last term
+#   host     a line of tests/mutants_host.txt
+# The native executor alone: TAUT_BUILD (build/release) must hold the tests, built with Ninja. Nothing is built
+# there: the object of a mutant is compiled beside it and linked before, or in place of, the right one.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+build=${TAUT_BUILD:-$root/build/release}
+kernels='*' kinds=nothing,sign,drop,host suites=conformance,unit,physics,golden,hard
+sample=1 budget=1000000 limit=1800 out=$root/tests/mutants.csv again="" report=""
+while [ $# -gt 0 ]; do
+    case $1 in
+    --again | --report) declare "${1#--}=1" && shift ;;
+    --kernels | --kinds | --suites | --sample | --budget | --limit | --out) declare "${1#--}=$2" && shift 2 ;;
+    *) sed -n '2,21p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
+    esac
+done
+work=$build/mutants
+mkdir -p "$work"
+head=mutant,kind,what,conformance,unit,physics,golden,hard
+[ -s "$out" ] || echo "$head" > "$out"
+
+# program_of SUITE: the test programs of a suite.
+programs_of() {
+    case $1 in
+    unit) echo test_base test_runtime test_scene test_plan test_linear test_world test_report ;;
+    *) echo "test_$1" ;;
+    esac
+}
+
+# field MUTANT SUITE: what the table says; empty if nothing.
+field() {
+    awk -F, -v mutant="$1" -v suite="$2" '
+        NR == 1 { for (k = 1; k <= NF; ++k) if ($k == suite) column = k }
+        $1 == mutant { print $column }' "$out"
+}
+
+# note MUTANT KIND WHAT SUITE ANSWER: into the table, by rename.
+note() {
+    awk -F, -v OFS=, -v mutant="$1" -v kind="$2" -v what="$3" -v suite="$4" -v answer="$5" '
+        NR == 1 { n = NF; for (k = 1; k <= n; ++k) if ($k == suite) column = k }
+        $1 == mutant { $column = answer; $3 = what; found = 1 }
+        { print }
+        END {
+            if (found) exit
+            for (k = 4; k <= n; ++k) row[k] = k == column ? answer : ""
+            printf "%s,%s,%s", mutant, kind, what
+            for (k = 4; k <= n; ++k) printf ",%s", row[k]
+            printf "\n"
+        }' "$out" > "$out.new"
+    mv "$out.new" "$out"
+}
+
+# compile OBJECT SOURCE RESULT [FLAG...]: as the build compiles OBJECT, another source. Paths as Ninja has them.
+compile() {
+    local object=$1 source=$2 result=$3 command
+    shift 3
+    command=$(ninja -C "$build" -t commands "$object" | tail -1)
+    command=${command%% -MD*}
+    (cd "$build" && $command "$@" -o "$result" -c "$source")
+}
+
+# link PROGRAM RESULT (ORIGINAL MUTATED)...: as the build links it, with other objects. Those of the kernels come
+# out of an archive, or stand on the line themselves.
+link() {
+    local program=$1 result=$2 command
+    shift 2
+    command=$(ninja -C "$build" -t commands "tests/$program" | tail -1)
+    command=${command//"-o tests/$program"/"-o $result"}
+    while [ $# -gt 0 ]; do
+        if [[ $command == *" $1 "* ]]; then
+            command=${command//" $1 "/" $2 "}
+        else
+            command=${command/" -o $result"/" $2 -o $result"}
+        fi
+        shift 2
+    done
+    (cd "$build" && eval "$command")
+}
+
+# mutated KIND KERNEL N: the text of the kernel with a sum turned or shortened, the first after N others, and on
+# descriptor 3 the line that it was; fails if there is none. A sum stands in a statement, beyond the bindings.
+mutated() {
+    awk -v kind="$1" -v before="$3" '
+        # The line without its comment and what stands in brackets: sums there are places, not values.
+        function values(line) {
+            sub(/\/\/.*/, "", line)
+            while (match(line, /\[[^][]*\]/)) {
+                blank = sprintf("%" RLENGTH "s", ""); gsub(/ /, "#", blank)
+                line = substr(line, 1, RSTART - 1) blank substr(line, RSTART + RLENGTH)
+            }
+            return line
+        }
+        {
+            line = values($0)
+            if (line ~ /^[A-Z_]*KERNEL|^[a-z].*\(/) inside = 1
+            sum = kind == "sign" ? " [-+]=? " : " [-+] [A-Za-z0-9_.*#/ ]+;| [-+]= "
+            usable = inside && !done && line ~ /;[ \t]*$/ && line !~ /^#|for \(|uint / && match(line, sum)
+            if (!usable || before-- > 0) { print; next }
+            done = 1
+            print $0 > "/dev/fd/3"
+            if (kind == "sign") {
+                turned = substr(line, RSTART + 1, 1) == "+" ? "-" : "+"
+                print substr($0, 1, RSTART) turned substr($0, RSTART + 2)
+            } else if (substr(line, RSTART + 2, 1) == "=") print ""
+            else print substr($0, 1, RSTART - 1) ";"
+        }
+        END { exit !done }' "$2"
+}
+
+# make_kernel KIND KERNEL N: objects of the mutant; sets `pairs` and `what`. 1: no such sum, 2: does not compile.
+make_kernel() {
+    local kind=$1 text=$2 stem object source
+    stem=$(basename "$text" .comp)
+    pairs=() what=
+    local folder=CMakeFiles/taut_kernels.dir/generated/taut/kernels
+    object=$folder/$stem.native.cpp.o
+    if [ "$kind" = nothing ]; then
+        what='returns at once'
+        { echo '#include <cstdint>'
+          echo "namespace taut::kernels::$stem {"
+          nm -C "$build/$object" | sed -n 's/.* T taut::kernels::[a-z0-9_]*::\(native_[a-z0-9_]*\)(.*/\1/p' |
+              sed 's/.*/void &(const void*, void* const*, std::uint32_t, std::uint32_t) {}/'
+          echo '}'; } > "$work/$stem.cpp"
+        compile "$object" "$work/$stem.cpp" "$work/$stem.o"
+        pairs=("$object" "$work/$stem.o")
+        return
+    fi
+    mutated "$kind" "$text" "$3" 3> "$work/line" > "$work/$stem.comp" || return 1
+    what=$(sed 's/\/\/.*//; s/^[ \t]*//; s/[ \t]*$//; s/,/;/g' "$work/line")
+    for source in native lanes; do
+        object=$folder/$stem.$source.cpp.o
+        [ -f "$build/$object" ] || continue
+        sed "s|\"$text\"|\"$work/$stem.comp\"|" "$build/generated/taut/kernels/$stem.$source.cpp" \
+            > "$work/$stem.$source.cpp"
+        compile "$object" "$work/$stem.$source.cpp" "$work/$stem.$source.o" -I "$(dirname "$text")" 2> "$work/errors" ||
+            return 2
+        pairs+=("$object" "$work/$stem.$source.o")
+    done
+}
+
+# make_host FILE EXPRESSION: the object of a source changed by sed; sets `pairs`.
+make_host() {
+    local file=$1 object
+    sed "$2" "$root/$file" > "$work/host.cpp"
+    ! cmp -s "$root/$file" "$work/host.cpp" || { echo "$file: the expression changes nothing: $2" >&2; exit 1; }
+    object=$(ninja -C "$build" -t query "$root/$file" | sed -n 's/^ *\(.*\.o\)$/\1/p' | head -1)
+    compile "$object" "$work/host.cpp" "$work/host.o" -I "$(dirname "$root/$file")"
+    pairs=("$object" "$work/host.o")
+}
+
+# run_suite SUITE: "killed" or "lives".
+run_suite() {
+    local program arguments
+    for program in $(programs_of "$1"); do
+        link "$program" "$work/$program" "${pairs[@]}"
+        arguments=(--abort)
+        [ "$1" != hard ] || export TAUT_HARD_SHORT=1 TAUT_MAP_FIRST=1
+        TAUT_TEST_DEVICES=cpu:serial TAUT_PIPELINE_CACHE=off timeout "$limit" nice \
+            "$work/$program" "${arguments[@]}" > "$work/$program.log" 2>&1 && continue
+        [ $? -eq 77 ] || { echo killed; return; } # 77: passed, and left something out
+    done
+    echo lives
+}
+
+# judge MUTANT KIND: the suites that the table does not answer.
+judge() {
+    local suite
+    for suite in ${suites//,/ }; do
+        [ -n "$again" ] || [ -z "$(field "$1" "$suite")" ] || continue
+        note "$1" "$2" "$what" "$suite" "$(run_suite "$suite")"
+    done
+    grep "^$1," "$out" >&2
+}
+
+# wanted MUTANT: within the sample and the budget, and not answered.
+count=0
+wanted() {
+    local suite
+    count=$((count + 1))
+    [ $((count % sample)) -eq 0 ] || return 1
+    [ "$SECONDS" -lt "$budget" ] || return 1
+    [ -z "$again" ] || return 0
+    for suite in ${suites//,/ }; do
+        [ -n "$(field "$1" "$suite")" ] || return 0
+    done
+    return 1
+}
+
+table() {
+    awk -F, '
+        NR == 1 { n = NF; for (k = 4; k <= n; ++k) name[k] = $k; next }
+        {
+            killed = 0; ran = 0
+            ++mutants[$2]
+            for (k = 4; k <= n; ++k) {
+                if ($k != "") { ran = 1; ++seen[$2, k] }
+                if ($k == "killed") { ++kills[$2, k]; killed = 1 }
+            }
+            if (killed) ++dead[$2]
+            else survivors = survivors "| " $1 " | " $3 " |\n"
+        }
+        END {
+            printf "| kind | mutants | killed |"; for (k = 4; k <= n; ++k) printf " %s |", name[k]
+            printf "\n|---|---:|---:|"; for (k = 4; k <= n; ++k) printf "---:|"
+            printf "\n"
+            split("nothing sign drop host", kinds, " ")
+            for (i = 1; i <= 4; ++i) {
+                kind = kinds[i]
+                printf "| %s | %d | %d |", kind, mutants[kind], dead[kind]
+                for (k = 4; k <= n; ++k) printf " %d of %d |", kills[kind, k], seen[kind, k]
+                printf "\n"
+            }
+            printf "\n| lives | what was changed |\n|---|---|\n%s", survivors
+        }' "$out"
+}
+
+[ -z "$report" ] || { table; exit; }
+
+for kind in nothing sign drop; do
+    case ,$kinds, in *,$kind,*) ;; *) continue ;; esac
+    for text in "$root"/kernels/*/*.comp; do
+        stem=$(basename "$text" .comp)
+        # shellcheck disable=SC2053 # a pattern
+        [[ $stem == $kernels ]] || continue
+        wanted "$stem:$kind" || continue
+        made=2
+        for ((n = 0; made == 2; ++n)); do # an index without its sum does not compile: the next one
+            made=0
+            make_kernel $kind "$text" $n || made=$?
+        done
+        if [ $made -eq 0 ]; then
+            judge "$stem:$kind" $kind
+        else
+            echo "$stem:$kind: no sum that can be changed" >&2
+        fi
+    done
+done
+case ,$kinds, in
+*,host,*)
+    while IFS='|' read -r name file expression; do
+        case $name in '' | '#'*) continue ;; esac
+        wanted "$name:host" || continue
+        what=$file
+        make_host "$file" "$expression"
+        judge "$name:host" host
+    done < "$root/tests/mutants_host.txt"
+    ;;
+esac
