@@ -25,7 +25,8 @@ struct Setting
     }
 };
 
-/// Inner corners of a box, each of another tetrahedron, moved to a hundredth of the height of one of their tetrahedra.
+/// Inner corners of a box moved to a hundredth of the height of one of their tetrahedra, where no other turns
+/// inside out.
 void make_slivers(Mesh& mesh)
 {
     std::set<std::uint32_t> touched;
@@ -42,7 +43,7 @@ void make_slivers(Mesh& mesh)
             if (!std::ranges::all_of(mesh.tetrahedra, [&](const auto& other) {
                     return six_volumes(mesh.positions, other) > 1e-3 * std::pow(kEdge / 4, 3);
                 }))
-                mesh.positions[t[k]] = x; // it would turn another inside out
+                mesh.positions[t[k]] = x;
             else
                 touched.insert(t.begin(), t.end());
         }
