@@ -74,8 +74,8 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     const std::uint64_t colours = plan.colour_counts().at("vbd_solve");
     CHECK(effects(plan) == Words{"motion", "vbd_solve", "vbd_start"});
     CHECK(dispatches(plan, "vbd_solve") == 3 * 4 * colours);
-    CHECK(dispatches(plan, "vbd_start") == 3 * 2);
-    CHECK(plan.passes.size() == 3 * (2 + 2 + 4 * colours));
+    CHECK(dispatches(plan, "vbd_start") == 3 * (2 + 4)); // the guard and the limit are two each
+    CHECK(plan.passes.size() == 3 * (2 + 6 + 4 * colours));
     CHECK(plan.constraint_counts().at("vbd_solve") == 81 - 2);
     CHECK(plan.kept.size() == 1);
 
@@ -90,15 +90,15 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     floor.friction = 0.3;
     scene.colliders = {floor};
     plan = make_plan(scene, apart);
-    CHECK(dispatches(plan, "vbd_start") == 3 * 3);
+    CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4));
     CHECK(dispatches(plan, "plane") == 3); // once a substep
-    CHECK(plan.passes.size() == 3 * (2 + 3 + 4 * colours + 1));
+    CHECK(plan.passes.size() == 3 * (2 + 7 + 4 * colours + 1));
     CHECK(plan.kept.size() == 3);
 
     DeviceTraits dear; // dispatches that cost much: all colours in one group
     dear.dispatch_ns = 1e9;
     scene.colliders.clear();
-    CHECK(make_plan(scene, dear).passes.size() == 3 * (2 + 2 + 4));
+    CHECK(make_plan(scene, dear).passes.size() == 3 * (2 + 6 + 4));
 }
 
 TEST_CASE("Chebyshev adds two passes an iteration from 8 iterations on, and no factor leaves [1, 2)")
