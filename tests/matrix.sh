@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The suites that take longer than a build should: run before a release, one line of summary a part.
 #   tests/matrix.sh [PART...]      parts: release asan tsan clang hard mutants; all by default
-# release: tests/run.sh. asan (address and undefined), tsan: the presets. clang: the release build by clang, where
-# it is installed. hard: the hard cases and the whole map in full on every executor (hours). mutants: every 10th
-# mutant that tests/mutants.csv does not answer, for half an hour.
-# A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any failed.
+# release: tests/run.sh. asan (address and undefined), tsan: the presets. clang: the release build by clang,
+# where it is installed. hard: the hard cases and the whole map in full on every executor (hours). mutants:
+# every 10th mutant that tests/mutants.csv does not answer, for half an hour.
+# A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any
+# failed.
 # shellcheck disable=SC2317 # parts are called by name
 set -uo pipefail
 
@@ -26,7 +27,8 @@ part_tsan() { preset tsan; }
 part_clang() {
     command -v clang++ > /dev/null || { echo "clang++ is not installed"; return 77; }
     cd "$root" &&
-        cmake -S . -B build/clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ -DTAUT_BUILD_TESTS=ON &&
+        cmake -S . -B build/clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
+            -DTAUT_BUILD_TESTS=ON &&
         cmake --build build/clang --parallel "$jobs" &&
         TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} ctest --test-dir build/clang --output-on-failure \
             --no-tests=error --parallel "$jobs"

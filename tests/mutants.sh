@@ -12,8 +12,8 @@
 #   sign     its first sum becomes a difference, or the other way about
 #   drop     its first sum loses its last term
 #   host     a line of tests/mutants_host.txt
-# The native executor alone: TAUT_BUILD (build/release) must hold the tests, built with Ninja. Nothing is built
-# there: the object of a mutant is compiled beside it and linked before, or in place of, the right one.
+# The native executor alone: TAUT_BUILD (build/release) must hold the tests, built with Ninja. Nothing is
+# built there: the object of a mutant is compiled beside it and linked before, or in place of, the right one.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
@@ -24,7 +24,7 @@ while [ $# -gt 0 ]; do
     case $1 in
     --again | --report) declare "${1#--}=1" && shift ;;
     --kernels | --kinds | --suites | --sample | --budget | --limit | --out) declare "${1#--}=$2" && shift 2 ;;
-    *) sed -n '2,21p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
+    *) sed -n '2,16p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
     esac
 done
 work=$build/mutants
@@ -63,7 +63,7 @@ note() {
     mv "$out.new" "$out"
 }
 
-# compile OBJECT SOURCE RESULT [FLAG...]: as the build compiles OBJECT, another source. Paths as Ninja has them.
+# compile OBJECT SOURCE RESULT [FLAG...]: as the build compiles OBJECT, another source.
 compile() {
     local object=$1 source=$2 result=$3 command
     shift 3
@@ -72,8 +72,8 @@ compile() {
     (cd "$build" && $command "$@" -o "$result" -c "$source")
 }
 
-# link PROGRAM RESULT (ORIGINAL MUTATED)...: as the build links it, with other objects. Those of the kernels come
-# out of an archive, or stand on the line themselves.
+# link PROGRAM RESULT (ORIGINAL MUTATED)...: as the build links it, with other objects. Those of the
+# kernels come out of an archive, or stand on the line themselves.
 link() {
     local program=$1 result=$2 command
     shift 2
@@ -90,8 +90,9 @@ link() {
     (cd "$build" && eval "$command")
 }
 
-# mutated KIND KERNEL N: the text of the kernel with a sum turned or shortened, the first after N others, and on
-# descriptor 3 the line that it was; fails if there is none. A sum stands in a statement, beyond the bindings.
+# mutated KIND KERNEL N: the text of the kernel with a sum turned or shortened, the first after N others,
+# and on descriptor 3 the line that it was; fails if there is none. A sum stands in a statement, beyond the
+# bindings.
 mutated() {
     awk -v kind="$1" -v before="$3" '
         # The line without its comment and what stands in brackets: sums there are places, not values.
@@ -120,7 +121,8 @@ mutated() {
         END { exit !done }' "$2"
 }
 
-# make_kernel KIND KERNEL N: objects of the mutant; sets `pairs` and `what`. 1: no such sum, 2: does not compile.
+# make_kernel KIND KERNEL N: objects of the mutant; sets `pairs` and `what`.
+# Status 1: no such sum, 2: does not compile.
 make_kernel() {
     local kind=$1 text=$2 stem object source
     stem=$(basename "$text" .comp)
@@ -145,8 +147,8 @@ make_kernel() {
         [ -f "$build/$object" ] || continue
         sed "s|\"$text\"|\"$work/$stem.comp\"|" "$build/generated/taut/kernels/$stem.$source.cpp" \
             > "$work/$stem.$source.cpp"
-        compile "$object" "$work/$stem.$source.cpp" "$work/$stem.$source.o" -I "$(dirname "$text")" 2> "$work/errors" ||
-            return 2
+        compile "$object" "$work/$stem.$source.cpp" "$work/$stem.$source.o" \
+            -I "$(dirname "$text")" 2> "$work/errors" || return 2
         pairs+=("$object" "$work/$stem.$source.o")
     done
 }
@@ -155,7 +157,10 @@ make_kernel() {
 make_host() {
     local file=$1 object
     sed "$2" "$root/$file" > "$work/host.cpp"
-    ! cmp -s "$root/$file" "$work/host.cpp" || { echo "$file: the expression changes nothing: $2" >&2; exit 1; }
+    ! cmp -s "$root/$file" "$work/host.cpp" || {
+        echo "$file: the expression changes nothing: $2" >&2
+        exit 1
+    }
     object=$(ninja -C "$build" -t query "$root/$file" | sed -n 's/^ *\(.*\.o\)$/\1/p' | head -1)
     compile "$object" "$work/host.cpp" "$work/host.o" -I "$(dirname "$root/$file")"
     pairs=("$object" "$work/host.o")
