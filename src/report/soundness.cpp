@@ -80,11 +80,12 @@ bool any_plastic(const Scene& scene)
                        [](const Body& body) { return body.material.plastic_yield > 0; });
 }
 
-/// pbd asked for its full stiffness, or a spring that is rigid, is asked to keep its length.
+/// pbd, or a spring that is rigid, is asked to keep its length; pbd of a stiffness k below 1 to 1/k as much.
 void add_springs(const Scene& scene, std::span<const glm::dvec3> x, double accepted, Strained& out)
 {
     const MethodKind kind = method_of(scene);
-    const bool kept = kind == MethodKind::pbd && scene.method.stretch >= 1;
+    const bool kept = kind == MethodKind::pbd;
+    const double share = kept ? scene.method.stretch : 1;
     std::uint32_t first = 0;
     for (const Body& body : scene.bodies)
     {
@@ -95,8 +96,8 @@ void add_springs(const Scene& scene, std::span<const glm::dvec3> x, double accep
             const double stretch = glm::distance(x[first + e.a], x[first + e.b]) - e.rest_length;
             const double strain = stretch / e.rest_length;
             if (kept || !(e.compliance > 0))
-                out.kept_strain = std::max(out.kept_strain, strain);
-            else if (kind != MethodKind::pbd && std::abs(strain) > accepted)
+                out.kept_strain = std::max(out.kept_strain, share * strain);
+            else if (std::abs(strain) > accepted)
                 out.energy += 0.5 * stretch * stretch / e.compliance;
             if (body.material.strain_limit > 0)
                 out.limit_strain = std::max(out.limit_strain, strain - body.material.strain_limit);
@@ -143,12 +144,8 @@ Soundness judge_strain(const Strained& strain, double accepted)
 
 Soundness judge_inverted(const RunState& state)
 {
-    // Springs without volumes do not know an inside.
-    const bool keeps = std::any_of(state.scene.bodies.begin(), state.scene.bodies.end(), [](const Body& b) {
-        return is_elastic(b) || holds_volumes(b);
-    });
     const VolumeReport volume = measure_volume(state.scene, state.x);
-    if (!keeps || volume.inverted <= state.scene.accept.inverted)
+    if (volume.inverted <= state.scene.accept.inverted)
         return {};
     return found(Status::unconverged,
                  std::to_string(volume.inverted) + " tetrahedra are inverted, accept.inverted is " +
