@@ -123,14 +123,15 @@ double stable_step(const RateBounds& rates)
 Substeps stable_substeps(const Scene& scene)
 {
     const MethodSettings& method = scene.method;
+    const std::uint32_t asked = method.substeps == 0 ? automatic_substeps(scene) : method.substeps;
     if (method.stability == "ignore")
-        return {method.substeps, 0};
+        return {asked, 0};
     const double largest = kStableShare * stable_step(rate_bounds(scene));
     const double needed = std::max(std::ceil(scene.timestep / largest), 1.0);
-    const bool stable = needed <= method.substeps;
+    const bool stable = needed <= asked;
     const double allowed = std::isfinite(largest) ? largest : 0;
     if (stable)
-        return {method.substeps, allowed};
+        return {asked, allowed};
     if (method.stability == "substep" && needed <= kMostSubsteps)
         return {static_cast<std::uint32_t>(needed), allowed};
     const std::string way_out =
@@ -139,7 +140,7 @@ Substeps stable_substeps(const Scene& scene)
                   " there may be; use an implicit or position-based method, or softer springs"
             : "; set method.substeps to that, or method.stability to \"substep\"";
     throw Error(ErrorCode::unstable_timestep, "method \"" + method.type + "\": a substep is " +
-                                   shown(scene.timestep / method.substeps, 4) +
+                                   shown(scene.timestep / asked, 4) +
                                    " s, the longest stable one " + shown(largest, 4) + " s (" +
                                    shown(kStableShare) + " of what the stiffest vertex allows); it takes " +
                                    shown(needed) + " substeps" + way_out);

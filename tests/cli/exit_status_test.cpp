@@ -55,6 +55,7 @@ TEST_CASE("docs/statuses.md lists every status with the exit status that the pro
         {"completed", Status::completed},
         {"interrupted", Status::interrupted},
         {"diverged", Status::diverged},
+        {"unconverged", Status::unconverged},
         {"non_finite", Status::non_finite},
         {"converged", Status::converged},
         {"iteration_limit", Status::iteration_limit},

@@ -40,7 +40,7 @@ std::string hash_on(const std::shared_ptr<Device>& device, const std::string& na
     for (int i = 0; i < kSteps; ++i)
         world.step();
     const StepReport report = measure(world);
-    REQUIRE(report.status == Status::completed);
+    REQUIRE(rank(report.status) < rank(Status::diverged)); // bits are judged here, not solutions
     CHECK(report.max_speed > 0.01); // a scene at rest would be no witness
     std::ostringstream text;
     text << std::hex;
