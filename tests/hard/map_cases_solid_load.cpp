@@ -45,7 +45,7 @@ void add_steps(std::vector<MapCase>& out)
     {
         Body body = solid_box({6, 2, 2}, {3, 1, 1}, 1e4);
         body.pins = {hold_face("left")};
-        Scene s = scene_of(body, 3);
+        Scene s = scene_of(body, 1.8); // about critical: it is still after 8 s
         s.timestep = step;
         for (const glm::dvec3& x : s.bodies[0].mesh.positions)
         {
@@ -56,7 +56,7 @@ void add_steps(std::vector<MapCase>& out)
         out.push_back({"A09",
                        "solid bar twisted by 360 degrees, step of " + shown(step) + " s",
                        s,
-                       step < 0.01 ? 2000 : 120,
+                       step < 0.01 ? 4000 : 120,
                        [](const Journey& j) {
                            const auto& rest = j.world.scene().bodies[0].mesh.positions;
                            const double away = largest_distance(j.world.positions(), rest) / std::sqrt(11.0);
