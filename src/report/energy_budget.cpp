@@ -130,6 +130,57 @@ double elastic_at_start(PhysicalModel model)
     return elastic_energy(model, model.start);
 }
 
+/// m: of a thousand vertices of each, evenly taken; 0 excluded.
+double least_distance(const Pin& a, const Pin& b, std::span<const glm::dvec3> x)
+{
+    constexpr std::size_t kMost = 1000;
+    double out = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < a.vertices.size(); i += a.vertices.size() / kMost + 1)
+        for (std::size_t j = 0; j < b.vertices.size(); j += b.vertices.size() / kMost + 1)
+        {
+            const double distance = glm::distance(x[a.vertices[i]], x[b.vertices[j]]);
+            out = distance > 0 ? std::min(out, distance) : out;
+        }
+    return out;
+}
+
+/// m: over what length a body is drawn where its pins move: to the nearest pin that moves otherwise, or the
+/// body itself.
+double drawn_length(const Body& body, std::span<const glm::dvec3> x)
+{
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    glm::dvec3 low(kFar), high(-kFar);
+    for (const glm::dvec3& p : x)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    double out = x.empty() ? 0 : glm::distance(low, high);
+    for (std::size_t a = 0; a < body.pins.size(); ++a)
+        for (std::size_t b = a + 1; b < body.pins.size(); ++b)
+            if (!body.pins[a].motion.empty() || !body.pins[b].motion.empty())
+                out = std::min(out, least_distance(body.pins[a], body.pins[b], x));
+    return out;
+}
+
+/// J/m^2, see EnergyBudget::drawn_: by the principle of least energy what is in balance has no more.
+double drawn_energy(const Scene& scene)
+{
+    double out = 0;
+    for (const Body& body : scene.bodies)
+    {
+        double stiff = 0; // J at a strain of 1
+        for (const StretchElement& e : stretch_elements(body))
+            if (e.compliance > 0)
+                stiff += 0.5 * e.rest_length * e.rest_length / e.compliance;
+        for (const SolidElement& e : solid_elements(body))
+            stiff += 0.5 * (2 * e.mu + e.lambda) * e.rest_volume;
+        const double length = drawn_length(body, body.mesh.positions);
+        out += length > 0 ? stiff / (length * length) : 0;
+    }
+    return out;
+}
+
 /// m: how far springs that a method keeps by projection are from their length at the start. Such a step puts
 /// it right at once, at whatever speed that takes.
 double largest_violation(const Scene& scene, const PhysicalModel& model)
@@ -172,6 +223,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved)
     : model_(make_model(resolved)),
       reach_(reach_of(movers_of(resolved, model_))),
       depth_(deepest_start(resolved, model_)),
+      drawn_(drawn_energy(resolved)),
       violation_(largest_violation(resolved, model_)),
       depenetration_(resolved.depenetration_speed),
       wind_speed_(largest_wind(resolved.wind)),
@@ -208,6 +260,7 @@ double EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive
         root += std::sqrt(mass_ / 2) * drive.fall;
     if (depth_ > 0)
         in += mass_ * (g * depth_ + 0.5 * depenetration_ * depenetration_);
+    in += kHits * drawn_ * reach.travel * reach.travel;
     in += 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
     if (wind_force_ > 0)
     {

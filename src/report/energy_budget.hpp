@@ -52,6 +52,8 @@ private:
     PhysicalModel model_;
     std::vector<MoverReach> reach_; ///< ascending in time
     double mass_ = 0, lightest_ = 0, start_ = 0, gravity_start_ = 0, depth_ = 0;
+    /// J/m^2: half the elastic energy of drawing the places that movers hold apart by a metre, evenly.
+    double drawn_ = 0;
     double violation_ = 0;     ///< m: largest of what rigid elements must put right at the start
     double depenetration_ = 0; ///< m/s
     double wind_speed_ = 0;    ///< m/s

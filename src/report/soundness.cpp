@@ -81,8 +81,11 @@ bool any_plastic(const Scene& scene)
 }
 
 /// pbd, or a spring that is rigid, is asked to keep its length; pbd of a stiffness k below 1 to 1/k as much.
-void add_springs(const Scene& scene, std::span<const glm::dvec3> x, double accepted, Strained& out)
+/// What two held vertices have between them is nobody's to solve.
+void add_springs(const PhysicalModel& model, const RunState& state, double accepted, Strained& out)
 {
+    const Scene& scene = state.scene;
+    const std::span<const glm::dvec3> x = state.x;
     const MethodKind kind = method_of(scene);
     const bool kept = kind == MethodKind::pbd;
     const double share = kept ? scene.method.stretch : 1;
@@ -91,7 +94,7 @@ void add_springs(const Scene& scene, std::span<const glm::dvec3> x, double accep
     {
         for (const StretchElement& e : stretch_elements(body))
         {
-            if (!(e.rest_length > 0))
+            if (!(e.rest_length > 0) || (model.pinned[first + e.a] && model.pinned[first + e.b]))
                 continue;
             const double stretch = glm::distance(x[first + e.a], x[first + e.b]) - e.rest_length;
             const double strain = stretch / e.rest_length;
@@ -110,7 +113,7 @@ Strained strained(const PhysicalModel& model, const RunState& state)
 {
     const double accepted = state.scene.accept.stretch;
     Strained out;
-    add_springs(state.scene, state.x, accepted, out);
+    add_springs(model, state, accepted, out);
     if (method_of(state.scene) != MethodKind::pbd)
         for (const SolidElement& e : model.solids)
         {

@@ -82,6 +82,7 @@ inline StepReport check_sound(const World& world, const Words& expected = {})
     const StepReport report = measure(world);
     CHECK(finite(world.positions()));
     CHECK(finite(world.velocities()));
+    INFO(report.reason);
     CHECK(to_string(report.status) == "completed");
     Words words;
     for (const auto& [word, count] : report.warnings)

@@ -17,7 +17,7 @@ Scene hanging(const std::string& method)
         "bodies": [{"grid": {"cells": [5, 5]}, "material": {"stretch_stiffness": 200},
                     "pins": [{"corners": ["top_left"]},
                              {"corners": ["top_right"],
-                              "motion": [{"time": 0}, {"time": 0.5, "translate": [0.2, 0, 0]}]}]}]})"));
+                              "motion": [{"time": 0}, {"time": 0.5, "translate": [0.02, 0, 0]}]}]}]})"));
     scene.method.stability = "substep";
     return scene;
 }

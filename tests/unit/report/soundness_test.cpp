@@ -76,6 +76,24 @@ TEST_CASE("what moves passes on its speed; what is pushed, its impulse")
     CHECK(judge_state(EnergyBudget(scene), pushed).sound());
 }
 
+TEST_CASE("pins that draw a body put in what stretches it")
+{
+    Scene scene = sheet();
+    scene.gravity = glm::dvec3(0);
+    Pin still, drawn;
+    still.vertices = {0, 5, 10, 15, 20};
+    drawn.vertices = {4, 9, 14, 19, 24};
+    drawn.motion = {{0, {0, 0, 0}}, {10, {1, 0, 0}}};
+    scene.bodies[0].pins = {still, drawn};
+    std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), glm::dvec3(0));
+    for (glm::dvec3& p : x)
+        p.x *= 2;
+    CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 10)).sound());
+    for (glm::dvec3& p : x)
+        p.x *= 4;
+    CHECK_FALSE(judge_state(EnergyBudget(scene), state_of(scene, x, v, 10)).sound());
+}
+
 TEST_CASE("strain without the energy for it is unconverged, with it sound")
 {
     Scene scene = sheet();
