@@ -60,7 +60,7 @@ double sag(const World& world)
 } // namespace
 
 TEST_CASE(
-    "vertex block descent lets a stiff free sheet fall the discrete parabola, also from an adaptive start")
+    "vertex block descent lets a stiff free sheet fall the parabola, also from an adaptive start")
 {
     on_every_device([](const auto& device) {
         for (const char* start : {"adaptive", "inertial"})
@@ -71,7 +71,7 @@ TEST_CASE(
                 scene.method.start = start;
                 World world(scene, device);
                 run(world, 60);
-                const double fall = 9.81 * 60 * 61 / 2 / 3600;
+                const double fall = 9.81 / 2;
                 double worst = 0;
                 for (std::size_t v = 0; v < world.positions().size(); ++v)
                     worst = std::max(worst, std::abs(world.scene().bodies[0].mesh.positions[v].y -
@@ -90,7 +90,7 @@ TEST_CASE("the start from where it was hardly falls: why the adaptive start is t
     scene.method.start = "previous";
     World world(scene, test_device("cpu:serial"));
     run(world, 60);
-    CHECK(-world.positions()[0].y + world.scene().bodies[0].mesh.positions[0].y < 0.5 * 4.98675);
+    CHECK(-world.positions()[0].y + world.scene().bodies[0].mesh.positions[0].y < 0.5 * 4.905);
 }
 
 TEST_CASE("the heavy rope has the strains of the golden table (methods A6)")
