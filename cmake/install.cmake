@@ -16,7 +16,7 @@ set(taut_public_headers
     world/world.hpp world/hybrid.hpp world/sleep.hpp
     report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp
     report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp
-    report/gas.hpp)
+    report/gas.hpp report/energy_budget.hpp report/soundness.hpp)
 foreach(header IN LISTS taut_public_headers)
     cmake_path(GET header PARENT_PATH room)
     install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/${room})

@@ -75,6 +75,6 @@ cp "$scratch/conserved_free/momentum.svg" "$folder/conserved_free_momentum.svg"
     echo "## Solids, effects, hard cases"
     echo
     echo "The same for solids: [solids.md](solids.md). What each effect costs: [effects.md](effects.md). Which hard" \
-         "case which method passes or refuses: [robustness.md](../robustness.md)."
+         "case which method passes or refuses: [robustness.md](../results/robustness.md)."
 } > "$scratch/README.md"
 mv "$scratch/README.md" "$folder/README.md"

@@ -57,6 +57,6 @@ cp "$scratch/conserved_solids/momentum.svg" "$folder/conserved_solids_momentum.s
     echo
     echo "## Hard cases"
     echo
-    echo "Which hard case of solids which method passes or refuses: [robustness.md](../robustness.md)."
+    echo "Which hard case of solids which method passes or refuses: [robustness.md](../results/robustness.md)."
 } > "$scratch/solids.md"
 mv "$scratch/solids.md" "$folder/solids.md"

@@ -10,7 +10,7 @@ enum class Status
     completed,       ///< the run reached its end with finite state
     interrupted,     ///< the user stopped it; what is done is sound
     diverged,        ///< energy from nowhere, or a state beyond bounds
-    unconverged,     ///< what was solved is not what was asked: strain or residual beyond what the scene accepts
+    unconverged,     ///< not solved as asked: strain or residual beyond what the scene accepts
     non_finite,      ///< a value that is not finite appeared; the last finite state is kept
     converged,       ///< the true residual is within the tolerance
     iteration_limit, ///< the allowed iterations did not suffice

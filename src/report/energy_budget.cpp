@@ -54,7 +54,8 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
                                                               : c.radius;
         const glm::dvec3 end = c.kind == ColliderKind::capsule ? c.end : c.point;
         if (!c.motion.empty())
-            out.push_back({c.motion, box_corners(glm::min(c.point, end) - size, glm::max(c.point, end) + size)});
+            out.push_back({c.motion, box_corners(glm::min(c.point, end) - size,
+                                                 glm::max(c.point, end) + size)});
     }
     return out;
 }
@@ -169,6 +170,8 @@ double drawn_energy(const Scene& scene)
     double out = 0;
     for (const Body& body : scene.bodies)
     {
+        if (body.pins.size() + scene.colliders.size() < 2)
+            continue; // what nothing else holds goes along
         double stiff = 0; // J at a strain of 1
         for (const StretchElement& e : stretch_elements(body))
             if (e.compliance > 0)

@@ -169,8 +169,8 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
 }
 
 /// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2), and its share of all forces: what its
-/// iterations left. Not there with dampers, whose force depends on the way, not on the place, and where elements flow, whose rest shapes
-/// the model does not know.
+/// iterations left. Not there with dampers, whose force depends on the way, not on the place, and where
+/// elements flow, whose rest shapes the model does not know.
 void implicit_residual(const View& view, StepReport& out)
 {
     const bool damped = std::any_of(view.model.springs.begin(), view.model.springs.end(),

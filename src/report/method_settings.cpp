@@ -156,7 +156,8 @@ std::string settings_details(const MethodSettings& settings)
 
 std::string settings_block(const MethodSettings& settings)
 {
-    Json json = {{"type", settings.type}, {"substeps", settings.substeps == 0 ? Json("automatic") : Json(settings.substeps)}};
+    const Json substeps = settings.substeps == 0 ? Json("automatic") : Json(settings.substeps);
+    Json json = {{"type", settings.type}, {"substeps", substeps}};
     if (reads_iterations(method_named(settings.type)) || settings.iterations != 1)
         json["iterations"] = settings.iterations;
     json["precision"] = settings.precision;
@@ -166,8 +167,9 @@ std::string settings_block(const MethodSettings& settings)
 
 std::string settings_text(const MethodSettings& settings)
 {
-    std::string text = settings.type + ", " +
-                       (settings.substeps == 0 ? "automatic substeps" : counted(settings.substeps, "substep"));
+    const bool automatic = settings.substeps == 0;
+    std::string text =
+        settings.type + ", " + (automatic ? "automatic substeps" : counted(settings.substeps, "substep"));
     if (reads_iterations(method_named(settings.type)))
         text += " x " + counted(settings.iterations, "iteration");
     const std::string more = settings_details(settings);

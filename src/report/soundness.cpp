@@ -211,7 +211,8 @@ Soundness judge_state(const EnergyBudget& budget, const RunState& state)
     out = worse(out, motion);
     out = worse(out, judge_strain(strain, state.scene.accept.stretch));
     out = worse(out, judge_inverted(state));
-    out = worse(out, judge_energy(energy, most, kUnconvergedEnergy * most + slack, Status::unconverged, what));
+    const double bound = kUnconvergedEnergy * most + slack;
+    out = worse(out, judge_energy(energy, most, bound, Status::unconverged, what));
     out.energy = energy;
     out.energy_most = most;
     return out;
@@ -229,7 +230,9 @@ Soundness judge(const EnergyBudget& budget, const World& world, Judged what)
 
 void SoundnessWatch::after(std::uint64_t frame, const World& world)
 {
-    const auto due = [&](std::uint64_t looks) { return frame % std::max<std::uint64_t>(frames_ / looks, 1) == 0; };
+    const auto due = [&](std::uint64_t looks) {
+        return frame % std::max<std::uint64_t>(frames_ / looks, 1) == 0;
+    };
     if (frame == 0 || frames_ < 16 || !due(16))
         return;
     if (!budget_ || torn_ != world.torn())

@@ -267,8 +267,8 @@ glm::dvec3 wind_at(const Wind& wind, double time);
 /// What a run may leave undone and still be called completed (docs/statuses.md).
 struct Accept
 {
-    /// Strain, > 0: elements strained by more must be so by energy that was put in; what a method keeps at its
-    /// length, or within a strain_limit, may be off by no more.
+    /// Strain, > 0: elements strained by more must be so by energy that was put in; what a method keeps at
+    /// its length, or within a strain_limit, may be off by no more.
     double stretch = 0.1;
     double residual = 1; ///< > 0, see StepReport::imbalance
     std::uint32_t inverted = 0; ///< tetrahedra inside out at the end

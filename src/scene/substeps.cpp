@@ -3,8 +3,8 @@
 // Based on: Macklin, Storey, Lu, et al. Small Steps in Physics Simulation. SCA 2019: one sweep a substep.
 //   At rest a constraint that carries n vertices of mass m is corrected once a substep by what restores the
 //   impulse n m g h^2, so it stays open by (w_a + w_b) n m g h^2 = 2 n g h^2: a strain of 2 n g h^2 / L.
-// Departures: n is estimated by the mesh: links from a pin, or across a body that is free (it may come to hang
-//   from one end), and the mass that hangs from the edges of pinned vertices; k iterations count like a
+// Departures: n is estimated by the mesh: links from a pin, or across a body that is free (it may come to
+//   hang from one end), and the mass that hangs from the edges of pinned vertices; k iterations count like a
 //   substep of 1/sqrt(k). Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
@@ -85,7 +85,9 @@ double mean_edge(const Body& body, const Neighbours& around)
 /// Mass that moves over the mass of a vertex, for each edge from a pinned vertex to one that moves.
 double hanging_vertices(const Body& body, const Neighbours& around, const std::vector<bool>& held)
 {
-    const auto mass = [&](std::uint32_t v) { return body.vertex_masses.empty() ? 1.0 : body.vertex_masses[v]; };
+    const auto mass = [&](std::uint32_t v) {
+        return body.vertex_masses.empty() ? 1.0 : body.vertex_masses[v];
+    };
     double total = 0, edges = 0, carriers = 0;
     for (std::uint32_t v = 0; v < around.size(); ++v)
     {
@@ -137,8 +139,8 @@ std::uint32_t automatic_substeps(const Scene& scene)
             const SweepLoad load = sweep_load(body);
             if (!(load.edge > 0))
                 continue;
-            const double longest =
-                std::sqrt(kSweepStrain * method.iterations * load.edge / (2 * std::max(load.vertices, 1.0) * g));
+            const double open = 2 * std::max(load.vertices, 1.0) * g; // m/s^2: see "Based on"
+            const double longest = std::sqrt(kSweepStrain * method.iterations * load.edge / open);
             most = std::max(most, std::ceil(scene.timestep / longest));
         }
     return static_cast<std::uint32_t>(std::min<double>(most, kMostAutomaticSubsteps));

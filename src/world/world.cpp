@@ -1,6 +1,5 @@
 #include "taut/world/world_impl.hpp"
 
-#include "taut/linear/cg_state.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 #include "taut/world/inputs.hpp"
 
@@ -302,25 +301,6 @@ Events World::events() const
         impl_->device->read<std::uint32_t>(impl_->buffers[impl_->plan.events], TAUT_EVENT_COUNT);
     return {counts[TAUT_EVENT_NON_FINITE], counts[TAUT_EVENT_SPEED_CLAMP], counts[TAUT_EVENT_DEGENERATE],
             counts[TAUT_EVENT_CONFLICT]};
-}
-
-SolverReport World::solver_report() const
-{
-    SolverReport out;
-    for (const PlanSolver& solver : impl_->plan.solvers)
-    {
-        const auto log = impl_->device->read<layout::SolveLog<float>>(impl_->buffers[solver.log], 1).front();
-        out.solves += log.solves;
-        out.iterations += log.iterations;
-        out.most = std::max<std::uint64_t>(out.most, log.most);
-        out.limited += log.limited;
-        out.failed += log.failed;
-        layout::CgState<float> ended{};
-        ended.status = log.last_status;
-        if (impl_->steps > 0)
-            out.last = linear::outcome_of(ended).status;
-    }
-    return out;
 }
 
 std::uint64_t World::torn() const { return impl_->torn; }

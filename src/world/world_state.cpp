@@ -1,9 +1,14 @@
 // The state of a world as values: out of it, into it, and from one scene into the next after a tear.
 
+#include "taut/linear/cg_state.hpp"
 #include "taut/world/world_impl.hpp"
 
 #include <glm/geometric.hpp>
 
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -154,6 +159,25 @@ void World::restore(const WorldState& state)
     if (impl_->clock.timestep != impl_->scene.timestep || before != impl_->pace())
         impl_->restart_clock(impl_->clock);
     impl_->write_all_inputs();
+}
+
+SolverReport World::solver_report() const
+{
+    SolverReport out;
+    for (const PlanSolver& solver : impl_->plan.solvers)
+    {
+        const auto log = impl_->device->read<layout::SolveLog<float>>(impl_->buffers[solver.log], 1).front();
+        out.solves += log.solves;
+        out.iterations += log.iterations;
+        out.most = std::max<std::uint64_t>(out.most, log.most);
+        out.limited += log.limited;
+        out.failed += log.failed;
+        layout::CgState<float> ended{};
+        ended.status = log.last_status;
+        if (impl_->steps > 0)
+            out.last = linear::outcome_of(ended).status;
+    }
+    return out;
 }
 
 } // namespace taut

@@ -8,9 +8,7 @@ using namespace taut::conformance;
 TEMPLATE_TEST_CASE("acad_flag finds the springs beyond their threshold and counts them", "", float, double)
 {
     using Real = TestType;
-    const Dealt dealt = GENERATE(from_range(deals()));
-    if (dealt.count > 1000)
-        return;
+    const Dealt dealt = GENERATE(from_range(small_deals()));
     const bool by_strain = GENERATE(false, true);
     CAPTURE(dealt.count, dealt.groups, by_strain);
     Random random(90 + dealt.count);

@@ -10,12 +10,10 @@ TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and 
                    double)
 {
     using Real = TestType;
-    const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
+    const std::uint32_t count = GENERATE(2u, 63u, 64u, 65u, 1000u);
     const bool damped = GENERATE(false, true);
     const std::uint32_t awake = GENERATE(0u, 1u);
     CAPTURE(count, damped, awake);
-    if (count == 1)
-        return; // no spring without a second vertex
     Random random(150 + count);
     auto net = spring_net<Real>(random, count, 3 * count, damped); // every vertex runs
     const auto springs = static_cast<std::uint32_t>(net.spring.size());

@@ -7,9 +7,7 @@ using namespace taut::conformance;
 
 TEST_CASE("acad_touch finds the vertices that are ends of constraints and counts them")
 {
-    const Dealt dealt = GENERATE(from_range(deals()));
-    if (dealt.count > 1000)
-        return;
+    const Dealt dealt = GENERATE(from_range(small_deals()));
     CAPTURE(dealt.count, dealt.groups);
     Random random(100 + dealt.count);
     const RowNet<float> net =

@@ -34,9 +34,7 @@ std::uint32_t plant(RowNet<Real>& net)
 TEMPLATE_TEST_CASE("constraint_rows forms directions and what is left of each length", "", float, double)
 {
     using Real = TestType;
-    const Dealt dealt = GENERATE(from_range(deals()));
-    if (dealt.count > 1000)
-        return;
+    const Dealt dealt = GENERATE(from_range(small_deals()));
     const bool kept = GENERATE(false, true);
     const std::uint32_t further = GENERATE(0u, 1u), swing = GENERATE(0u, 1u);
     CAPTURE(dealt.count, dealt.groups, kept, further, swing);

@@ -8,9 +8,7 @@ using namespace taut::conformance;
 TEMPLATE_TEST_CASE("corner_product is what the moves of all corners do to each volume", "", float, double)
 {
     using Real = TestType;
-    const Dealt dealt = GENERATE(from_range(deals()));
-    if (dealt.count > 1000)
-        return;
+    const Dealt dealt = GENERATE(from_range(small_deals()));
     const std::string variant = GENERATE("", "dot", "residual");
     CAPTURE(dealt.count, dealt.groups, variant);
     Random random(90 + dealt.count);

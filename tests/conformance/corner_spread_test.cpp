@@ -8,9 +8,7 @@ using namespace taut::conformance;
 TEMPLATE_TEST_CASE("corner_spread adds what the rows of tetrahedra move each vertex by", "", float, double)
 {
     using Real = TestType;
-    const Dealt dealt = GENERATE(from_range(deals()));
-    if (dealt.count > 1000)
-        return;
+    const Dealt dealt = GENERATE(from_range(small_deals()));
     const bool apply = GENERATE(false, true);
     const std::uint32_t status =
         GENERATE(std::uint32_t(TAUT_CG_CONVERGED), std::uint32_t(TAUT_CG_ZERO_RIGHT_HAND_SIDE));

@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 const fs::path kExamples = fs::path(TAUT_SOURCE_DIR) / "examples/scenes";
 
-/// Settings of the thesis and of another program, kept as they were published (docs/cloth.md, docs/solids.md):
-/// what they leave is what those figures show.
-const std::set<std::string> kShowFailure = {"cloth/pbd_bend.json", "cloth/pbd_devices.json",
+/// Settings of the thesis and of another program, kept as they were published (docs/cloth.md,
+/// docs/solids.md): what they leave is what those figures show.
+const std::set<std::string> kShowFailure = {"cloth/pbd_bend.json",       "cloth/pbd_devices.json",
                                             "cloth/pbd_iterations.json", "cloth/pbd_sphere.json",
-                                            "cloth/pbd_stretch.json", "opencloth.json", "solids/iterations.json",
-                                            "solids/pbd_drop.json",
+                                            "cloth/pbd_stretch.json",    "opencloth.json",
+                                            "solids/iterations.json",    "solids/pbd_drop.json",
                                             "solids/stiffness.json"};
 
 /// As `taut run` judges it: on the way, at the end, and by residuals.

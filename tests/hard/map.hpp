@@ -1,6 +1,6 @@
 #pragma once
 // The robustness map: hard cases of cloth and solids x methods. Every cell is run and judged by one rule and
-// held against the committed table (map_table.hpp); docs/robustness.md is written from that table.
+// held against the committed table (map_table.hpp); docs/results/robustness.md is written from that table.
 
 #include "hard/cases.hpp"
 

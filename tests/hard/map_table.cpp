@@ -69,7 +69,7 @@ bool near(const std::optional<double>& a, const std::optional<double>& b, double
 
 std::string page_text()
 {
-    std::ifstream file(TAUT_SOURCE_DIR "/docs/robustness.md");
+    std::ifstream file(TAUT_SOURCE_DIR "/docs/results/robustness.md");
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
@@ -214,7 +214,7 @@ std::string page_part()
     const std::string page = page_text();
     const std::size_t begin = page.find(kBegin), end = page.find(kEnd, begin);
     if (begin == std::string::npos || end == std::string::npos)
-        throw std::runtime_error("docs/robustness.md has no marks of the map");
+        throw std::runtime_error("docs/results/robustness.md has no marks of the map");
     return page.substr(begin + std::string(kBegin).size() + 1, end - begin - std::string(kBegin).size() - 1);
 }
 
@@ -222,7 +222,7 @@ void put_page_part(const std::string& text)
 {
     const std::string page = page_text(), part = page_part();
     const std::size_t begin = page.find(kBegin) + std::string(kBegin).size() + 1;
-    write_file(TAUT_SOURCE_DIR "/docs/robustness.md",
+    write_file(TAUT_SOURCE_DIR "/docs/results/robustness.md",
                page.substr(0, begin) + text + page.substr(begin + part.size()));
 }
 

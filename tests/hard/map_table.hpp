@@ -1,6 +1,6 @@
 #pragma once
 // The committed table of the robustness map: tests/hard/map.csv of the whole run, map_short.csv of the short
-// one (TAUT_HARD_SHORT). One row a cell; the page docs/robustness.md shows map.csv.
+// one (TAUT_HARD_SHORT). One row a cell; the page docs/results/robustness.md shows map.csv.
 
 #include "hard/map.hpp"
 

@@ -1,7 +1,7 @@
 // F8: every hard case under every method ends as the committed table says, on every executor.
 //
 // The table changes only when results are meant to. Then tests/hard/update_map.sh rewrites it, and the page
-// docs/robustness.md, and the commit says why.
+// docs/results/robustness.md, and the commit says why.
 
 #include "hard/map_table.hpp"
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Writes the tables of the robustness map anew, and the page docs/robustness.md from them.
+# Writes the tables of the robustness map anew, and the page docs/results/robustness.md from them.
 #   tests/hard/update_map.sh [short|full] [CASE]
 # short: map_short.csv alone; full: map.csv and the page alone; CASE: the rows of that case alone ("G09").
 # TAUT_BUILD: the build folder, build/release by default. Say in the commit why rows changed.

@@ -31,6 +31,14 @@ inline std::vector<Dealt> deals()
             {129, 1, 0}, {300, 5, 1}, {1000, 8, 3}, {1000, 3, 0}, {1000, 8, 0}, {20000, 7, 1}};
 }
 
+/// Those of at most 1,000 rows, for kernels whose references take long.
+inline std::vector<Dealt> small_deals()
+{
+    std::vector<Dealt> small = deals();
+    std::erase_if(small, [](const Dealt& dealt) { return dealt.count > 1000; });
+    return small;
+}
+
 /// One sum a group with the size of its terms, over values a row.
 class GroupSums
 {

@@ -1,6 +1,6 @@
 #pragma once
-// What a test leaves out because a device or data is not here is seen: on standard error, in a list at the end
-// of the program, and by its exit status kSkipped, which ctest shows as "Skipped" (SKIP_RETURN_CODE).
+// What a test leaves out because a device or data is not here is seen: on standard error, in a list at the
+// end of the program, and by its exit status kSkipped, which ctest shows as "Skipped" (SKIP_RETURN_CODE).
 
 #include "support/catch.hpp"
 

@@ -67,7 +67,7 @@ TEST_CASE("a matrix that does not fit the device's largest buffer is refused wit
     {
         if (most > std::uint64_t{1} << 28)
         {
-            SUCCEED(selector << " has no small largest buffer, and the host would need more than is worth a test");
+            SUCCEED(selector << " has no small largest buffer: more than is worth a test");
             return;
         }
         const auto rows = static_cast<std::uint32_t>(most / (32 * 4) + 1000);

@@ -95,7 +95,10 @@ TEST_CASE("each effect adds its passes and nothing else, under every method", "[
                 if (pass.label != row.effect && !(coasts > 0 && pass.kernel->name == "coast"))
                 {
                     REQUIRE(k < before.passes.size());
-                    CHECK(pass.kernel == before.passes[k].kernel);
+                    if (coasts > 0 && pass.kernel->name == "predict") // without keeping what coast forms
+                        CHECK(before.passes[k].kernel->name == "predict");
+                    else
+                        CHECK(pass.kernel == before.passes[k].kernel);
                     CHECK(pass.count == before.passes[k].count);
                     CHECK(pass.params == before.passes[k].params);
                     ++k;
