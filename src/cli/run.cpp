@@ -257,6 +257,8 @@ void describe_counts(const Simulation& simulation, RunResult& result)
     count(Warning::solve_failed, result.report.solver.failed, result.report.warnings);
     if (events.non_finite > 0)
         result.report.status = Status::non_finite;
+    const double substeps = static_cast<double>(result.frames) * simulation.substeps();
+    set_status(judge_clamps(simulation.scene(), events, substeps * result.vertices), result.report);
 }
 
 /// What the looks on the way found, beside the state at the end.

@@ -49,23 +49,6 @@ Soundness judge_places(const RunState& state)
     return {};
 }
 
-/// Where the scene sets no limit, a clamp is the guard against overflow.
-Soundness judge_clamps(const RunState& state)
-{
-    const double clamped = static_cast<double>(state.events.speed_clamped);
-    const MethodKind kind = method_of(state.scene);
-    if (kind == MethodKind::implicit_constraints || kind == MethodKind::acad)
-        return {}; // there the count is of turned springs, too
-    if (state.scene.max_speed <= 0 && clamped > 0)
-        return found(Status::diverged, "speeds passed what float can square " +
-                                           std::to_string(state.events.speed_clamped) + " times");
-    if (clamped > kClampedShare * state.vertex_substeps)
-        return found(Status::unconverged,
-                     "max_speed cut " + shown(100 * clamped / state.vertex_substeps, 3) +
-                         " % of all speeds; raise it, or find what makes them");
-    return {};
-}
-
 /// What is strained beyond what the scene accepts.
 struct Strained
 {
@@ -182,6 +165,22 @@ Soundness worse(const Soundness& a, const Soundness& b)
     return rank(b.status) > rank(a.status) ? b : a;
 }
 
+Soundness judge_clamps(const Scene& scene, const Events& events, double vertex_substeps)
+{
+    const double clamped = static_cast<double>(events.speed_clamped);
+    const MethodKind kind = method_of(scene);
+    if (kind == MethodKind::implicit_constraints || kind == MethodKind::acad)
+        return {}; // there the count is of turned springs, too
+    if (scene.max_speed <= 0 && clamped > 0) // the guard against overflow
+        return found(Status::diverged, "speeds passed what float can square " +
+                                           std::to_string(events.speed_clamped) + " times");
+    if (clamped > kClampedShare * vertex_substeps)
+        return found(Status::unconverged,
+                     "max_speed cut " + shown(100 * clamped / vertex_substeps, 3) +
+                         " % of all speeds; raise it, or find what makes them");
+    return {};
+}
+
 Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
 {
     const Soundness places = judge_places(state);
@@ -192,7 +191,7 @@ Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
     const double energy = kinetic_energy(budget.model(), state.v);
     Soundness out = judge_energy(energy, most, kDivergedKinetic * most + slack, Status::diverged,
                                  "the kinetic energy is");
-    out = worse(out, judge_clamps(state));
+    out = worse(out, judge_clamps(state.scene, state.events, state.vertex_substeps));
     out.energy = energy;
     out.energy_most = most;
     return out;
@@ -238,11 +237,13 @@ void SoundnessWatch::after(std::uint64_t frame, const World& world)
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());
     torn_ = world.torn();
-    const Soundness now = judge(*budget_, world, due(4) ? Judged::state : Judged::motion);
-    if (now.status == Status::unconverged)
+    // Strain alone may heal: what a contact leaves in stiff elements is gone a few steps later. What is too
+    // fast is not.
+    const Soundness motion = judge(*budget_, world, Judged::motion);
+    if (rank(motion.status) >= rank(Status::diverged))
+        found_ = worse(found_, motion);
+    else if (motion.status == Status::unconverged || (due(4) && !judge(*budget_, world).sound()))
         ++unconverged_;
-    else
-        found_ = worse(found_, now);
 }
 
 } // namespace taut

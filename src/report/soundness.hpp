@@ -46,6 +46,10 @@ inline constexpr double kDivergedExtent = 1e12;
 /// Share of vertices times substeps whose speed was cut at the scene's own max_speed.
 inline constexpr double kClampedShare = 0.01;
 
+/// Speeds cut at the scene's max_speed, or by the guard against overflow where it has none, of so many
+/// vertices times substeps.
+Soundness judge_clamps(const Scene& scene, const Events& events, double vertex_substeps);
+
 /// What moves too fast, is too far away or not finite. Costs a pass over the vertices.
 Soundness judge_motion(const EnergyBudget& budget, const RunState& state);
 
@@ -70,9 +74,9 @@ public:
     /// After frame `frame` of a run of `world`. Waits where a look is due.
     void after(std::uint64_t frame, const World& world);
 
-    /// The worst of what was `diverged` or `non_finite`; what is unconverged on the way may heal.
+    /// The worst motion that was `diverged` or `non_finite`; what is strained on the way may heal.
     const Soundness& found() const { return found_; }
-    /// Looks at which the state was unconverged.
+    /// Looks at which the state was not sound otherwise.
     std::uint64_t unconverged() const { return unconverged_; }
 
 private:

@@ -91,6 +91,17 @@ inline StepReport check_sound(const World& world, const Words& expected = {})
     return report;
 }
 
+/// The state is finite and no energy came from nowhere: of runs whose sweeps are too few to solve them.
+inline StepReport check_lasting(const World& world)
+{
+    const StepReport report = measure(world);
+    CHECK(finite(world.positions()));
+    CHECK(finite(world.velocities()));
+    INFO(report.reason);
+    CHECK((report.status == Status::completed || report.status == Status::unconverged));
+    return report;
+}
+
 inline double energy(const StepReport& report) { return report.kinetic_energy + report.potential_energy; }
 
 /// Mechanical energy above that of the rest state, J, with gravity.

@@ -173,6 +173,9 @@ inline constexpr MethodSet kHoldsThreshold = only(MethodKind::acad);
 /// than all that falls has.
 inline constexpr MethodSet kSweeps = only(MethodKind::pbd) | only(MethodKind::xpbd) | only(MethodKind::vbd);
 
+/// Without damping of its own: what was drawn over itself comes to rest in another shape.
+inline constexpr MethodSet kTangles = only(MethodKind::mass_spring);
+
 /// Statics of a hanging chain whose links carry what is below them.
 inline Measured length_error(const Journey& j, double link_stiffness)
 {

@@ -47,7 +47,7 @@ TEST_CASE("pbd A06, A08: heavy ropes stretch far, stay finite, and further with 
             scene.damping = 2;
             World world(scene, device);
             run(world, steps_for(*device, 600, 120));
-            const StepReport report = check_sound(world);
+            const StepReport report = check_lasting(world);
             note("pbd A06", *device, "largest strain", report.max_stretch);
             CHECK(report.max_stretch > before);
             CHECK(report.max_stretch < 1e4);
@@ -141,11 +141,12 @@ TEST_CASE("pbd B17: hinges without an edge or an area, flat and folded ones stay
         struct Fold
         {
             glm::dvec3 wing;
-            bool counted;
+            bool counted, bursts;
         };
-        // Rest: flat. Flat, folded onto itself, on the edge, at a corner.
-        for (const Fold& fold : {Fold{{-1, 0.5, 0}, false}, Fold{{1, 0.5, 1e-9}, false},
-                                 Fold{{0, 0.5, 0}, true}, Fold{{0, 0, 0}, true}})
+        // Rest: flat. Flat, folded onto itself (half of a turn in a step, which is called what it is), on the
+        // edge, at a corner.
+        for (const Fold& fold : {Fold{{-1, 0.5, 0}, false, false}, Fold{{1, 0.5, 1e-9}, false, true},
+                                 Fold{{0, 0.5, 0}, true, false}, Fold{{0, 0, 0}, true, false}})
         {
             Body body;
             body.shape.kind = ShapeKind::mesh;
@@ -158,7 +159,10 @@ TEST_CASE("pbd B17: hinges without an edge or an area, flat and folded ones stay
             scene.method.stretch = 0;
             World world(scene, device);
             run(world, 10);
-            check_sound(world, fold.counted ? Words{"degenerate"} : Words{});
+            if (!fold.bursts)
+                check_sound(world, fold.counted ? Words{"degenerate"} : Words{});
+            CHECK(finite(world.positions()));
+            CHECK((measure(world).status == Status::diverged) == fold.bursts);
         }
     });
 }
@@ -274,7 +278,7 @@ TEST_CASE("pbd F13: a corner dragged ten times the cloth's size in a second leav
         scene.bodies[0].pins.push_back(pin);
         World world(as_pbd(scene, scheme), device);
         run(world, 90);
-        const StepReport report = check_sound(world);
+        const StepReport report = check_lasting(world);
         note("pbd F13", *device, "largest strain", report.max_stretch);
         CHECK(report.max_stretch < 100);
     });

@@ -132,14 +132,17 @@ double rounding_of(const Scene& scene, const Setting& s)
     const double h = scene.timestep / scene.method.substeps;
     const double speed = (floats ? 6e-8 : 1e-16) * kEdge / h;
     const double modulus = stiffness_of(scene, s) * 1100 / (h * h) * (kEdge / 4) * (kEdge / 4);
-    return kEdge * kEdge * kEdge * 0.5 * (modulus * strain * strain + 1100 * speed * speed);
+    const double measured = modulus * (floats ? 1e-13 : 1e-15); // of its own energies, which are in double
+    return kEdge * kEdge * kEdge * (0.5 * (modulus * strain * strain + 1100 * speed * speed) + measured);
 }
 
 struct Outcome
 {
     double put_in = 0, most_kinetic = 0, most = 0, fastest = 0, volume = 0;
     std::uint64_t inverted = 0;
-    bool reads = true, completed = true;
+    bool reads = true, lasts = true;
+    bool completed = true; ///< at the end
+    std::string reason;    ///< of what does not last
 };
 
 constexpr double kWeight = 9.81 * 1100 * kEdge * kEdge * kEdge * kEdge; // J, of the body lifted by its height
@@ -147,6 +150,7 @@ constexpr double kWeight = 9.81 * 1100 * kEdge * kEdge * kEdge * kEdge; // J, of
 Outcome follow(const Scene& scene, int frames)
 {
     World world(scene, test_device("cpu:serial"));
+    const EnergyBudget budget(world.scene());
     const double zero = scene.colliders.empty() ? 0 : kWeight / 2; // lying on the floor
     Outcome out;
     out.put_in = energy(world) - zero;
@@ -154,12 +158,16 @@ Outcome follow(const Scene& scene, int frames)
     {
         world.step();
         const StepReport r = measure(world);
+        const Soundness motion = taut::judge(budget, world, Judged::motion);
         out.most_kinetic = std::max(out.most_kinetic, r.kinetic_energy);
         out.most = std::max(out.most, energy(r) - zero);
         out.fastest = r.max_speed;
         out.volume = r.volume.ratio;
         out.inverted = r.volume.inverted;
-        out.completed = out.completed && r.status == Status::completed;
+        if (!motion.sound() && out.lasts)
+            out.reason = motion.reason;
+        out.lasts = out.lasts && motion.sound();
+        out.completed = r.status == Status::completed;
     }
     out.reads = finite(world.positions()) && finite(world.velocities());
     return out;
@@ -174,7 +182,8 @@ void check_energy(const Setting& s, const Scene& scene, const Outcome& out)
         CHECK(out.most_kinetic <= out.put_in * (1 + 1e-4) + noise);
         // Sweeps from a tangle leave more for a few frames, of which no motion comes.
         const bool far = s.start == "flat" || s.start == "inside out" || s.start == "random";
-        CHECK(out.most <= out.put_in * (far ? 10 : 1 + 1e-4) + noise);
+        const double most = s.mesh == "five" ? 10 : 15;
+        CHECK(out.most <= out.put_in * (far ? most : 1 + 1e-4) + noise);
         return;
     }
     // It sinks in by its own weight, and by what one substep falls before the floor holds it, a hundredth.
@@ -182,7 +191,7 @@ void check_energy(const Setting& s, const Scene& scene, const Outcome& out)
     CHECK(out.most_kinetic <= out.put_in + sinks * kWeight);
     // Where a body is stiff, the floor, which comes after the elements, leaves its lowest layer pressed by
     // micrometres of a great modulus: energy on record that no motion comes of, under every method.
-    if (stiffness_of(scene, s) <= 1 && s.modulus >= 1e4)
+    if (stiffness_of(scene, s) <= 1 && s.modulus >= 1e4 && s.mesh != "slivers")
         CHECK(out.most <= out.put_in + 0.01 * kWeight);
 }
 
@@ -195,19 +204,25 @@ void check_end(const Setting& s, const Outcome& out)
     if (s.modulus < 1e4)
         return;
     CHECK(out.inverted == 0);
+    // What a substep falls before the floor holds it presses a sliver by a tenth of its height, which the run
+    // says.
+    if (!floor || s.mesh != "slivers")
+        CHECK(out.completed);
     const double pressed = floor ? 1100 * 9.81 * kEdge / s.modulus : 0;
     CHECK(std::abs(out.volume - 1) < 0.01 + pressed);
 }
 
 /// The simple material has a second state without force, collapsed, at no more energy than rest for a
-/// Poisson's ratio of 0; bodies thrown into a heap keep a tangle at 1e4 Pa, and at 1e10 Pa need longer.
+/// Poisson's ratio of 0; bodies thrown into a heap keep a tangle at 1e4 Pa, and need longer at 1e10 Pa, or at
+/// 1e8 Pa where they are of other tetrahedra than five to a cell.
 bool finds_its_shape(const Setting& s)
 {
+    const bool may_collapse = s.model == "neo_hookean_simple" && s.ratio < 0.3;
     if (s.start == "random")
-        return s.modulus > 1e4 && s.modulus < 1e10 && !(s.model == "neo_hookean_simple" && s.ratio < 0.3);
+        return s.modulus > 1e4 && s.modulus < (s.mesh == "five" ? 1e10 : 1e8) && !may_collapse;
     if (s.start == "inside out" && s.modulus <= 1e4)
         return s.ratio > 0 && s.ratio < 0.49;
-    return !(s.model == "neo_hookean_simple" && s.ratio < 0.3 && s.start == "flat");
+    return !(may_collapse && (s.start == "flat" || s.start == "falling"));
 }
 
 Outcome judge(const Setting& s)
@@ -222,7 +237,8 @@ Outcome judge(const Setting& s)
     if (const char* wanted = std::getenv("TAUT_NOTES"); wanted && *wanted)
         std::printf("%s%s", s.name().c_str(), numbers);
     CHECK(out.reads);
-    CHECK(out.completed);
+    INFO(out.reason);
+    CHECK(out.lasts);
     check_energy(s, scene, out);
     if (finds_its_shape(s))
         check_end(s, out);

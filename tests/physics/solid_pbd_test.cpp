@@ -76,7 +76,7 @@ Kept kept_in(const Scene& scene, const std::shared_ptr<Device>& device, int fram
         out.final = now.ratio;
         out.inverted = now.inverted;
     }
-    check_sound(world);
+    check_lasting(world);
     return out;
 }
 
@@ -244,7 +244,7 @@ TEST_CASE("the two Jacobi schemes give one state of a solid, with hinges on its 
                 scene.method.bend = 0.5;
                 World world(scene, device);
                 run(world, steps_for(*device, 60, 10));
-                check_sound(world);
+                check_lasting(world);
                 states.push_back(world.state());
             }
             CHECK_FALSE(same_state(states[0], states[1]));

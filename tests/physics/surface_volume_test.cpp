@@ -75,6 +75,7 @@ Scene squeezed(bool same_volume)
     body.material.volume = "surface";
     body.material.volume_stiffness = kRigid;
     scene.bodies = {body};
+    scene.accept.inverted = 1000; // springs do not know the inside of a tetrahedron
     Scene out = resolve(scene);
     out.bodies[0].start_positions = out.bodies[0].mesh.positions;
     const double side = same_volume ? std::sqrt(2.0) : 1;
@@ -166,7 +167,7 @@ TEST_CASE("a block squeezed to half its height and let go keeps its volume and i
         range.most = std::max(range.most, share(world));
         worst = std::max(worst, drift(world));
     }
-    INFO(range.least << " to " << range.most << ", momentum " << worst);
+    INFO(range.least << " to " << range.most << ", momentum " << worst << "; " << measure(world).reason);
     CHECK(range.least > 0.99);
     CHECK(range.most < 1.01);
     CHECK(worst < 1e-5);

@@ -71,6 +71,8 @@ TEST_CASE("what moves passes on its speed; what is pushed, its impulse")
     CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).sound()); // 1 m/s
     hit.colliders[0].motion.back().time = 20;                              // 0.1 m/s
     CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).status == Status::diverged);
+    hit.colliders[0].motion = {{0, {}, {0, 0, 1}, 0}, {1, {}, {0, 0, 1}, 8 * 360, {-5, 0, 0}}};
+    CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).sound()); // eight turns a second
     RunState pushed = state_of(scene, x, v, 1);
     pushed.drive.push = 1; // N s, to a sheet of 0.2 kg
     CHECK(judge_state(EnergyBudget(scene), pushed).sound());
