@@ -148,8 +148,8 @@ TEST_CASE("G03, implicit Euler: cloth survives 1e6 N on one vertex for one frame
 TEST_CASE("G04, implicit Euler: gravity of 1e4 turned every frame gives no more than its kicks [hard]")
 {
     // Between two steps a velocity is kicked by half of each step's gravity, at first by half of the first
-    // one's: turned every frame, gravity kicks once and never again. The displacements of the steps, which are
-    // what the method descends by, then have no energy to gain.
+    // one's: turned every frame, gravity kicks once and never again. The displacements of the steps, which
+    // are what the method descends by, then have no energy to gain.
     on_every_device([](const auto& device) {
         Scene scene = in_double(implicit(test::hanging(5)));
         if (!device->limits().float64)

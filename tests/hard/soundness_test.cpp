@@ -78,13 +78,13 @@ Scene random_scene(Random& random)
     Scene scene = solid ? random_solid(random) : random_cloth(random);
     MethodSettings& m = scene.method;
     m.type = solid ? one_of(random, {"xpbd", "vbd", "implicit_euler"})
-                   : one_of(random, {"xpbd", "vbd", "implicit_euler", "mass_spring", "pbd"});
+                   : one_of(random, {"xpbd", "vbd", "implicit_euler", "pbd", "mass_spring", "mass_spring"});
     m.stability = "ignore";
     m.integrator = one_of(random, {"semi_implicit", "verlet", "explicit"});
     m.substeps = static_cast<std::uint32_t>(between(random, 1, 50));
     m.iterations = m.type == "mass_spring" ? 1 : static_cast<std::uint32_t>(between(random, 1, 8));
     m.spectral_radius = m.type == "vbd" && random.uniform(0, 1) < 0.3 ? 0.95 : 0;
-    scene.timestep = between(random, 1e-3, 1.0 / 30);
+    scene.timestep = between(random, 1.0 / 240, 1.0 / 15);
     return resolve(scene);
 }
 
