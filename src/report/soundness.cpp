@@ -232,7 +232,7 @@ void SoundnessWatch::after(std::uint64_t frame, const World& world)
     const auto due = [&](std::uint64_t looks) {
         return frame % std::max<std::uint64_t>(frames_ / looks, 1) == 0;
     };
-    if (frame == 0 || frames_ < 16 || !due(16))
+    if (frame == 0 || frames_ < kMotionLooks || !due(kMotionLooks))
         return;
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());
@@ -242,7 +242,7 @@ void SoundnessWatch::after(std::uint64_t frame, const World& world)
     const Soundness motion = judge(*budget_, world, Judged::motion);
     if (rank(motion.status) >= rank(Status::diverged))
         found_ = worse(found_, motion);
-    else if (motion.status == Status::unconverged || (due(4) && !judge(*budget_, world).sound()))
+    else if (motion.status == Status::unconverged || (due(kStrainLooks) && !judge(*budget_, world).sound()))
         ++unconverged_;
 }
 

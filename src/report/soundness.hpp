@@ -64,8 +64,10 @@ enum class Judged
 /// A world that runs the scene that `budget` was made of, from its start. Waits.
 Soundness judge(const EnergyBudget& budget, const World& world, Judged what = Judged::state);
 
-/// Looks at a run of so many frames on its way: motion sixteen times, strain four times. Measured, that is
-/// below 1 % of the steps between (docs/statuses.md).
+/// Looks at a run on its way. What that costs: docs/statuses.md.
+inline constexpr std::uint64_t kMotionLooks = 8, kStrainLooks = 2;
+
+/// Looks at a run of so many frames, kMotionLooks times at its motion, kStrainLooks times at strains.
 class SoundnessWatch
 {
 public:

@@ -129,20 +129,24 @@ Outcome outcome_of(const Scene& scene, const std::shared_ptr<Device>& device)
     return out;
 }
 
-/// "blown up": by orders of magnitude more motion than there can be, or places that nothing explains.
-/// "right": within a hundredth of the scene's size of the solved run. Else neither.
+/// "blown up": ten times the kinetic energy of the solved run, of the start and of a fall through a tenth of
+/// the size, or places that neither speed nor fall explains. "right": within a hundredth of the scene's size
+/// of the solved run, with as many tetrahedra inverted. Else neither.
 std::string truth_of(const Scene& scene, const Outcome& run, const Outcome& solution)
 {
-    const double size = make_model(scene).diameter;
+    const double size = make_model(scene).diameter, time = kFrames * scene.timestep;
     if (!finite(run.x))
         return "blown up";
     double far = 0;
     for (std::size_t i = 0; i < run.x.size(); ++i)
         far = std::max(far, glm::distance(run.x[i], solution.x[i]));
-    const double floor = 9.81 * 9.81 * 1e-4 * static_cast<double>(run.x.size());
-    if (run.most > 10 * solution.most + floor || far > 5 * size)
+    const double speed = glm::length(scene.bodies[0].velocity);
+    const auto vertices = static_cast<double>(run.x.size());
+    const double begun = vertices * (0.5 * speed * speed + 9.81 * 0.1 * size);
+    if (run.most > 10 * (solution.most + begun) || far > 5 * size + 2 * (speed + 9.81 * time) * time)
         return "blown up";
-    return far < 0.01 * size ? "right" : "neither";
+    const bool alike = run.report.volume.inverted == solution.report.volume.inverted;
+    return far < 0.01 * size && alike ? "right" : "neither";
 }
 
 } // namespace

@@ -1,0 +1,115 @@
+// What it costs to judge a run by physics:
+//     taut_soundness_bench [DEVICE]          default cpu:serial
+// For each method: a step, a look at the motion, one at the motion and the strains, and one for what passes
+// through colliders (medians of the same run, ms), the share of the first two in a run of five seconds, and
+// that of the third in this run, which looks when something may have come as far as a collider's middle.
+
+#include "taut/report/crossing.hpp"
+#include "taut/report/soundness.hpp"
+#include "taut/scene/settings.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+
+namespace {
+
+using namespace taut;
+
+constexpr int kSteps = 40, kFrames = 300;
+
+double ms_of(const std::function<void()>& work)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+Scene cloth_on_ball()
+{
+    Scene scene;
+    Body body;
+    body.shape.cells = {64, 64};
+    body.transform.rotate_axis = {1, 0, 0};
+    body.transform.rotate_degrees = -90;
+    body.material.stretch_stiffness = 100;
+    scene.bodies = {body};
+    Collider ball;
+    ball.point = {0, -0.31, 0};
+    ball.radius = 0.3;
+    scene.colliders = {ball};
+    return scene;
+}
+
+Scene box_on_floor()
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {12, 12, 12};
+    body.material = solid_material();
+    scene.bodies = {body};
+    Collider floor;
+    floor.kind = ColliderKind::plane;
+    floor.point = {0, -0.51, 0};
+    scene.colliders = {floor};
+    return scene;
+}
+
+void measure_row(const char* name, Scene scene, const char* method, const std::shared_ptr<Device>& device)
+{
+    scene.method.type = method;
+    scene.method.stability = "substep";
+    World world(scene, device);
+    const EnergyBudget budget(world.scene());
+    CrossingWatch watch(world.scene());
+    watch.look(0, 0, world.drive().substep, world.positions(), world.velocities());
+    std::vector<double> step, motion, state, crossing = {0};
+    double looked = 0; // s
+    for (int k = 0; k < kSteps; ++k)
+    {
+        step.push_back(ms_of([&] {
+            world.step();
+            world.device().wait();
+        }));
+        motion.push_back(ms_of([&] { judge(budget, world, Judged::motion); }));
+        state.push_back(ms_of([&] { judge(budget, world); }));
+        if (world.time() + world.scene().timestep - looked <= watch.clear_for())
+            continue;
+        looked = world.time();
+        crossing.push_back(ms_of([&] {
+            const std::vector<glm::dvec3> x = world.positions(), v = world.velocities();
+            watch.look(static_cast<std::uint64_t>(k), world.time(), world.drive().substep, x, v);
+        }));
+    }
+    const double looks = static_cast<double>(kMotionLooks) * median(motion) + kStrainLooks * median(state);
+    double steps = 0, crossings = 0;
+    for (const double ms : step)
+        steps += ms;
+    for (const double ms : crossing)
+        crossings += watch.needed() ? ms : 0;
+    std::printf("| %s | %s | %.3g | %.3g | %.3g | %.3g | %.2f %% | %.2f %% |\n", name, method, median(step),
+                median(motion), median(state), median(crossing), 100 * looks / (kFrames * median(step)),
+                100 * crossings / steps);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const std::shared_ptr<Device> device = Device::open(argc > 1 ? argv[1] : "cpu:serial", {});
+    std::printf("| scene | method | step | motion | strains | crossings | share of looks | share of "
+                "crossings |\n|---|---|---|---|---|---|---|---|\n");
+    for (const char* method :
+         {"xpbd", "pbd", "vbd", "implicit_euler", "implicit_constraints", "mass_spring", "acad"})
+        measure_row("cloth 64²", cloth_on_ball(), method, device);
+    for (const char* method : {"xpbd", "vbd", "implicit_euler"})
+        measure_row("box 12³", box_on_floor(), method, device);
+}
