@@ -229,11 +229,10 @@ Soundness judge(const EnergyBudget& budget, const World& world, Judged what)
 
 void SoundnessWatch::after(std::uint64_t frame, const World& world)
 {
-    const auto due = [&](std::uint64_t looks) {
-        return frame % std::max<std::uint64_t>(frames_ / looks, 1) == 0;
-    };
-    if (frame == 0 || frames_ < kMotionLooks || !due(kMotionLooks))
+    const std::uint64_t every = std::max<std::uint64_t>(frames_ / kMotionLooks, 1);
+    if (frame == 0 || frames_ < kMotionLooks || frame % every != 0)
         return;
+    const bool strains = frame / every % (kMotionLooks / kStrainLooks) == 0;
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());
     torn_ = world.torn();
@@ -242,7 +241,7 @@ void SoundnessWatch::after(std::uint64_t frame, const World& world)
     const Soundness motion = judge(*budget_, world, Judged::motion);
     if (rank(motion.status) >= rank(Status::diverged))
         found_ = worse(found_, motion);
-    else if (motion.status == Status::unconverged || (due(kStrainLooks) && !judge(*budget_, world).sound()))
+    else if (motion.status == Status::unconverged || (strains && !judge(*budget_, world).sound()))
         ++unconverged_;
 }
 
