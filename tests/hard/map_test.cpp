@@ -176,11 +176,16 @@ TEST_CASE("F8: the cells end in the same bits on every executor [hard]")
         if (selector == "cpu:serial" || (short_run() && selector.starts_with("opengl")))
             continue;
         const auto device = test_device(selector);
-        for (const Cell& cell : all_cells())
-            if (const int steps = steps_elsewhere(cell, selector); steps > 0)
+        const std::vector<Cell>& cells = all_cells();
+        // A dispatch of a software driver costs thousands of times its work: there a short run takes every
+        // third cell, which is two or three methods of each case.
+        const std::size_t stride = short_run() && !selector.starts_with("cpu") ? 3 : 1;
+        for (std::size_t k = 0; k < cells.size(); k += stride)
+            if (const int steps = steps_elsewhere(cells[k], selector); steps > 0)
             {
-                INFO(selector << ": " << cell.name());
-                CHECK(departure(cell, repeated(*cell.hard_case, cell.method, device, steps)) == "");
+                INFO(selector << ": " << cells[k].name());
+                CHECK(departure(cells[k],
+                                repeated(*cells[k].hard_case, cells[k].method, device, steps)) == "");
             }
         CHECK(device->counters().validation_messages == 0);
     }

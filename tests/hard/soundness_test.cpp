@@ -131,7 +131,8 @@ Outcome outcome_of(const Scene& scene, const std::shared_ptr<Device>& device)
 
 /// "blown up": ten times the kinetic energy of the solved run, of the start and of a fall through a tenth of
 /// the size, or places that neither speed nor fall explains. "right": within a hundredth of the scene's size
-/// of the solved run, with as many tetrahedra inverted. Else neither.
+/// of the solved run, with as many tetrahedra inverted, and never above twice its kinetic energy and that of
+/// a fall through a hundredth of the size. Else neither.
 std::string truth_of(const Scene& scene, const Outcome& run, const Outcome& solution)
 {
     const double size = make_model(scene).diameter, time = kFrames * scene.timestep;
@@ -145,7 +146,8 @@ std::string truth_of(const Scene& scene, const Outcome& run, const Outcome& solu
     const double begun = vertices * (0.5 * speed * speed + 9.81 * 0.1 * size);
     if (run.most > 10 * (solution.most + begun) || far > 5 * size + 2 * (speed + 9.81 * time) * time)
         return "blown up";
-    const bool alike = run.report.volume.inverted == solution.report.volume.inverted;
+    const bool alike = run.report.volume.inverted == solution.report.volume.inverted &&
+                       run.most <= 2 * solution.most + vertices * 9.81 * 0.01 * size;
     return far < 0.01 * size && alike ? "right" : "neither";
 }
 
