@@ -1,9 +1,9 @@
 #include "taut/report/energy_budget.hpp"
 
 #include "taut/report/contact.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -64,13 +64,9 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
 /// rad/s: no stretch between two keys turns faster.
 double fastest_turn(const std::vector<Keyframe>& motion)
 {
-    const auto rotation = [](const Keyframe& key) {
-        const double length = glm::length(key.rotate_axis);
-        return length > 0 ? key.rotate_axis / length * glm::radians(key.rotate_degrees) : glm::dvec3(0);
-    };
     double out = 0;
     for (std::size_t k = 1; k < motion.size(); ++k)
-        out = std::max(out, glm::distance(rotation(motion[k]), rotation(motion[k - 1])) /
+        out = std::max(out, glm::distance(rotation_of(motion[k]), rotation_of(motion[k - 1])) /
                                 (motion[k].time - motion[k - 1].time));
     return out;
 }

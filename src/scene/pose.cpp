@@ -1,6 +1,6 @@
 // The pose of something that moves by keyframes.
 
-#include "taut/scene/scene.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -18,9 +18,7 @@ struct Pose
 
 Pose pose_of(const Keyframe& key)
 {
-    const double length = glm::length(key.rotate_axis);
-    const glm::dvec3 axis = length > 0 ? key.rotate_axis / length : glm::dvec3(0);
-    return {key.translate, axis * glm::radians(key.rotate_degrees), key.rotate_centre};
+    return {key.translate, rotation_of(key), key.rotate_centre};
 }
 
 glm::dvec3 apply(const Pose& pose, const glm::dvec3& rest)
@@ -36,6 +34,13 @@ glm::dvec3 apply(const Pose& pose, const glm::dvec3& rest)
 }
 
 } // namespace
+
+glm::dvec3 rotation_of(const Keyframe& key)
+{
+    const double length = glm::length(key.rotate_axis);
+    const glm::dvec3 axis = length > 0 ? key.rotate_axis / length : glm::dvec3(0);
+    return axis * glm::radians(key.rotate_degrees);
+}
 
 glm::dvec3 pose(const std::vector<Keyframe>& motion, double time, const glm::dvec3& rest)
 {
