@@ -258,7 +258,8 @@ void describe_counts(const Simulation& simulation, RunResult& result)
     if (events.non_finite > 0)
         result.report.status = Status::non_finite;
     const double substeps = static_cast<double>(result.frames) * simulation.substeps();
-    set_status(judge_clamps(simulation.scene(), events, substeps * result.vertices), result.report);
+    const auto vertices = static_cast<double>(result.vertices);
+    set_status(judge_clamps(simulation.scene(), events, substeps * vertices), result.report);
 }
 
 /// What the looks on the way found, beside the state at the end.
@@ -318,12 +319,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     if (rank(result.report.status) < rank(Status::diverged) && !guard.interrupted() &&
         runner.done() == frames)
     {
-        const Residuals left = residuals_ahead(world);
-        result.report.primal_residual = left.primal;
-        result.report.dual_residual = left.dual;
-        result.report.imbalance = left.imbalance;
-        result.report.stretch_residual = left.stretch;
-        judge_residuals(world.scene(), result.report);
+        judge_residuals(world.scene(), residuals_ahead(world), result.report);
         if (result.parts.empty())
             result.passes = time_passes(world);
     }

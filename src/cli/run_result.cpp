@@ -132,6 +132,7 @@ Json to_json(const RunResult& result)
     json["primal_residual"] = known(report.primal_residual);
     json["dual_residual"] = known(report.dual_residual);
     json["imbalance"] = known(report.imbalance);
+    json["load_residual"] = known(report.load_residual);
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = known(report.active_share);
     json["series"] = result.solvers > 0 ? looks_json(result.looks) : Json(nullptr);

@@ -59,10 +59,7 @@ void run(World& world, std::uint64_t frames, CompareRow& row)
     {
         if (goes_on())
             row.residuals = residuals_ahead(world);
-        row.report.dual_residual = row.residuals.dual;
-        row.report.imbalance = row.residuals.imbalance;
-        row.report.stretch_residual = row.residuals.stretch;
-        judge_residuals(world.scene(), row.report);
+        judge_residuals(world.scene(), row.residuals, row.report);
     }
     catch (const Error&)
     {

@@ -15,7 +15,18 @@ Residuals residuals_ahead(const World& world)
     copy.restore(world.state());
     copy.step();
     const StepReport further = measure(copy);
-    return {further.primal_residual, further.dual_residual, further.imbalance, further.stretch_residual};
+    return {further.primal_residual, further.dual_residual, further.imbalance, further.stretch_residual,
+            further.load_residual};
+}
+
+void judge_residuals(const Scene& scene, const Residuals& left, StepReport& report)
+{
+    report.primal_residual = left.primal;
+    report.dual_residual = left.dual;
+    report.imbalance = left.imbalance;
+    report.stretch_residual = left.stretch;
+    report.load_residual = left.load;
+    judge_residuals(scene, report);
 }
 
 } // namespace taut

@@ -5,15 +5,19 @@
 
 namespace taut {
 
-/// As StepReport::primal_residual, dual_residual, imbalance and stretch_residual; -1 where there is none.
+/// As StepReport::primal_residual, dual_residual, imbalance, stretch_residual and load_residual; -1 where
+/// there is none.
 struct Residuals
 {
-    double primal = -1, dual = -1, imbalance = -1, stretch = -1;
+    double primal = -1, dual = -1, imbalance = -1, stretch = -1, load = -1;
 };
 
 /// Residuals of xpbd need multipliers, which a run does not keep. So they are those of a copy that keeps them
 /// and goes one step further; the world itself stays as it is. -1 under methods without any, without making a
 /// copy. Throws Error{bad_input} for a world that holds a value that is not finite.
 Residuals residuals_ahead(const World& world);
+
+/// Puts residuals into a report and judges them by what the scene accepts.
+void judge_residuals(const Scene& scene, const Residuals& left, StepReport& report);
 
 } // namespace taut

@@ -270,7 +270,7 @@ struct Accept
     /// Strain, > 0: elements strained by more must be so by energy that was put in; what a method keeps at
     /// its length, or within a strain_limit, may be off by no more.
     double stretch = 0.1;
-    double residual = 1; ///< > 0, see StepReport::imbalance
+    double residual = 1; ///< > 0, see StepReport::imbalance and load_residual
     std::uint32_t inverted = 0; ///< tetrahedra inside out at the end
 };
 

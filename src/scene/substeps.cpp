@@ -5,7 +5,8 @@
 //   impulse n m g h^2, so it stays open by (w_a + w_b) n m g h^2 = 2 n g h^2: a strain of 2 n g h^2 / L.
 // Departures: n is estimated by the mesh: links from a pin, or across a body that is free (it may come to
 //   hang from one end), and the mass that hangs from the edges of pinned vertices; k iterations count like a
-//   substep of 1/sqrt(k). Measured in docs/methods.md.
+//   substep of 1/sqrt(k). The sweeps of vbd carry a load one link each like those of xpbd: they count the same.
+//   Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
@@ -133,7 +134,8 @@ std::uint32_t automatic_substeps(const Scene& scene)
     const MethodSettings& method = scene.method;
     const double g = glm::length(scene.gravity);
     double most = kLeastSubsteps;
-    if ((method.type == "xpbd" || method.type == "pbd") && g > 0)
+    const bool sweeps = method.type == "xpbd" || method.type == "pbd" || method.type == "vbd";
+    if (sweeps && g > 0)
         for (const Body& body : scene.bodies)
         {
             const SweepLoad load = sweep_load(body);

@@ -164,6 +164,7 @@ std::vector<std::byte> World::Impl::raw(std::uint32_t buffer) const
 void World::Impl::count_step()
 {
     ++steps;
+    guessed = true;
     for (const auto& [vertex, size] : force_size)
         push += size * scene.timestep;
 }
@@ -276,7 +277,10 @@ std::vector<glm::dvec3> World::positions() const
 }
 std::vector<glm::dvec3> World::velocities() const { return impl_->velocities(); }
 std::vector<glm::dvec3> World::displacements() const { return impl_->vectors(impl_->plan.delta); }
-std::vector<glm::dvec3> World::predictions() const { return impl_->vectors(impl_->plan.predicted); }
+std::vector<glm::dvec3> World::predictions() const
+{
+    return impl_->guessed ? impl_->vectors(impl_->plan.predicted) : std::vector<glm::dvec3>();
+}
 
 std::vector<double> World::multipliers(std::string_view kind) const
 {

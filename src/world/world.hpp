@@ -109,7 +109,8 @@ public:
     /// m/s, at the step. WorldState::velocity is what a method goes on from (Plan::velocity_lead).
     std::vector<glm::dvec3> velocities() const;
     std::vector<glm::dvec3> displacements() const; ///< of the last substep, m
-    /// Inertial guess of the displacements of the last substep, m; empty unless residuals are kept.
+    /// Inertial guess of the displacements of the last substep, m; empty unless residuals are kept, and
+    /// from restore() until the next step.
     std::vector<glm::dvec3> predictions() const;
     /// Multipliers of a constraint kind in the plan's order, N s^2; empty when none are kept.
     std::vector<double> multipliers(std::string_view kind) const;

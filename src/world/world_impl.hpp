@@ -19,6 +19,7 @@ struct World::Impl
     std::vector<BufferPtr> buffers;       ///< as plan.buffers
     std::unique_ptr<Recording> recording; ///< null when nothing is to be done
     std::uint64_t steps = 0;
+    bool guessed = false; ///< the buffer of predictions is of the last substep: no restore() since
     Clock clock;
     bool moves = false;
     std::map<std::uint32_t, double> force_size; ///< N, by scene-wide vertex, of forces set from outside

@@ -152,6 +152,7 @@ void World::restore(const WorldState& state)
     if (plan.coasting != kNoBuffer)
         impl_->device->write(impl_->buffers[plan.coasting], 0, told ? state.coasting : state.delta);
     impl_->steps = state.step;
+    impl_->guessed = false;
     const bool clocked = state.clock.timestep > 0;
     impl_->clock = clocked ? state.clock : Clock{0, 0, impl_->scene.timestep, impl_->scene.gravity};
     const Pace before = impl_->pace(impl_->clock);

@@ -36,12 +36,7 @@ StepReport whole_run(const Scene& scene, const std::shared_ptr<Device>& device)
     StepReport report = measure(world);
     set_status(watch.found(), report);
     if (rank(report.status) < rank(Status::diverged))
-    {
-        const Residuals left = residuals_ahead(world);
-        report.imbalance = left.imbalance;
-        report.stretch_residual = left.stretch;
-        judge_residuals(world.scene(), report);
-    }
+        judge_residuals(world.scene(), residuals_ahead(world), report);
     return report;
 }
 

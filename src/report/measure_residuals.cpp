@@ -1,0 +1,175 @@
+// What the last substep of a world left unsolved, in fp64 on the host.
+//
+// Based on: Macklin, Mueller, Chentanez. XPBD. Motion in Games 2016. eq. 8 (primal) and eq. 9 (dual).
+// Departures: vertices that touch a collider are left out, whose contact forces are on no record.
+
+#include "taut/report/measure_residuals.hpp"
+
+#include "taut/plan/methods.hpp"
+#include "taut/report/contact.hpp"
+#include "taut/report/load_residual.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut {
+namespace {
+
+using reference::BendingRecord;
+using reference::DistanceRecord;
+using reference::View;
+
+/// Signed distance of a point to a collider's surface at a time, m; of a box, to its nearest face.
+double surface_gap(const Collider& c, double time, const glm::dvec3& x)
+{
+    return reference::surface_at(c, time).touch(x, 0).height;
+}
+
+bool touches(const View& view, std::size_t i)
+{
+    for (const Collider& c : view.world.scene().colliders)
+        if (surface_gap(c, view.world.time(), view.x[i]) <=
+            view.model.gap[i] + 1e-6 * view.model.diameter)
+            return true;
+    return false;
+}
+
+/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of the distance constraints.
+double distance_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
+{
+    const std::vector<double> lambda = view.world.multipliers("distance");
+    if (lambda.empty())
+        return 0;
+    double worst = 0;
+    for (std::size_t k = 0; k < view.distance.size(); ++k)
+    {
+        const DistanceRecord& c = view.distance[k];
+        const double length = view.length(c);
+        if (!(length > 0))
+            continue;
+        const glm::dvec3 n = (view.x[c.a] - view.x[c.b]) / length;
+        impulse[c.a] += n * lambda[k];
+        impulse[c.b] -= n * lambda[k];
+        if (c.rest_length > 0)
+            worst = std::max(worst, std::abs(length - c.rest_length + c.compliance / (h * h) * lambda[k]) /
+                                        c.rest_length);
+    }
+    return worst;
+}
+
+double bending_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
+{
+    const std::vector<double> lambda = view.world.multipliers("bending");
+    if (lambda.empty())
+        return 0;
+    double worst = 0;
+    for (std::size_t k = 0; k < view.bending.size(); ++k)
+    {
+        const BendingRecord& c = view.bending[k];
+        const auto angle = view.angle(c);
+        if (!angle.valid)
+            continue;
+        const std::uint32_t ids[] = {c.edge0, c.edge1, c.wing0, c.wing1};
+        for (std::size_t j = 0; j < 4; ++j)
+            impulse[ids[j]] +=
+                glm::dvec3(angle.gradient[j].x, angle.gradient[j].y, angle.gradient[j].z) * lambda[k];
+        const double value = reference::angle_difference(angle.angle, c.rest_angle);
+        worst = std::max(worst, std::abs(value + c.compliance / (h * h) * lambda[k]));
+    }
+    return worst;
+}
+
+/// For one entry a vertex. Positions are as precise as the largest coordinate lets them be.
+Leftover nothing_left(const View& view)
+{
+    const std::size_t count = view.x.size();
+    double far = 0;
+    for (const glm::dvec3& x : view.x)
+        far = std::max({far, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    const bool single = view.plan.precision == Precision::float32;
+    return {std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count),
+            far * (single ? 6e-8 : 1.1e-16)};
+}
+
+/// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2), and its share of all forces: what its
+/// iterations left. Not there with dampers, whose force depends on the way, not on the place, and where
+/// elements flow, whose rest shapes the model does not know.
+void implicit_residual(const View& view, StepReport& out)
+{
+    const bool damped = std::any_of(view.model.springs.begin(), view.model.springs.end(),
+                                    [](const StretchElement& e) { return e.damping > 0; });
+    const auto& bodies = view.world.scene().bodies;
+    const bool flows = std::any_of(bodies.begin(), bodies.end(),
+                                   [](const Body& body) { return body.material.plastic_yield > 0; });
+    const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
+    if (guess.empty() || damped || flows)
+        return;
+    const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
+    std::vector<glm::dvec3> force(view.x.size(), glm::dvec3(0));
+    add_forces(view.model, view.x, force);
+    std::vector<glm::dvec3> gas(view.x.size(), glm::dvec3(0)); // of the guess, which it has pushed
+    for (const GasElement& e : view.model.gases)
+        add_gas_forces(e, view.x, gas);
+    std::vector<double> size(view.x.size(), 0.0);
+    add_force_sizes(view.model, view.x, size);
+    double worst = 0, lefts = 0, sizes = 0;
+    Leftover left = nothing_left(view);
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        left.touches[i] = touches(view, i);
+        const double mass = view.model.mass[i];
+        const glm::dvec3 elastic = (force[i] - gas[i]) / mass - view.model.gravity;
+        const glm::dvec3 inertia = (moved[i] - guess[i]) / (h * h);
+        left.force[i] = mass * (inertia - elastic);
+        left.load[i] = mass * std::max(gravity, glm::length(inertia));
+        if (view.model.pinned[i] || left.touches[i])
+            continue;
+        worst = std::max(worst, glm::length(inertia - elastic) / (gravity > 0 ? gravity : 1.0));
+        lefts += mass * glm::length(inertia - elastic);
+        sizes += std::max(mass * glm::length(inertia), size[i]);
+    }
+    if (gravity > 0 && view.model.surfaces.empty()) // a surface's pressure joins all vertices
+        out.load_residual = load_residual(view.model, view.x, left);
+    out.primal_residual = worst;
+    out.imbalance = sizes > 0 ? lefts / sizes : 0;
+}
+
+} // namespace
+
+void measure_residuals(const View& view, StepReport& out)
+{
+    out.primal_residual = out.dual_residual = -1;
+    const auto& sets = view.plan.constraints;
+    const bool kept = std::all_of(sets.begin(), sets.end(), [](const ConstraintSet& s) {
+        return s.multipliers != kNoBuffer && (s.kind == "distance" || s.kind == "bending");
+    });
+    const bool limited = // by forces that are on no record
+        std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
+                    [](const EffectCost& e) { return e.name == "strain_limit" || e.name == "attachment"; });
+    const MethodKind kind = method_of(view.world.scene());
+    if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
+        implicit_residual(view, out);
+    const bool by_multipliers = kind == MethodKind::xpbd && kept;
+    const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
+    if (!by_multipliers || limited || guess.empty())
+        return;
+    const double h = view.plan.timestep / view.plan.substeps;
+    std::vector<glm::dvec3> impulse(view.x.size(), glm::dvec3(0));
+    out.stretch_residual = distance_residual(view, h, impulse);
+    out.dual_residual = std::max(out.stretch_residual, bending_residual(view, h, impulse));
+    const double gravity = glm::length(view.model.gravity);
+    double worst = 0;
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        if (view.model.pinned[i] || touches(view, i))
+            continue;
+        const double mass = view.model.mass[i];
+        const glm::dvec3 r = mass * (moved[i] - guess[i]) - impulse[i];
+        worst = std::max(worst, glm::length(r) / (mass * (gravity > 0 ? gravity : 1.0) * h * h));
+    }
+    out.primal_residual = worst;
+}
+
+} // namespace taut

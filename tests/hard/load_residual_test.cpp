@@ -1,0 +1,88 @@
+// A body that hangs in the air because the solver carries its weight nowhere is not completed, however small
+// what is left is beside the forces of its springs.
+
+#include "hard/cases.hpp"
+
+#include "taut/report/residuals.hpp"
+
+namespace taut::hard {
+namespace {
+
+/// Cloth held by two corners, let go from the horizontal: its lower edge falls by its length and swings.
+Scene falling(const std::string& method, std::uint32_t substeps, std::uint32_t iterations, double stiffness)
+{
+    Scene scene = test::hanging(16);
+    Body& body = scene.bodies[0];
+    body.transform.rotate_axis = {1, 0, 0};
+    body.transform.rotate_degrees = -90;
+    body.material.stretch_stiffness = stiffness;
+    body.material.bending_stiffness = 1e-5;
+    scene.damping = 0.5;
+    scene.method.type = method;
+    scene.method.substeps = substeps;
+    scene.method.iterations = iterations;
+    return resolve(scene);
+}
+
+struct End
+{
+    StepReport report;
+    double lowest = 0; ///< m
+};
+
+End end_of(const Scene& scene)
+{
+    World world(scene, test_device("cpu:serial"));
+    run(world, 120);
+    End out{measure(world), 0};
+    for (const glm::dvec3& x : world.positions())
+        out.lowest = std::min(out.lowest, x.y);
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("a body that hangs in the air is not called completed [hard]")
+{
+    const End frozen = end_of(falling("vbd", 1, 1, 1e6));
+    INFO("vbd: lowest " << frozen.lowest << " m, load residual " << frozen.report.load_residual
+                        << ", imbalance " << frozen.report.imbalance);
+    CHECK(frozen.lowest > -0.5);
+    CHECK(frozen.report.load_residual > 1);
+    CHECK(frozen.report.imbalance < 1);
+    CHECK(frozen.report.status == Status::unconverged);
+    const End stiff = end_of(falling("implicit_euler", 1, 1, 1e9));
+    INFO("implicit_euler: lowest " << stiff.lowest << " m, load residual " << stiff.report.load_residual);
+    CHECK(stiff.lowest > -0.5);
+    CHECK(stiff.report.status == Status::unconverged);
+    const End slow = end_of(falling("implicit_euler", 1, 1, 1e7));
+    INFO("implicit_euler: lowest " << slow.lowest << " m, load residual " << slow.report.load_residual);
+    CHECK(slow.lowest > -0.5);
+    CHECK(slow.report.load_residual > 1);
+    CHECK(slow.report.status == Status::unconverged);
+}
+
+TEST_CASE("cloth that is solved answers to its weight [hard]")
+{
+    for (const auto& scene : {falling("vbd", 60, 1, 1e4), falling("implicit_euler", 4, 2, 1e4)})
+    {
+        const End end = end_of(scene);
+        INFO(scene.method.type << ": lowest " << end.lowest << " m, load residual "
+                               << end.report.load_residual);
+        CHECK(end.lowest < -0.75);
+        CHECK(end.report.load_residual < 0.5);
+        CHECK(end.report.status == Status::completed);
+    }
+}
+
+TEST_CASE("what a scene accepts of its loads decides the status [hard]")
+{
+    Scene scene = falling("vbd", 1, 1, 1e6);
+    const double left = end_of(scene).report.load_residual;
+    scene.accept.residual = 2 * left;
+    CHECK(end_of(scene).report.status == Status::completed);
+    scene.accept.residual = 0.5 * left;
+    CHECK(end_of(scene).report.status == Status::unconverged);
+}
+
+} // namespace taut::hard
