@@ -47,6 +47,16 @@ struct Findings
     bool judged = true; ///< false: too few steps to say
 };
 
+/// Multiples of the settings that the map gives a method: what a cell needs to pass.
+struct Effort
+{
+    std::uint32_t substeps = 1, iterations = 1;
+    bool in_double = false;
+    /// Sweeps or solves of a step, in multiples of the map's.
+    std::uint32_t cost() const { return substeps * iterations; }
+    std::string text() const; ///< "4 x substeps, 2 x iterations, double"; empty: the map's own settings
+};
+
 struct MapCase
 {
     std::string id, what;
@@ -73,6 +83,8 @@ struct MapCase
     std::function<Scene()> full_size = {};
     /// About bits: compared on Vulkan in a short run too.
     bool compares_bits = false;
+    /// Methods that need more than the map's settings (map_effort.cpp).
+    std::map<MethodKind, Effort> effort = {};
 };
 
 /// The id of cases on data that may not be there.
@@ -106,6 +118,9 @@ std::vector<MapCase> map_cases();
 
 /// Steps of the case in this run.
 int steps_of(const MapCase& hard_case);
+
+/// Puts into each case what map_effort.cpp says of it; an entry of no case throws std::logic_error.
+void put_efforts(std::vector<MapCase>& cases);
 
 /// Runs a cell and judges it.
 Outcome judged(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device);

@@ -291,6 +291,7 @@ std::vector<MapCase> map_cases()
     add_repeats(out);
     add_solids(out);
     add_loaded_solids(out);
+    put_efforts(out);
     return out;
 }
 

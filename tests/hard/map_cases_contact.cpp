@@ -273,16 +273,22 @@ void add_real(std::vector<MapCase>& out)
             if (x[v].y >= high / (high - low) - 0.05)
                 top.push_back(v);
         resolved.bodies[0].pins = {hold(top)};
+        // The largest stretch that the methods which solve it agree on within a sixth.
+        const double right = std::string(file).starts_with("elephant") ? 0.65 : 0.13;
         // 2,798 and 15,656 vertices: a third of what the map costs, so a short run takes some steps.
         out.push_back(
             {kDataCase,
              file,
              resolved,
              20,
-             [](const Journey& j) { return each_of(above("stretch", j.last.max_stretch, 0.3), calm(j)); },
-             0,
+             [right](const Journey& j) {
+                 return each_of(
+                     above("error of the stretch", std::abs(j.last.max_stretch / right - 1), 0.3), calm(j));
+             },
+             // 20 steps are too few for sweeps, and one linearisation a solve for springs that soft.
+             kPositionBased | kLinearised | only(MethodKind::vbd),
              {},
-             3});
+             -1});
     }
 }
 

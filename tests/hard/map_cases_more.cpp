@@ -171,7 +171,8 @@ void add_uneven(std::vector<MapCase>& out)
                            least = std::min(least, pull);
                            most = std::max(most, pull);
                        }
-                       return above("largest tension / mean - 1", most / (most + least) * 2 - 1, 0.01);
+                       return above("largest tension / mean - 1", (most - least) / std::abs(most + least),
+                                    0.01);
                    },
                    // Explicit springs in float: at 4 m a rounding of a length is 0.2 N in 1e6 N/m, a substep
                    // and again, on a vertex of 10 g. In double they pass.

@@ -28,9 +28,7 @@ void add_heavy(std::vector<MapCase>& out)
                        [](const Journey& j) {
                            return above("error of the lower end / height", std::abs(-lifted(j) - 0.05), 0.02);
                        },
-                       ratio > 1e4   ? kPositionBased
-                       : ratio > 1e3 ? only(MethodKind::pbd)
-                                     : 0,
+                       ratio > 1e4 ? kPositionBased : kOwnStiffness,
                        {},
                        -1});
     };

@@ -68,6 +68,12 @@ Scene scene_for(const MapCase& c, MethodKind method)
 {
     Scene scene = c.full_size && !short_run() ? c.full_size() : c.scene;
     set_method(scene, method);
+    if (const auto more = c.effort.find(method); more != c.effort.end())
+    {
+        scene.method.substeps = std::min(1000u, scene.method.substeps * more->second.substeps);
+        scene.method.iterations = std::min(1000u, scene.method.iterations * more->second.iterations);
+        scene.method.precision = more->second.in_double ? "double" : "float";
+    }
     return scene;
 }
 

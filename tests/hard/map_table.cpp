@@ -14,7 +14,8 @@
 namespace taut::hard {
 namespace {
 
-constexpr const char* kHead = "case,what,method,verdict,criterion,number,limit,energy,inverted,volume";
+constexpr const char* kHead = "case,what,method,verdict,criterion,number,limit,energy,inverted,volume,"
+                              "effort,cost";
 constexpr const char* kBegin = "<!-- map -->\n";
 constexpr const char* kEnd = "\n<!-- end -->";
 
@@ -77,8 +78,9 @@ std::string cell_of(const Row& row)
 {
     if (!row.number)
         return row.verdict;
+    const std::string at = row.effort.empty() ? "" : " at " + row.effort;
     if (row.verdict == "pass" || row.verdict == "runs")
-        return row.verdict + " " + shown(*row.number, 3);
+        return row.verdict + " " + shown(*row.number, 3) + at;
     return row.verdict + ": " + row.criterion + " " + shown(*row.number, 3) + ", limit " +
            shown(*row.limit, 3);
 }
@@ -123,7 +125,14 @@ Row row_of(const MapCase& c, MethodKind method, const Outcome& outcome)
             {},
             {},
             {},
+            {},
+            {},
             {}};
+    if (const auto more = c.effort.find(method); more != c.effort.end())
+    {
+        row.effort = more->second.text();
+        row.cost = more->second.cost();
+    }
     const Measured shown = outcome.shown();
     if (shown.what.empty())
         return row;
@@ -154,6 +163,8 @@ std::string difference(const Row& committed, const Row& now)
                     : "limit " + digits(committed.limit) + " is now " + digits(now.limit) + "; ");
     // Of the energy and the volume the floors are those of the usual limits (MapCase), whatever the case's.
     const MapCase usual;
+    if (committed.effort != now.effort)
+        text += "effort \"" + committed.effort + "\" is now \"" + now.effort + "\"; ";
     return text + differs("energy", committed.energy, now.energy, kFloor * usual.most_energy) +
            differs("inverted", committed.inverted, now.inverted, 0) +
            differs("volume", committed.volume, now.volume, kFloor * usual.most_volume);
@@ -174,10 +185,10 @@ std::vector<Row> read_table(const std::filesystem::path& path)
     while (std::getline(file, line))
     {
         const std::vector<std::string> f = fields_of(line);
-        if (f.size() != 10)
-            throw std::runtime_error(path.string() + ": ten fields, not: " + line);
+        if (f.size() != 12)
+            throw std::runtime_error(path.string() + ": twelve fields, not: " + line);
         rows.push_back({f[0], f[1], f[2], f[3], f[4], number_of(f[5]), number_of(f[6]), number_of(f[7]),
-                        number_of(f[8]), number_of(f[9])});
+                        number_of(f[8]), number_of(f[9]), f[10], number_of(f[11])});
     }
     return rows;
 }
@@ -188,7 +199,8 @@ void write_table(const std::filesystem::path& path, const std::vector<Row>& rows
     for (const Row& r : rows)
         text += quoted(r.id) + ',' + quoted(r.what) + ',' + r.method + ',' + r.verdict + ',' +
                 quoted(r.criterion) + ',' + digits(r.number) + ',' + digits(r.limit) + ',' +
-                digits(r.energy) + ',' + digits(r.inverted) + ',' + digits(r.volume) + '\n';
+                digits(r.energy) + ',' + digits(r.inverted) + ',' + digits(r.volume) + ',' +
+                quoted(r.effort) + ',' + digits(r.cost) + '\n';
     write_file(path.string(), text);
 }
 

@@ -17,6 +17,8 @@ struct Row
     std::string criterion;                          ///< which the number is of; none of a refusal
     std::optional<double> number, limit;            ///< as measured, and the most that it may be
     std::optional<double> energy, inverted, volume; ///< MapCase::most_energy; where the run was looked at
+    std::string effort;         ///< Effort::text()
+    std::optional<double> cost; ///< Effort::cost(); none at the map's own settings
 
     bool same_cell(const Row& other) const
     {
