@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Breaks one kernel or one decision of the host at a time and writes down which tests notice.
 #   tests/mutants.sh [--kernels GLOB] [--kinds LIST] [--suites LIST] [--sample N] [--budget SECONDS]
-#                    [--limit SECONDS] [--out FILE] [--again] [--report]
+#                    [--limit SECONDS] [--out FILE] [--again] [--survivors] [--report]
 # --kernels: 'vbd_*'. --kinds: of nothing,sign,drop,host (all). --suites: of
 # conformance,unit,physics,golden,hard (all), in this order. --sample: every Nth mutant only. --budget: no new
 # mutant after so long. --limit: of one run of one suite, 1,800 s; a suite that takes longer has noticed.
-# --again: runs mutants that the table has. --report: the table in Markdown, runs nothing.
+# --again: runs mutants that the table has. --survivors: no further suite for a mutant that one has noticed.
+# --report: the table in Markdown, runs nothing.
 #
 # A run goes on where the last one stopped: a suite that a row of the table answers is not run again. Kinds:
 #   nothing  the kernel returns at once
@@ -19,12 +20,12 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build=${TAUT_BUILD:-$root/build/release}
 kernels='*' kinds=nothing,sign,drop,host suites=conformance,unit,physics,golden,hard
-sample=1 budget=1000000 limit=1800 out=$root/tests/mutants.csv again="" report=""
+sample=1 budget=1000000 limit=1800 out=$root/tests/mutants.csv again="" survivors="" report=""
 while [ $# -gt 0 ]; do
     case $1 in
-    --again | --report) declare "${1#--}=1" && shift ;;
+    --again | --survivors | --report) declare "${1#--}=1" && shift ;;
     --kernels | --kinds | --suites | --sample | --budget | --limit | --out) declare "${1#--}=$2" && shift 2 ;;
-    *) sed -n '2,16p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
+    *) sed -n '2,17p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
     esac
 done
 work=$build/mutants
@@ -36,6 +37,7 @@ head=mutant,kind,what,conformance,unit,physics,golden,hard
 programs_of() {
     case $1 in
     unit) echo test_base test_runtime test_scene test_plan test_linear test_world test_report ;;
+    hard) echo test_linear_hard test_hard ;;
     *) echo "test_$1" ;;
     esac
 }
@@ -180,10 +182,14 @@ run_suite() {
     echo lives
 }
 
+# spared MUTANT: --survivors, and a suite has noticed it.
+spared() { [ -n "$survivors" ] && grep -q "^$1,.*,killed" "$out"; }
+
 # judge MUTANT KIND: the suites that the table does not answer.
 judge() {
     local suite
     for suite in ${suites//,/ }; do
+        ! spared "$1" || break
         [ -n "$again" ] || [ -z "$(field "$1" "$suite")" ] || continue
         note "$1" "$2" "$what" "$suite" "$(run_suite "$suite")"
     done
@@ -197,6 +203,7 @@ wanted() {
     count=$((count + 1))
     [ $((count % sample)) -eq 0 ] || return 1
     [ "$SECONDS" -lt "$budget" ] || return 1
+    ! spared "$1" || return 1
     [ -z "$again" ] || return 0
     for suite in ${suites//,/ }; do
         [ -n "$(field "$1" "$suite")" ] || return 0
