@@ -23,35 +23,22 @@ std::array<std::uint32_t, 4> vertices_of(const BendElement& e) { return {e.edge0
 std::array<std::uint32_t, 4> vertices_of(const VolumeElement& e) { return e.vertex; }
 std::array<std::uint32_t, 4> vertices_of(const SolidElement& e) { return e.vertex; }
 
-template <typename F>
-void each_element(const PhysicalModel& model, F&& f)
-{
-    for (const StretchElement& e : model.springs)
-        f(e);
-    for (const BendElement& e : model.hinges)
-        f(e);
-    for (const VolumeElement& e : model.volumes)
-        f(e);
-    for (const SolidElement& e : model.solids)
-        f(e);
-}
-
-/// Neither held nor at a collider, nor beside one.
+/// Those that are free, of bodies that touch nothing. A contact moves its vertices after they were solved, so
+/// what is left beside them is its own, and more than any load in a stiff body that is where it should be.
 std::vector<bool> counted_vertices(const PhysicalModel& model, const std::vector<bool>& touches)
 {
-    std::vector<bool> out(touches.size());
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = !model.pinned[i] && !touches[i];
-    each_element(model, [&](const auto& e) {
-        const auto vertices = vertices_of(e);
-        if (std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return touches[v]; }))
-            for (const std::uint32_t v : vertices)
-                out[v] = false;
-    });
+    std::vector<bool> out(touches.size(), false);
+    for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
+    {
+        const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
+        if (std::find(touches.begin() + first, touches.begin() + last, true) == touches.begin() + last)
+            for (std::uint32_t i = first; i < last; ++i)
+                out[i] = !model.pinned[i];
+    }
     return out;
 }
 
-/// N/m, a vertex: of the elements between what is counted and what is not. The others' roundings cancel.
+/// N/m, a vertex: of the elements between what is counted and what is held. The others' roundings cancel.
 std::vector<double> stiffness_across(const PhysicalModel& model, std::span<const glm::dvec3> x,
                                      const std::vector<bool>& counted)
 {

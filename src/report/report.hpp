@@ -55,8 +55,8 @@ struct StepReport
     /// primal_residual is.
     double imbalance = -1;
     /// What the last substep left of a body's loads (weight, inertia) as a whole, as a force or as a torque
-    /// about its centre, of the worst body: 0 solved, 1 as if nothing pulled; -1 where primal_residual is,
-    /// and without gravity.
+    /// about its centre, of the worst body that touches no collider: 0 solved, 1 as if nothing pulled; -1 where
+    /// primal_residual is, and without gravity.
     double load_residual = -1;
     double max_speed = 0;        ///< m/s
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1
