@@ -28,6 +28,10 @@ while [ $# -gt 0 ]; do
     *) sed -n '2,17p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
     esac
 done
+[ -z "$again" ] || [ -z "$survivors" ] || {
+    echo "--again runs everything, --survivors what nothing has noticed: one of the two" >&2
+    exit 2
+}
 work=$build/mutants
 mkdir -p "$work"
 head=mutant,kind,what,conformance,unit,physics,golden,hard

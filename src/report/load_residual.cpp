@@ -1,8 +1,9 @@
 // Sums over bodies of what a solver left.
 //
-// Based on: nothing published. Sweeps that carry a load too few links a substep leave little of the forces at
-//   hand, which are those within the body, and yet hold it in the air; in its momentum and angular momentum
-//   they show.
+// Based on: Newton's laws for a whole body: forces within it cancel in the sums of forces and of torques.
+// Departures: none known to be published as a measure of convergence. A sweep carries a load over one link.
+//   Where too few are taken, what is left is small beside the springs' own forces, and yet the body hangs
+//   in the air.
 
 #include "taut/report/load_residual.hpp"
 
@@ -14,12 +15,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 namespace taut {
 namespace {
 
+/// Sums within so many times what roundings make of them say nothing.
+constexpr double kNoise = 4;
+
 std::array<std::uint32_t, 2> vertices_of(const StretchElement& e) { return {e.a, e.b}; }
-std::array<std::uint32_t, 4> vertices_of(const BendElement& e) { return {e.edge0, e.edge1, e.wing0, e.wing1}; }
+std::array<std::uint32_t, 4> vertices_of(const BendElement& e)
+{
+    return {e.edge0, e.edge1, e.wing0, e.wing1};
+}
 std::array<std::uint32_t, 4> vertices_of(const VolumeElement& e) { return e.vertex; }
 std::array<std::uint32_t, 4> vertices_of(const SolidElement& e) { return e.vertex; }
 
@@ -64,7 +73,7 @@ std::vector<double> stiffness_across(const PhysicalModel& model, std::span<const
     return out;
 }
 
-/// Of the counted vertices from `first` to before `last`.
+/// Of the counted vertices from `first` to before `last`; -1 where there are none.
 double residual_of(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left,
                    const std::vector<bool>& counted, const std::vector<double>& across, std::uint32_t first,
                    std::uint32_t last)
@@ -78,7 +87,7 @@ double residual_of(const PhysicalModel& model, std::span<const glm::dvec3> x, co
             centre += model.mass[i] * x[i];
         }
     if (!(mass > 0))
-        return 0;
+        return -1;
     centre /= mass;
     for (std::uint32_t i = first; i < last; ++i)
         if (counted[i])
@@ -93,7 +102,7 @@ double residual_of(const PhysicalModel& model, std::span<const glm::dvec3> x, co
             turning_slack += glm::dot(d, d) * noise * noise;
         }
     const auto share = [](double of, double noise, double all) {
-        return all > 0 ? std::max(of - noise, 0.0) / all : 0;
+        return all > 0 && of > kNoise * noise ? of / all : 0;
     };
     return std::max(share(glm::length(force), std::sqrt(slack), loads),
                     share(glm::length(torque), std::sqrt(turning_slack), arms));
@@ -105,7 +114,7 @@ double load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, 
 {
     const std::vector<bool> counted = counted_vertices(model, left.touches);
     const std::vector<double> across = stiffness_across(model, x, counted);
-    double worst = 0;
+    double worst = -1;
     for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
         worst = std::max(worst, residual_of(model, x, left, counted, across, model.body_start[b],
                                             model.body_start[b + 1]));

@@ -17,10 +17,10 @@ struct Leftover
     double rounding = 0;           ///< m: of a coordinate
 };
 
-/// Of the worst body the larger of |sum r| / sum l and |sum d x r| / sum |d| l, with the leftover forces r and
-/// the loads l of its vertices and d from their centre of mass: 0 solved, 1 as if nothing pulled. Forces
-/// within a body cancel in the sums; what places rounded leave at held vertices is taken off. Bodies that
-/// touch a collider are left out. 0 where nothing is left.
+/// Of the worst body the larger of |sum r| / sum l and |sum d x r| / sum |d| l, with the leftover forces r
+/// and the loads l of its free vertices and d from their centre of mass: 0 solved, 1 as if nothing pulled.
+/// A sum that rounded places at held vertices explain counts as 0. Bodies of which a free vertex touches a
+/// collider are left out; -1 where none is left.
 double load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);
 
 } // namespace taut

@@ -149,12 +149,12 @@ void judge_residuals(const Scene& scene, StepReport& report)
                                              " %; take more substeps or iterations"},
                    report);
     const auto beyond = [&](double residual, const char* of_what) {
-        // Just 1, but for roundings, is what a solver leaves that does nothing.
-        if ((1 + 1e-6) * residual > scene.accept.residual)
+        // At the bound, but for roundings, is beyond it: 1 is what a solver leaves that does nothing.
+        if (residual >= (1 - 1e-6) * scene.accept.residual)
             set_status({Status::unconverged, "the solver left " + shown(100 * residual, 3) + " % of " +
-                                                 of_what + ", accept.residual is " +
+                                                 of_what + ", less than accept.residual, " +
                                                  shown(100 * scene.accept.residual, 3) +
-                                                 " %; take more substeps or iterations"},
+                                                 " %, is accepted; take more substeps or iterations"},
                        report);
     };
     beyond(report.imbalance, "the forces");

@@ -103,8 +103,10 @@ void implicit_residual(const View& view, StepReport& out)
     const auto& bodies = view.world.scene().bodies;
     const bool flows = std::any_of(bodies.begin(), bodies.end(),
                                    [](const Body& body) { return body.material.plastic_yield > 0; });
+    if (damped || flows)
+        return;
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
-    if (guess.empty() || damped || flows)
+    if (guess.empty())
         return;
     const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
     std::vector<glm::dvec3> force(view.x.size(), glm::dvec3(0));
@@ -118,7 +120,7 @@ void implicit_residual(const View& view, StepReport& out)
     Leftover left = nothing_left(view);
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
-        left.touches[i] = touches(view, i);
+        left.touches[i] = !view.model.pinned[i] && touches(view, i);
         const double mass = view.model.mass[i];
         const glm::dvec3 elastic = (force[i] - gas[i]) / mass - view.model.gravity;
         const glm::dvec3 inertia = (moved[i] - guess[i]) / (h * h);
@@ -152,8 +154,10 @@ void measure_residuals(const View& view, StepReport& out)
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
         implicit_residual(view, out);
     const bool by_multipliers = kind == MethodKind::xpbd && kept;
+    if (!by_multipliers || limited)
+        return;
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
-    if (!by_multipliers || limited || guess.empty())
+    if (guess.empty())
         return;
     const double h = view.plan.timestep / view.plan.substeps;
     std::vector<glm::dvec3> impulse(view.x.size(), glm::dvec3(0));

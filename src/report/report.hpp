@@ -50,13 +50,14 @@ struct StepReport
     double primal_residual = 0;
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
     double stretch_residual = -1; ///< that of the distance constraints alone
-    /// What the last substep left of all forces, added up by size, over those at hand (at a vertex inertia, or
-    /// weight and the forces of all its elements, whichever is more): 0 solved, 1 nothing done; -1 where
+    /// What the last substep left of all forces, added up by size, over those at hand (at a vertex inertia,
+    /// or weight and the forces of all its elements, whichever is more): 0 solved, 1 nothing done; -1 where
     /// primal_residual is.
     double imbalance = -1;
     /// What the last substep left of a body's loads (weight, inertia) as a whole, as a force or as a torque
-    /// about its centre, of the worst body that touches no collider: 0 solved, 1 as if nothing pulled; -1 where
-    /// primal_residual is, and without gravity.
+    /// about its centre, of the worst body that touches no collider: 0 solved, 1 as if nothing pulled; -1
+    /// where primal_residual is, without gravity, where a surface holds a volume, and where all bodies
+    /// touch.
     double load_residual = -1;
     double max_speed = 0;        ///< m/s
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1

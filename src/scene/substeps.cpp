@@ -5,7 +5,7 @@
 //   impulse n m g h^2, so it stays open by (w_a + w_b) n m g h^2 = 2 n g h^2: a strain of 2 n g h^2 / L.
 // Departures: n is estimated by the mesh: links from a pin, or across a body that is free (it may come to
 //   hang from one end), and the mass that hangs from the edges of pinned vertices; k iterations count like a
-//   substep of 1/sqrt(k). The sweeps of vbd carry a load one link each like those of xpbd: they count the same.
+//   substep of 1/sqrt(k). A sweep of vbd carries a load over one link like one of xpbd, and counts the same.
 //   Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"

@@ -6,10 +6,10 @@
 namespace taut {
 
 inline constexpr std::uint32_t kLeastSubsteps = 10, kMostAutomaticSubsteps = 1000;
-/// Strain that the sweeps of position-based methods may leave under the scene's own weight.
+/// Strain that sweeps over constraints or vertices may leave under the scene's own weight.
 inline constexpr double kSweepStrain = 0.01;
 
-/// A body of a resolved scene as a position-based method sees it.
+/// A body of a resolved scene as a method that sweeps sees it.
 struct SweepLoad
 {
     double vertices = 0; ///< masses of one vertex that hang from one constraint, at most

@@ -9,9 +9,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 scene() { # NAME METHOD SUBSTEPS ITERATIONS BODY
-    printf '{"taut": 1, "duration": 1, "damping": 0.5, "method": {"type": "%s", "substeps": %s, "iterations": %s%s},
-        "bodies": [%s]}' "$2" "$3" "$4" "$([ "$2" = mass_spring ] || [ "$2" = acad ] && echo ', "stability": "substep"')" \
-        "$5" > "$work/$1 $2.json"
+    local more=
+    case $2 in mass_spring | acad) more=', "stability": "substep"' ;; esac
+    printf '{"taut": 1, "duration": 1, "damping": 0.5, "bodies": [%s],
+        "method": {"type": "%s", "substeps": %s, "iterations": %s%s}}' "$5" "$2" "$3" "$4" "$more" \
+        > "$work/$1 $2.json"
 }
 cloth='{"grid": {"cells": [48, 48]}, "pins": [{"corners": ["top_left", "top_right"]}],
     "material": {"stretch_stiffness": 1000, "bending_stiffness": 1e-5}}'

@@ -52,7 +52,7 @@ struct Effort
 {
     std::uint32_t substeps = 1, iterations = 1;
     bool in_double = false;
-    /// Sweeps or solves of a step, in multiples of the map's.
+    /// Sweeps or solves of a step, in multiples of the map's; of double precision the same.
     std::uint32_t cost() const { return substeps * iterations; }
     std::string text() const; ///< "4 x substeps, 2 x iterations, double"; empty: the map's own settings
 };

@@ -28,6 +28,7 @@ void add_heavy(std::vector<MapCase>& out)
                        [](const Journey& j) {
                            return above("error of the lower end / height", std::abs(-lifted(j) - 0.05), 0.02);
                        },
+                       // The stiffness of pbd is none of the material's: another length.
                        ratio > 1e4 ? kPositionBased : kOwnStiffness,
                        {},
                        -1});

@@ -89,8 +89,6 @@ void put_efforts(std::vector<MapCase>& cases)
         const auto found = std::find_if(cases.begin(), cases.end(), [&](const MapCase& c) {
             return c.id == entry.id && c.what == entry.what;
         });
-        if (found == cases.end() && entry.id == std::string(kDataCase))
-            continue; // its data is not there
         if (found == cases.end())
             throw std::logic_error(std::string("map_effort.cpp: no case ") + entry.id + " " + entry.what);
         found->effort[entry.method] = entry.effort;

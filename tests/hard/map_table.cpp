@@ -81,7 +81,7 @@ std::string cell_of(const Row& row)
     const std::string at = row.effort.empty() ? "" : " at " + row.effort;
     if (row.verdict == "pass" || row.verdict == "runs")
         return row.verdict + " " + shown(*row.number, 3) + at;
-    return row.verdict + ": " + row.criterion + " " + shown(*row.number, 3) + ", limit " +
+    return row.verdict + at + ": " + row.criterion + " " + shown(*row.number, 3) + ", limit " +
            shown(*row.limit, 3);
 }
 
