@@ -124,6 +124,8 @@ TEST_CASE("every matrix of the folder ends in a true word on every executor")
 
 TEST_CASE("a stiffness matrix of a dam: sell, mixed, jacobi reach a true 1e-8")
 {
+    if (loaded().empty())
+        TAUT_LEFT_OUT("no matrices: the stiffness matrix of a dam");
     for (const Loaded& l : loaded())
     {
         if (std::string(l.known.file) != "bcsstk16")
