@@ -121,7 +121,9 @@ int steps_elsewhere(const Cell& cell, const std::string& selector)
     std::size_t vertices = 0;
     for (const Body& body : cell.hard_case->scene.bodies)
         vertices += body.mesh.positions.size();
-    const bool whole = vertices * static_cast<std::size_t>(all) <= 2000;
+    const auto more = cell.hard_case->effort.find(cell.method);
+    const std::size_t cost = more == cell.hard_case->effort.end() ? 1 : more->second.cost();
+    const bool whole = vertices * static_cast<std::size_t>(all) * cost <= 2000;
     if (selector.starts_with("cpu"))
         return cell.hard_case->short_steps != 0 ? 0 : whole ? all : kStepsShort;
     return cell.hard_case->compares_bits ? all : whole && selector == "vulkan" ? 1 : 0;
