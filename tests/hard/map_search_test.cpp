@@ -51,7 +51,7 @@ void search(MapCase hard_case, MethodKind method, const std::shared_ptr<Device>&
 
 } // namespace
 
-TEST_CASE("F8 search: settings at which cells pass [.search]")
+TEST_CASE("search for settings at which cells of the map pass", "[.search]")
 {
     const std::vector<Row> table = read_table(table_file(short_run()));
     const char* only_id = std::getenv("TAUT_MAP_ONLY");
