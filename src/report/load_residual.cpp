@@ -22,7 +22,7 @@ namespace taut {
 namespace {
 
 /// Sums within so many times what roundings make of them say nothing.
-constexpr double kNoise = 4;
+constexpr double kNoise = 10;
 
 std::array<std::uint32_t, 2> vertices_of(const StretchElement& e) { return {e.a, e.b}; }
 std::array<std::uint32_t, 4> vertices_of(const BendElement& e)

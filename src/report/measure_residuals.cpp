@@ -130,7 +130,7 @@ void implicit_residual(const View& view, StepReport& out)
             continue;
         worst = std::max(worst, glm::length(inertia - elastic) / (gravity > 0 ? gravity : 1.0));
         lefts += mass * glm::length(inertia - elastic);
-        sizes += std::max(mass * glm::length(inertia), size[i]);
+        sizes += mass * glm::length(inertia) + size[i];
     }
     if (gravity > 0 && view.model.surfaces.empty()) // a surface's pressure joins all vertices
         out.load_residual = load_residual(view.model, view.x, left);

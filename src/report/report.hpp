@@ -50,9 +50,8 @@ struct StepReport
     double primal_residual = 0;
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
     double stretch_residual = -1; ///< that of the distance constraints alone
-    /// What the last substep left of all forces, added up by size, over those at hand (at a vertex inertia,
-    /// or weight and the forces of all its elements, whichever is more): 0 solved, 1 nothing done; -1 where
-    /// primal_residual is.
+    /// What the last substep left of all forces, added up by size, over those at hand (inertia, weight, those
+    /// of every element): 0 solved, at least 1/2 nothing done; -1 where primal_residual is.
     double imbalance = -1;
     /// What the last substep left of a body's loads (weight, inertia) as a whole, as a force or as a torque
     /// about its centre, of the worst body that touches no collider: 0 solved, 1 as if nothing pulled; -1
