@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The suites that take longer than a build should: run before a release, one line of summary a part.
-#   tests/matrix.sh [PART...]      parts: release asan tsan clang hard mutants; all by default
-# release: tests/run.sh. asan (address and undefined), tsan: the presets. clang: the release build by clang,
+#   tests/matrix.sh [PART...]      parts: release headers asan tsan clang hard mutants; all by default
+# release: tests/run.sh. headers: a build without precompiled headers, so that every file includes what it
+# uses. asan (address and undefined), tsan: the presets. clang: the release build by clang,
 # where it is installed. hard: the hard cases and the whole map in full on every executor (hours). mutants:
 # every 10th mutant that tests/mutants.csv does not answer, for half an hour.
 # A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any
@@ -21,6 +22,13 @@ preset() {
 }
 
 part_release() { "$root/tests/run.sh"; }
+
+part_headers() {
+    cd "$root" && cmake -S . -B build/headers -DCMAKE_BUILD_TYPE=Debug -DTAUT_BUILD_TESTS=ON \
+        -DTAUT_BUILD_EXAMPLES=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON &&
+        cmake --build build/headers --parallel "$jobs"
+}
+
 part_asan() { preset asan; }
 part_tsan() { preset tsan; }
 
@@ -42,7 +50,7 @@ part_hard() {
 
 part_mutants() { "$root/tests/mutants.sh" --sample 10 --budget 1800; }
 
-[ $# -gt 0 ] || set -- release asan tsan clang hard mutants
+[ $# -gt 0 ] || set -- release headers asan tsan clang hard mutants
 failed=0
 for part in "$@"; do
     if ! declare -F "part_$part" > /dev/null; then

@@ -71,7 +71,8 @@ StepReport measure(const World& world);
 /// Makes a report's status and reason those found, where that is worse.
 void set_status(const Soundness& found, StepReport& report);
 
-/// The same with residuals of the report beyond what the scene accepts.
+/// The same with residuals of the report beyond what the scene accepts, but for load_residual: a step on the
+/// way may leave loads to the next one, so that it is judged where a run ends (report/residuals.hpp).
 void judge_residuals(const Scene& scene, StepReport& report);
 
 } // namespace taut

@@ -17,7 +17,8 @@ struct Residuals
 /// copy. Throws Error{bad_input} for a world that holds a value that is not finite.
 Residuals residuals_ahead(const World& world);
 
-/// Puts residuals into a report and judges them by what the scene accepts.
+/// Puts residuals into a report and judges them by what the scene accepts, load_residual with them: what
+/// `taut run` does with the state in which a run ends, after measure().
 void judge_residuals(const Scene& scene, const Residuals& left, StepReport& report);
 
 } // namespace taut

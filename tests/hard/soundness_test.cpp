@@ -3,6 +3,7 @@
 
 #include "hard/cases.hpp"
 
+#include "taut/report/residuals.hpp"
 #include "taut/runtime/base/shown.hpp"
 
 #include <map>
@@ -125,6 +126,8 @@ Outcome outcome_of(const Scene& scene, const std::shared_ptr<Device>& device)
         out.most = std::max(out.most, energy);
     }
     out.report = measure(world);
+    if (rank(out.report.status) < rank(Status::diverged))
+        judge_residuals(world.scene(), residuals_ahead(world), out.report); // as `taut run` does
     out.x = world.positions();
     return out;
 }

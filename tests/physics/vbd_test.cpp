@@ -110,7 +110,6 @@ TEST_CASE("the heavy rope has the strains of the golden table (methods A6)")
         scene.bodies[0].vertex_masses[20] = 0.01 * g.ratio;
         scene.method.start = "inertial";
         scene.method.precision = "double";
-        scene.accept.residual = 1e9; // the golden strains are those of few sweeps
         scene.damping = 2;
         World world(scene, device);
         run(world, 600);
@@ -255,7 +254,6 @@ TEST_CASE("Chebyshev acceleration takes a stiff net further in the same sweeps, 
         scene.method.precision = "double";
         scene.method.start = "inertial";
         scene.method.spectral_radius = radius;
-        scene.accept.residual = 1e9; // one step: what few sweeps leave is what is measured
         World world(scene, device);
         run(world, 1);
         Scene long_scene = scene;
