@@ -30,7 +30,7 @@ Scene wheel()
     Scene scene = alone(body);
     scene.gravity = {0, -9.81, 0};
     scene.damping = 4;
-    return resolve(scene);
+    return scene;
 }
 
 /// Where the springs carry the weight: n (l - 1)/c · s/l = m g, l² = 1 + s², by bisection.

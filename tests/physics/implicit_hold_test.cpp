@@ -22,7 +22,7 @@ TEST_CASE("a heavy vertex stands on a light one where statics says", "[implicit_
             scene.colliders = {floor};
             scene.method.type = "implicit_euler";
             scene.method.iterations = 3;
-            World world(resolve(scene), device);
+            World world(scene, device);
             run(world, 120);
             const auto x = world.positions();
             const double short_by = 1 - glm::distance(x[0], x[1]);
