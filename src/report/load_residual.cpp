@@ -1,123 +1,110 @@
-// Sums over bodies of what a solver left.
+// What an exact Newton step would still move where a solver ended.
 //
-// Based on: Newton's laws for a whole body: forces within it cancel in the sums of forces and of torques.
-// Departures: none known to be published as a measure of convergence. A sweep carries a load over one link.
-//   Where too few are taken, what is left is small beside the springs' own forces, and yet the body hangs
-//   in the air.
+// Based on: Nocedal, Wright. Numerical Optimization, 2nd ed., 2006, section 3.3 (the Newton step measures the
+//   distance to a minimum in the variables; the gradient does so in forces, which say little where directions
+//   differ in stiffness). Steihaug. The Conjugate Gradient Method and Trust Regions. SINUM 20, 1983, theorem
+//   2.1 (iterates of conjugate gradients grow).
+// Departures: taken relative to the motion that the loads alone make, by mass. A sweep carries a load over one
+//   link: where too few are taken, what is left is small beside the springs' own forces, and yet the body
+//   hangs in the air. Roundings of stiff springs are large forces that move nothing.
 
 #include "taut/report/load_residual.hpp"
 
-#include "taut/plan/stability.hpp"
-#include "taut/report/element_rates.hpp"
+#include "taut/report/static_energy.hpp"
 
-#include <glm/geometric.hpp>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <cstdint>
 
 namespace taut {
 namespace {
 
-/// Sums within so many times what roundings make of them say nothing.
-constexpr double kNoise = 10;
+using reference::Curvature;
+using reference::State;
+using reference::StaticEnergy;
+using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
 
-std::array<std::uint32_t, 2> vertices_of(const StretchElement& e) { return {e.a, e.b}; }
-std::array<std::uint32_t, 4> vertices_of(const BendElement& e)
-{
-    return {e.edge0, e.edge1, e.wing0, e.wing1};
-}
-std::array<std::uint32_t, 4> vertices_of(const VolumeElement& e) { return e.vertex; }
-std::array<std::uint32_t, 4> vertices_of(const SolidElement& e) { return e.vertex; }
+constexpr int kMostFactored = 30000; // unknowns; solids of more fill gigabytes
+constexpr int kMostIterations = 1000;
 
-/// Those that are free, of bodies that touch nothing. A contact moves its vertices after they were solved, so
-/// what is left beside them is its own, and more than any load in a stiff body that is where it should be.
-std::vector<bool> counted_vertices(const PhysicalModel& model, const std::vector<bool>& touches)
+Eigen::VectorXd solve(const Matrix& a, const Eigen::VectorXd& b)
 {
-    std::vector<bool> out(touches.size(), false);
-    for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
+    if (a.rows() <= kMostFactored)
     {
-        const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
-        if (std::find(touches.begin() + first, touches.begin() + last, true) == touches.begin() + last)
-            for (std::uint32_t i = first; i < last; ++i)
-                out[i] = !model.pinned[i];
+        const Eigen::SimplicialLDLT<Matrix> factors(a);
+        if (factors.info() == Eigen::Success)
+            return factors.solve(b);
     }
+    Eigen::ConjugateGradient<Matrix, Eigen::Lower> gradients(a);
+    gradients.setTolerance(1e-3);
+    gradients.setMaxIterations(kMostIterations);
+    return gradients.solve(b);
+}
+
+/// m, what the Newton step moves each vertex; none where a number is not finite.
+std::vector<double> newton_step(const PhysicalModel& model, std::span<const glm::dvec3> x,
+                                const Leftover& left)
+{
+    const StaticEnergy energy(model);
+    State at;
+    for (const glm::dvec3& p : x)
+        at.push_back({p.x, p.y, p.z});
+    Eigen::VectorXd force(energy.unknowns());
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (const int u = energy.unknown(i); u >= 0)
+            force.segment<3>(u) << left.force[i].x, left.force[i].y, left.force[i].z;
+    const Eigen::VectorXd step =
+        solve(energy.hessian(at, Curvature::projected, 1 / (left.substep * left.substep)), force);
+    if (!step.allFinite())
+        return {};
+    std::vector<double> out(x.size(), 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (const int u = energy.unknown(i); u >= 0)
+            out[i] = step.segment<3>(u).norm();
     return out;
 }
 
-/// N/m, a vertex: of the elements between what is counted and what is held. The others' roundings cancel.
-std::vector<double> stiffness_across(const PhysicalModel& model, std::span<const glm::dvec3> x,
-                                     const std::vector<bool>& counted)
+/// A contact moves its vertices after they were solved, so what is left beside them is its own.
+bool judged(const PhysicalModel& model, const Leftover& left, std::uint32_t first, std::uint32_t last)
 {
-    std::vector<StretchElement> springs;
-    std::vector<BendElement> hinges;
-    std::vector<double> solid(x.size(), 0.0);
-    const auto is_across = [&](const auto& e) {
-        const auto v = vertices_of(e);
-        const auto inside = std::count_if(v.begin(), v.end(), [&](std::uint32_t i) { return counted[i]; });
-        return inside > 0 && inside < static_cast<std::ptrdiff_t>(v.size());
-    };
-    std::copy_if(model.springs.begin(), model.springs.end(), std::back_inserter(springs), is_across);
-    std::copy_if(model.hinges.begin(), model.hinges.end(), std::back_inserter(hinges), is_across);
-    for (const VolumeElement& e : model.volumes)
-        if (is_across(e))
-            reference::add_stiffness(e, x, solid);
-    for (const SolidElement& e : model.solids)
-        if (is_across(e))
-            reference::add_stiffness(e, x, solid);
-    std::vector<double> out = stiffness_rows(springs, hinges, x.size(), x);
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] += solid[i];
-    return out;
-}
-
-/// Of the counted vertices from `first` to before `last`; -1 where there are none.
-double residual_of(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left,
-                   const std::vector<bool>& counted, const std::vector<double>& across, std::uint32_t first,
-                   std::uint32_t last)
-{
-    double mass = 0, loads = 0, arms = 0, slack = 0, turning_slack = 0;
-    glm::dvec3 centre(0), force(0), torque(0);
+    bool moves = false;
     for (std::uint32_t i = first; i < last; ++i)
-        if (counted[i])
-        {
-            mass += model.mass[i];
-            centre += model.mass[i] * x[i];
-        }
-    if (!(mass > 0))
-        return -1;
-    centre /= mass;
-    for (std::uint32_t i = first; i < last; ++i)
-        if (counted[i])
-        {
-            const glm::dvec3 d = x[i] - centre;
-            force += left.force[i];
-            torque += glm::cross(d, left.force[i]);
-            loads += left.load[i];
-            arms += glm::length(d) * left.load[i];
-            const double noise = across[i] * left.rounding;
-            slack += noise * noise;
-            turning_slack += glm::dot(d, d) * noise * noise;
-        }
-    const auto share = [](double of, double noise, double all) {
-        return all > 0 && of > kNoise * noise ? of / all : 0;
-    };
-    return std::max(share(glm::length(force), std::sqrt(slack), loads),
-                    share(glm::length(torque), std::sqrt(turning_slack), arms));
+    {
+        if (!model.pinned[i] && left.touches[i])
+            return false;
+        moves = moves || !model.pinned[i];
+    }
+    return moves;
 }
 
 } // namespace
 
 double load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left)
 {
-    const std::vector<bool> counted = counted_vertices(model, left.touches);
-    const std::vector<double> across = stiffness_across(model, x, counted);
+    std::vector<double> step;
     double worst = -1;
     for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
-        worst = std::max(worst, residual_of(model, x, left, counted, across, model.body_start[b],
-                                            model.body_start[b + 1]));
+    {
+        const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
+        if (!judged(model, left, first, last))
+            continue;
+        if (step.empty()) // of all bodies at once, if one is judged at all
+            step = newton_step(model, x, left);
+        if (step.empty())
+            return -1;
+        double moved = 0, loads = 0;
+        for (std::uint32_t i = first; i < last; ++i)
+            if (!model.pinned[i])
+            {
+                moved += model.mass[i] * step[i];
+                loads += left.load[i];
+            }
+        worst = std::max(worst, loads > 0 ? moved / (loads * left.substep * left.substep) : 0);
+    }
     return worst;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether bodies as a whole answer to their loads.
+// Whether bodies answer to their loads.
 
 #include "taut/report/model.hpp"
 
@@ -13,14 +13,15 @@ struct Leftover
 {
     std::vector<glm::dvec3> force; ///< N: M (x - x~) / h^2 - f(x)
     std::vector<double> load;      ///< N: mass times the larger of gravity and |(x - x~) / h^2|
-    std::vector<bool> touches;     ///< a collider, whose force is on no record
-    double rounding = 0;           ///< m: of a coordinate
+    std::vector<bool> touches;     ///< a collider, or may have in the substep; its force is on no record
+    double substep = 0;            ///< h, s, > 0
 };
 
-/// Of the worst body the larger of |sum r| / sum l and |sum d x r| / sum |d| l, with the leftover forces r
-/// and the loads l of its free vertices and d from their centre of mass: 0 solved, 1 as if nothing pulled.
-/// A sum that rounded places at held vertices explain counts as 0. Bodies of which a free vertex touches a
-/// collider are left out; -1 where none is left.
+/// What one exact Newton step would still move of a body's mass, over what its loads move in a substep:
+/// sum m |d| / (h^2 sum l) over its free vertices, with (M / h^2 + K) d = r, K made positive semidefinite
+/// element by element; that of the worst body. 0 solved, 1 as if nothing pulled. Bodies of which a free
+/// vertex touches are left out; -1 where none is left. Models of more than 10,000 free vertices are solved
+/// by conjugate gradients that may end early, which understates (their iterates grow).
 double load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);
 
 } // namespace taut

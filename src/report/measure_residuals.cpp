@@ -27,11 +27,12 @@ double surface_gap(const Collider& c, double time, const glm::dvec3& x)
     return reference::surface_at(c, time).touch(x, 0).height;
 }
 
-bool touches(const View& view, std::size_t i)
+/// Whether a vertex is no further than `way` (m) from where a collider holds it.
+bool touches(const View& view, std::size_t i, double way = 0)
 {
     for (const Collider& c : view.world.scene().colliders)
         if (surface_gap(c, view.world.time(), view.x[i]) <=
-            view.model.gap[i] + 1e-6 * view.model.diameter)
+            view.model.gap[i] + 1e-6 * view.model.diameter + way)
             return true;
     return false;
 }
@@ -81,18 +82,6 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
     return worst;
 }
 
-/// For one entry a vertex. Positions are as precise as the largest coordinate lets them be.
-Leftover nothing_left(const View& view)
-{
-    const std::size_t count = view.x.size();
-    double far = 0;
-    for (const glm::dvec3& x : view.x)
-        far = std::max({far, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-    const bool single = view.plan.precision == Precision::float32;
-    return {std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count),
-            far * (single ? 6e-8 : 1.1e-16)};
-}
-
 /// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2), and its share of all forces: what its
 /// iterations left. Not there with dampers, whose force depends on the way, not on the place, and where
 /// elements flow, whose rest shapes the model does not know.
@@ -117,16 +106,18 @@ void implicit_residual(const View& view, StepReport& out)
     std::vector<double> size(view.x.size(), 0.0);
     add_force_sizes(view.model, view.x, size);
     double worst = 0, lefts = 0, sizes = 0;
-    Leftover left = nothing_left(view);
-    for (std::size_t i = 0; i < view.x.size(); ++i)
+    const std::size_t count = view.x.size();
+    Leftover left{std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), h};
+    for (std::size_t i = 0; i < count; ++i)
     {
-        left.touches[i] = !view.model.pinned[i] && touches(view, i);
+        // One that a collider pushed may have left it in the same substep.
+        left.touches[i] = touches(view, i, glm::length(moved[i]) + gravity * h * h);
         const double mass = view.model.mass[i];
         const glm::dvec3 elastic = (force[i] - gas[i]) / mass - view.model.gravity;
         const glm::dvec3 inertia = (moved[i] - guess[i]) / (h * h);
         left.force[i] = mass * (inertia - elastic);
         left.load[i] = mass * std::max(gravity, glm::length(inertia));
-        if (view.model.pinned[i] || left.touches[i])
+        if (view.model.pinned[i] || touches(view, i))
             continue;
         worst = std::max(worst, glm::length(inertia - elastic) / (gravity > 0 ? gravity : 1.0));
         lefts += mass * glm::length(inertia - elastic);

@@ -53,10 +53,10 @@ struct StepReport
     /// What the last substep left of all forces, added up by size, over those at hand (inertia, weight, those
     /// of every element): 0 solved, at least 1/2 nothing done; -1 where primal_residual is.
     double imbalance = -1;
-    /// What the last substep left of a body's loads (weight, inertia) as a whole, as a force or as a torque
-    /// about its centre, of the worst body that touches no collider: 0 solved, 1 as if nothing pulled; -1
-    /// where primal_residual is, without gravity, where a surface holds a volume, and where all bodies
-    /// touch.
+    /// What one exact Newton step would still move of a body's mass after the last substep, over what its
+    /// loads (weight, inertia) move in a substep; of the worst body that no collider can have touched: 0
+    /// solved, 1 as if nothing pulled; -1 where primal_residual is, without gravity, where a surface holds a
+    /// volume, and where all bodies touch (report/load_residual.hpp).
     double load_residual = -1;
     double max_speed = 0;        ///< m/s
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1

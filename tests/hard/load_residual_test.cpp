@@ -49,20 +49,33 @@ TEST_CASE("a body that hangs in the air is not called completed [hard]")
     INFO("vbd: lowest " << frozen.lowest << " m, load residual " << frozen.report.load_residual
                         << ", imbalance " << frozen.report.imbalance);
     CHECK(frozen.lowest > -0.5);
-    CHECK(frozen.report.load_residual > 1);
+    CHECK(frozen.report.load_residual > 0.5);
     CHECK(frozen.report.imbalance < 1);
     CHECK(frozen.report.status == Status::unconverged);
 }
 
+TEST_CASE("springs whose roundings outweigh the cloth do not hide that it hangs in the air [hard]")
+{
+    for (const char* method : {"vbd", "implicit_euler"})
+        for (const double stiffness : {1e7, 1e9})
+        {
+            const End frozen = end_of(falling(method, 1, 1, stiffness));
+            INFO(method << ", " << stiffness << " N/m: lowest " << frozen.lowest << " m, load residual "
+                        << frozen.report.load_residual);
+            CHECK(frozen.lowest > -0.5);
+            CHECK(frozen.report.status == Status::unconverged);
+        }
+}
+
 TEST_CASE("cloth that is solved answers to its weight [hard]")
 {
-    for (const auto& scene : {falling("vbd", 60, 1, 1e4), falling("implicit_euler", 4, 2, 1e4)})
+    for (const auto& scene : {falling("vbd", 100, 1, 1e4), falling("implicit_euler", 4, 2, 1e4)})
     {
         const End end = end_of(scene);
         INFO(scene.method.type << ": lowest " << end.lowest << " m, load residual "
                                << end.report.load_residual);
         CHECK(end.lowest < -0.75);
-        CHECK(end.report.load_residual < 0.5);
+        CHECK(end.report.load_residual < 0.2);
         CHECK(end.report.status == Status::completed);
     }
 }
@@ -71,9 +84,9 @@ TEST_CASE("what a scene accepts of its loads decides the status [hard]")
 {
     Scene scene = falling("vbd", 1, 1, 1e6);
     const double left = end_of(scene).report.load_residual;
-    scene.accept.residual = 2 * left;
+    scene.accept.residual = 4.1 * left;
     CHECK(end_of(scene).report.status == Status::completed);
-    scene.accept.residual = 0.5 * left;
+    scene.accept.residual = 3.9 * left;
     CHECK(end_of(scene).report.status == Status::unconverged);
 }
 
