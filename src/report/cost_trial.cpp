@@ -1,5 +1,7 @@
 #include "taut/report/cost_trial.hpp"
 
+#include "taut/report/residuals.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -95,10 +97,13 @@ void Trial::judge_end(Motion& motion)
 {
     if (!motion.reason.empty() || motion.steps == 0)
         return;
-    const Soundness end = judge(budget_, world_);
-    motion.status = end.status;
-    if (!end.sound())
-        motion.reason = std::string(to_string(end.status)) + ": " + end.reason + ", in frame " +
+    StepReport report;
+    set_status(judge(budget_, world_), report);
+    if (report.status == Status::completed)
+        judge_residuals(world_.scene(), residuals_ahead(world_), report);
+    motion.status = report.status;
+    if (report.status != Status::completed)
+        motion.reason = std::string(to_string(report.status)) + ": " + report.reason + ", in frame " +
                         std::to_string(motion.steps);
 }
 

@@ -1,11 +1,11 @@
 // What an exact Newton step would still move where a solver ended.
 //
-// Based on: Nocedal, Wright. Numerical Optimization, 2nd ed., 2006, section 3.3 (the Newton step measures the
-//   distance to a minimum in the variables; the gradient does so in forces, which say little where directions
-//   differ in stiffness). Steihaug. The Conjugate Gradient Method and Trust Regions. SINUM 20, 1983, theorem
-//   2.1 (iterates of conjugate gradients grow).
-// Departures: taken relative to the motion that the loads alone make, by mass. A sweep carries a load over one
-//   link: where too few are taken, what is left is small beside the springs' own forces, and yet the body
+// Based on: Nocedal, Wright. Numerical Optimization, 2nd ed., 2006, section 3.3 (the Newton step measures
+//   the distance to a minimum in the variables; the gradient does so in forces, which say little where
+//   directions differ in stiffness). Steihaug. The Conjugate Gradient Method and Trust Regions. SINUM 20,
+//   1983, theorem 2.1 (iterates of conjugate gradients grow).
+// Departures: taken relative to the motion that the loads alone make, by mass. A sweep carries a load over
+//   one link: where too few are taken, what is left is small beside the springs' own forces, and yet the body
 //   hangs in the air. Roundings of stiff springs are large forces that move nothing.
 
 #include "taut/report/load_residual.hpp"
@@ -14,6 +14,8 @@
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +30,14 @@ using reference::State;
 using reference::StaticEnergy;
 using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
 
-constexpr int kMostFactored = 30000; // unknowns; solids of more fill gigabytes
+constexpr int kMostFactored = 30000, kMostFactoredOfSolids = 6000; // unknowns; solids fill more
 constexpr int kMostIterations = 1000;
+constexpr double kHeld = 1e9;    // times the diagonal
+constexpr double kTouching = 0.5; // right runs leave more where vertices are held that a contact may let go
 
-Eigen::VectorXd solve(const Matrix& a, const Eigen::VectorXd& b)
+Eigen::VectorXd solve(const Matrix& a, const Eigen::VectorXd& b, bool solids)
 {
-    if (a.rows() <= kMostFactored)
+    if (a.rows() <= (solids ? kMostFactoredOfSolids : kMostFactored))
     {
         const Eigen::SimplicialLDLT<Matrix> factors(a);
         if (factors.info() == Eigen::Success)
@@ -45,66 +49,60 @@ Eigen::VectorXd solve(const Matrix& a, const Eigen::VectorXd& b)
     return gradients.solve(b);
 }
 
-/// m, what the Newton step moves each vertex; none where a number is not finite.
-std::vector<double> newton_step(const PhysicalModel& model, std::span<const glm::dvec3> x,
-                                const Leftover& left)
+/// m, the Newton step of each vertex.
+std::vector<glm::dvec3> newton_step(const PhysicalModel& model, std::span<const glm::dvec3> x,
+                                    const Leftover& left)
 {
     const StaticEnergy energy(model);
     State at;
     for (const glm::dvec3& p : x)
         at.push_back({p.x, p.y, p.z});
-    Eigen::VectorXd force(energy.unknowns());
+    Matrix stiffness = energy.hessian(at, Curvature::projected, 1 / (left.substep * left.substep));
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(energy.unknowns());
     for (std::size_t i = 0; i < x.size(); ++i)
         if (const int u = energy.unknown(i); u >= 0)
-            force.segment<3>(u) << left.force[i].x, left.force[i].y, left.force[i].z;
-    const Eigen::VectorXd step =
-        solve(energy.hessian(at, Curvature::projected, 1 / (left.substep * left.substep)), force);
-    if (!step.allFinite())
-        return {};
-    std::vector<double> out(x.size(), 0.0);
+        {
+            if (!left.touches[i])
+                force.segment<3>(u) << -left.force[i].x, -left.force[i].y, -left.force[i].z;
+            for (int c = 0; c < 3 && left.touches[i]; ++c)
+                stiffness.coeffRef(u + c, u + c) *= kHeld;
+        }
+    const bool solids = !model.solids.empty() || !model.volumes.empty();
+    const Eigen::VectorXd step = solve(stiffness, force, solids);
+    std::vector<glm::dvec3> out(x.size(), glm::dvec3(0));
     for (std::size_t i = 0; i < x.size(); ++i)
         if (const int u = energy.unknown(i); u >= 0)
-            out[i] = step.segment<3>(u).norm();
+            out[i] = {step[u], step[u + 1], step[u + 2]};
     return out;
 }
 
-/// A contact moves its vertices after they were solved, so what is left beside them is its own.
-bool judged(const PhysicalModel& model, const Leftover& left, std::uint32_t first, std::uint32_t last)
+/// Of the vertices from `first` to before `last`.
+double residual_of(const PhysicalModel& model, std::span<const glm::dvec3> step, const Leftover& left,
+                   std::uint32_t first, std::uint32_t last)
 {
-    bool moves = false;
+    const auto begin = left.touches.begin();
+    const bool touches = std::find(begin + first, begin + last, true) != begin + last;
+    const glm::dvec3 down = glm::normalize(model.gravity);
+    double moved = 0, loads = 0;
     for (std::uint32_t i = first; i < last; ++i)
-    {
-        if (!model.pinned[i] && left.touches[i])
-            return false;
-        moves = moves || !model.pinned[i];
-    }
-    return moves;
+        if (!model.pinned[i])
+        {
+            moved += model.mass[i] * (touches ? kTouching * std::max(0.0, glm::dot(step[i], down))
+                                              : glm::length(step[i]));
+            loads += left.load[i];
+        }
+    const double share = moved / (loads * left.substep * left.substep);
+    return loads > 0 ? (std::isfinite(share) ? share : HUGE_VAL) : -1;
 }
 
 } // namespace
 
 double load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left)
 {
-    std::vector<double> step;
+    const std::vector<glm::dvec3> step = newton_step(model, x, left);
     double worst = -1;
     for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
-    {
-        const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
-        if (!judged(model, left, first, last))
-            continue;
-        if (step.empty()) // of all bodies at once, if one is judged at all
-            step = newton_step(model, x, left);
-        if (step.empty())
-            return -1;
-        double moved = 0, loads = 0;
-        for (std::uint32_t i = first; i < last; ++i)
-            if (!model.pinned[i])
-            {
-                moved += model.mass[i] * step[i];
-                loads += left.load[i];
-            }
-        worst = std::max(worst, loads > 0 ? moved / (loads * left.substep * left.substep) : 0);
-    }
+        worst = std::max(worst, residual_of(model, step, left, model.body_start[b], model.body_start[b + 1]));
     return worst;
 }
 

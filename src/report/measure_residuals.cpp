@@ -6,8 +6,7 @@
 #include "taut/report/measure_residuals.hpp"
 
 #include "taut/plan/methods.hpp"
-#include "taut/report/contact.hpp"
-#include "taut/report/load_residual.hpp"
+#include "taut/report/implicit_residual.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -20,22 +19,6 @@ namespace {
 using reference::BendingRecord;
 using reference::DistanceRecord;
 using reference::View;
-
-/// Signed distance of a point to a collider's surface at a time, m; of a box, to its nearest face.
-double surface_gap(const Collider& c, double time, const glm::dvec3& x)
-{
-    return reference::surface_at(c, time).touch(x, 0).height;
-}
-
-/// Whether a vertex is no further than `way` (m) from where a collider holds it.
-bool touches(const View& view, std::size_t i, double way = 0)
-{
-    for (const Collider& c : view.world.scene().colliders)
-        if (surface_gap(c, view.world.time(), view.x[i]) <=
-            view.model.gap[i] + 1e-6 * view.model.diameter + way)
-            return true;
-    return false;
-}
 
 /// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of the distance constraints.
 double distance_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
@@ -82,53 +65,6 @@ double bending_residual(const View& view, double h, std::vector<glm::dvec3>& imp
     return worst;
 }
 
-/// r_acc of an implicit substep, |M (x - x~) - h^2 f(x)| / (m g h^2), and its share of all forces: what its
-/// iterations left. Not there with dampers, whose force depends on the way, not on the place, and where
-/// elements flow, whose rest shapes the model does not know.
-void implicit_residual(const View& view, StepReport& out)
-{
-    const bool damped = std::any_of(view.model.springs.begin(), view.model.springs.end(),
-                                    [](const StretchElement& e) { return e.damping > 0; });
-    const auto& bodies = view.world.scene().bodies;
-    const bool flows = std::any_of(bodies.begin(), bodies.end(),
-                                   [](const Body& body) { return body.material.plastic_yield > 0; });
-    if (damped || flows)
-        return;
-    const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();
-    if (guess.empty())
-        return;
-    const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
-    std::vector<glm::dvec3> force(view.x.size(), glm::dvec3(0));
-    add_forces(view.model, view.x, force);
-    std::vector<glm::dvec3> gas(view.x.size(), glm::dvec3(0)); // of the guess, which it has pushed
-    for (const GasElement& e : view.model.gases)
-        add_gas_forces(e, view.x, gas);
-    std::vector<double> size(view.x.size(), 0.0);
-    add_force_sizes(view.model, view.x, size);
-    double worst = 0, lefts = 0, sizes = 0;
-    const std::size_t count = view.x.size();
-    Leftover left{std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), h};
-    for (std::size_t i = 0; i < count; ++i)
-    {
-        // One that a collider pushed may have left it in the same substep.
-        left.touches[i] = touches(view, i, glm::length(moved[i]) + gravity * h * h);
-        const double mass = view.model.mass[i];
-        const glm::dvec3 elastic = (force[i] - gas[i]) / mass - view.model.gravity;
-        const glm::dvec3 inertia = (moved[i] - guess[i]) / (h * h);
-        left.force[i] = mass * (inertia - elastic);
-        left.load[i] = mass * std::max(gravity, glm::length(inertia));
-        if (view.model.pinned[i] || touches(view, i))
-            continue;
-        worst = std::max(worst, glm::length(inertia - elastic) / (gravity > 0 ? gravity : 1.0));
-        lefts += mass * glm::length(inertia - elastic);
-        sizes += mass * glm::length(inertia) + size[i];
-    }
-    if (gravity > 0 && view.model.surfaces.empty()) // a surface's pressure joins all vertices
-        out.load_residual = load_residual(view.model, view.x, left);
-    out.primal_residual = worst;
-    out.imbalance = sizes > 0 ? lefts / sizes : 0;
-}
-
 } // namespace
 
 void measure_residuals(const View& view, StepReport& out)
@@ -143,7 +79,7 @@ void measure_residuals(const View& view, StepReport& out)
                     [](const EffectCost& e) { return e.name == "strain_limit" || e.name == "attachment"; });
     const MethodKind kind = method_of(view.world.scene());
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
-        implicit_residual(view, out);
+        measure_implicit_residual(view, out);
     const bool by_multipliers = kind == MethodKind::xpbd && kept;
     if (!by_multipliers || limited)
         return;
@@ -158,7 +94,7 @@ void measure_residuals(const View& view, StepReport& out)
     double worst = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
-        if (view.model.pinned[i] || touches(view, i))
+        if (view.model.pinned[i] || touches_collider(view, i))
             continue;
         const double mass = view.model.mass[i];
         const glm::dvec3 r = mass * (moved[i] - guess[i]) - impulse[i];

@@ -6,8 +6,8 @@
 
 namespace taut {
 
-/// Fills in primal_residual, dual_residual, stretch_residual, imbalance and load_residual (report.hpp); of a
-/// plan without their buffers (PlanOptions::residuals) they stay -1.
+/// Fills in primal_residual, dual_residual, stretch_residual and imbalance (report.hpp); of a plan without
+/// their buffers (PlanOptions::residuals) they stay -1.
 void measure_residuals(const reference::View& view, StepReport& out);
 
 } // namespace taut

@@ -53,10 +53,11 @@ struct StepReport
     /// What the last substep left of all forces, added up by size, over those at hand (inertia, weight, those
     /// of every element): 0 solved, at least 1/2 nothing done; -1 where primal_residual is.
     double imbalance = -1;
-    /// What one exact Newton step would still move of a body's mass after the last substep, over what its
-    /// loads (weight, inertia) move in a substep; of the worst body that no collider can have touched: 0
-    /// solved, 1 as if nothing pulled; -1 where primal_residual is, without gravity, where a surface holds a
-    /// volume, and where all bodies touch (report/load_residual.hpp).
+    /// What one exact Newton step would still move of the worst body's mass after the last substep, over what
+    /// its loads (weight, inertia) move in a substep; of a body that touches a collider half of what goes
+    /// along gravity alone (report/load_residual.hpp): 0 solved, 1 as if nothing pulled. Dear, so that
+    /// residuals_ahead() measures it and measure() leaves -1; -1 also under other methods, without gravity,
+    /// and with plastic strain, attachments and held surface volumes.
     double load_residual = -1;
     double max_speed = 0;        ///< m/s
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1

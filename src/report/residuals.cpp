@@ -1,6 +1,7 @@
 #include "taut/report/residuals.hpp"
 
 #include "taut/plan/methods.hpp"
+#include "taut/report/implicit_residual.hpp"
 #include "taut/runtime/base/shown.hpp"
 
 namespace taut {
@@ -23,7 +24,7 @@ Residuals residuals_ahead(const World& world)
     copy.step();
     const StepReport further = measure(copy);
     return {further.primal_residual, further.dual_residual, further.imbalance, further.stretch_residual,
-            further.load_residual};
+            measure_load_residual(copy)};
 }
 
 void judge_residuals(const Scene& scene, const Residuals& left, StepReport& report)

@@ -26,6 +26,8 @@ public:
             fail("has an empty key; write for example method.substeps=20");
         if (at.is_null())
             at = nlohmann::json::object();
+        if (at.is_array())
+            fail("asks for \"" + key + "\" of a list; write an element of it as bodies[0]");
         if (!at.is_object())
             fail("asks for \"" + key + "\" in what is not an object");
         nlohmann::json* found = &at[key];

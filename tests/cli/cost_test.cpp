@@ -12,7 +12,7 @@ namespace {
 std::vector<std::string> cost(const std::string& scene, const std::vector<std::string>& more = {})
 {
     std::vector<std::string> out{
-        "cost",         scene, "--device",    "cpu:serial", "--frames",         "4", "--substeps", "2,10",
+        "cost",         scene, "--device",    "cpu:serial", "--frames",         "4", "--substeps", "5,20",
         "--iterations", "1",   "--precision", "double",     "--timing-seconds", "0"};
     out.insert(out.end(), more.begin(), more.end());
     return out;

@@ -67,6 +67,49 @@ TEST_CASE("springs whose roundings outweigh the cloth do not hide that it hangs 
         }
 }
 
+TEST_CASE("dampers, limits and a ball beside it do not hide that cloth hangs in the air [hard]")
+{
+    for (const char* method : {"vbd", "implicit_euler"})
+    {
+        Scene damped = falling(method, 1, 1, 1e9), limited = damped, beside = damped;
+        damped.bodies[0].material.stretch_damping = 1e-6;
+        limited.bodies[0].material.strain_limit = 0.05;
+        Collider ball; // under a corner that hangs free
+        ball.point = limited.bodies[0].mesh.positions.back() - glm::dvec3(0, 0.101, 0);
+        ball.radius = 0.1;
+        beside.colliders = {ball};
+        for (const Scene& scene : {damped, limited, beside})
+        {
+            const End frozen = end_of(resolve(scene));
+            INFO(method << ": lowest " << frozen.lowest << " m, load residual "
+                        << frozen.report.load_residual);
+            CHECK(frozen.lowest > -0.5);
+            CHECK(frozen.report.status == Status::unconverged);
+        }
+    }
+}
+
+TEST_CASE("stiff cloth that stays in the air round a ball is not called completed, draped cloth is [hard]")
+{
+    const auto draped = [](const char* method, std::uint32_t substeps, double stiffness) {
+        Scene scene = falling(method, substeps, 1, stiffness);
+        scene.bodies[0].pins.clear();
+        Collider ball;
+        ball.point = {0, -0.301, 0};
+        ball.radius = 0.3;
+        ball.friction = 0.4;
+        scene.colliders = {ball};
+        const End end = end_of(resolve(scene));
+        INFO(method << ", " << stiffness << " N/m: lowest " << end.lowest << " m, load residual "
+                    << end.report.load_residual << ", " << end.report.reason);
+        CHECK((end.lowest < -0.5) == (stiffness < 1e4));
+        return end.report.status;
+    };
+    CHECK(draped("vbd", 10, 1e6) == Status::unconverged);
+    CHECK(draped("vbd", 30, 1e3) == Status::completed);
+    CHECK(draped("implicit_euler", 30, 1e3) == Status::completed);
+}
+
 TEST_CASE("cloth that is solved answers to its weight [hard]")
 {
     for (const auto& scene : {falling("vbd", 100, 1, 1e4), falling("implicit_euler", 4, 2, 1e4)})

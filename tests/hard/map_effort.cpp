@@ -1,5 +1,5 @@
-// What cells of the robustness map need to pass beyond the settings that the map gives their method: the
-// cheapest that `tests/hard/update_map.sh search` found.
+// What cells of the robustness map take beyond the settings that the map gives their method: the cheapest
+// with which `tests/hard/update_map.sh search` found them to pass, at the size of the short form.
 
 #include "hard/map.hpp"
 

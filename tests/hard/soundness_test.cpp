@@ -182,8 +182,9 @@ TEST_CASE("no blow-up is called completed, and nothing that is right is called a
                          << run.report.reason << "; kinetic energy " << shown(run.most, 3) << ", solved "
                          << shown(solution.most, 3) << " (per kg and vertex)");
             if (test_detail::is_set("TAUT_NOTES"))
-                std::printf("soundness case %d | %s | %s | %s | %s\n", k, scene.method.type.c_str(),
-                            truth.c_str(), word.c_str(), run.report.reason.c_str());
+                std::printf("soundness case %d | %s | %s | %s | load residual %g, imbalance %g | %s\n", k,
+                            scene.method.type.c_str(), truth.c_str(), word.c_str(),
+                            run.report.load_residual, run.report.imbalance, run.report.reason.c_str());
             if (truth == "blown up")
                 CHECK(word != "completed");
             if (truth == "right")

@@ -51,6 +51,7 @@ TEST_CASE("settings that say nothing are refused in words")
     CHECK_THAT(refusal_of("bodies[0.velocity=[0, 0, 0]"), Contains("does not close"));
     CHECK_THAT(refusal_of("method[0]=3"), Contains("not a list"));
     CHECK_THAT(refusal_of("taut.x=3"), Contains("not an object"));
+    CHECK_THAT(refusal_of("bodies.0.velocity=[0, 0, 0]"), Contains("of a list") && Contains("bodies[0]"));
     CHECK_THAT(refusal_of("method.substep=3"), Contains("did you mean \"substeps\"?")); // by the parser
     CHECK_THAT(refusal_of("method.substeps=many"), Contains("many"));
 }

@@ -1,0 +1,160 @@
+// Forces that are left in M (x - x~) / h^2 = f(x) after the last substep, in fp64 on the host.
+//
+// Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2 (implicit Euler as a minimum).
+// Departures: dampers are springs to what was before the substep (below). Vertices that touch a collider are
+//   left out, whose contact forces are on no record.
+
+#include "taut/report/implicit_residual.hpp"
+
+#include "taut/plan/methods.hpp"
+#include "taut/report/contact.hpp"
+#include "taut/report/load_residual.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace taut {
+namespace {
+
+using reference::View;
+
+/// Springs nearer to their limit than this share of it may have been pulled back by it.
+constexpr double kNearLimit = 0.9;
+
+struct Substep
+{
+    PhysicalModel model;                   ///< with dampers as springs
+    std::vector<glm::dvec3> moved, inertia; ///< m; (x - x~) / h^2, m/s^2
+    Leftover left;
+};
+
+/// A damper of c N s/m adds the force c/h e to a spring, e what the substep made it longer: together they are a
+/// spring of k + c/h with the rest length at which that gives the force of both. implicit_euler takes e along the
+/// present direction, vbd as the difference of lengths.
+void put_dampers_into_springs(const View& view, const std::vector<glm::dvec3>& moved, double h,
+                              PhysicalModel& model)
+{
+    const bool by_length = method_of(view.world.scene()) == MethodKind::vbd;
+    for (StretchElement& e : model.springs)
+    {
+        const glm::dvec3 d = view.x[e.a] - view.x[e.b], change = moved[e.a] - moved[e.b];
+        const double length = glm::length(d);
+        if (!(e.damping > 0 && length > 0 && e.compliance > 0))
+            continue;
+        const double longer = by_length ? length - glm::length(d - change) : glm::dot(change, d) / length;
+        const double stiffness = 1 / e.compliance, drag = e.damping / h;
+        const double pull = stiffness * (length - e.rest_length) + drag * longer;
+        e.compliance = 1 / (stiffness + drag);
+        e.rest_length = length - pull * e.compliance;
+    }
+}
+
+std::optional<Substep> last_substep(const View& view)
+{
+    const auto& bodies = view.world.scene().bodies;
+    const bool flows = std::any_of(bodies.begin(), bodies.end(),
+                                   [](const Body& body) { return body.material.plastic_yield > 0; });
+    const std::vector<glm::dvec3> guess = view.world.predictions();
+    if (flows || guess.empty())
+        return std::nullopt;
+    const std::size_t count = view.x.size();
+    const double h = view.plan.timestep / view.plan.substeps;
+    Substep out{view.model, view.world.displacements(), {}, {}};
+    put_dampers_into_springs(view, out.moved, h, out.model);
+    std::vector<glm::dvec3> force(count, glm::dvec3(0)), gas(count, glm::dvec3(0));
+    add_forces(out.model, view.x, force);
+    for (const GasElement& e : out.model.gases) // of the guess, which it has pushed
+        add_gas_forces(e, view.x, gas);
+    out.left = {std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), h};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const double mass = out.model.mass[i];
+        const glm::dvec3 elastic = force[i] - gas[i] - mass * out.model.gravity;
+        out.inertia.push_back((out.moved[i] - guess[i]) / (h * h));
+        out.left.force[i] = mass * out.inertia[i] - elastic;
+    }
+    return out;
+}
+
+/// Marks the ends of springs that a strain limit may have moved.
+void mark_limited(const View& view, std::vector<bool>& marks)
+{
+    const auto& bodies = view.world.scene().bodies;
+    for (const StretchElement& e : view.model.springs)
+    {
+        const auto& starts = view.model.body_start;
+        const auto next = std::upper_bound(starts.begin(), starts.end(), e.a);
+        const double limit =
+            bodies[static_cast<std::size_t>(next - starts.begin()) - 1].material.strain_limit;
+        const double length = glm::distance(view.x[e.a], view.x[e.b]);
+        if (limit > 0 && length > (1 + kNearLimit * limit) * e.rest_length)
+            marks[e.a] = marks[e.b] = true;
+    }
+}
+
+bool has_effect(const View& view, std::string_view name)
+{
+    return std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
+                       [&](const EffectCost& e) { return e.name == name; });
+}
+
+} // namespace
+
+bool touches_collider(const View& view, std::size_t vertex, double way)
+{
+    const auto& colliders = view.world.scene().colliders;
+    const double near = view.model.gap[vertex] + 1e-6 * view.model.diameter + way;
+    return std::any_of(colliders.begin(), colliders.end(), [&](const Collider& c) {
+        return reference::surface_at(c, view.world.time()).touch(view.x[vertex], 0).height <= near;
+    });
+}
+
+void measure_implicit_residual(const View& view, StepReport& out)
+{
+    const std::optional<Substep> last = last_substep(view);
+    if (!last)
+        return;
+    const double gravity = glm::length(last->model.gravity);
+    std::vector<double> size(view.x.size(), 0.0);
+    add_force_sizes(last->model, view.x, size);
+    double worst = 0, lefts = 0, sizes = 0;
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        if (last->model.pinned[i] || touches_collider(view, i))
+            continue;
+        const double mass = last->model.mass[i], left = glm::length(last->left.force[i]);
+        worst = std::max(worst, left / mass / (gravity > 0 ? gravity : 1.0));
+        lefts += left;
+        sizes += mass * glm::length(last->inertia[i]) + size[i];
+    }
+    out.primal_residual = worst;
+    out.imbalance = sizes > 0 ? lefts / sizes : 0;
+}
+
+double measure_load_residual(const World& world)
+{
+    const View view(world);
+    const double gravity = glm::length(view.model.gravity);
+    const MethodKind kind = method_of(world.scene());
+    if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd) || !(gravity > 0) ||
+        !view.model.surfaces.empty() || has_effect(view, "attachment")) // both join far vertices
+        return -1;
+    std::optional<Substep> last = last_substep(view);
+    if (!last)
+        return -1;
+    Leftover& left = last->left;
+    for (std::size_t i = 0; i < view.x.size(); ++i)
+    {
+        left.load[i] = last->model.mass[i] * std::max(gravity, glm::length(last->inertia[i]));
+        // One that a collider pushed may have left it in the same substep.
+        left.touches[i] = touches_collider(
+            view, i, glm::length(last->moved[i]) + gravity * left.substep * left.substep);
+    }
+    mark_limited(view, left.touches);
+    return load_residual(last->model, view.x, left);
+}
+
+} // namespace taut
