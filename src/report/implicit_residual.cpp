@@ -1,6 +1,7 @@
 // Forces that are left in M (x - x~) / h^2 = f(x) after the last substep, in fp64 on the host.
 //
-// Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2 (implicit Euler as a minimum).
+// Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2 (implicit Euler as a
+//   minimum).
 // Departures: dampers are springs to what was before the substep (below). Vertices that touch a collider are
 //   left out, whose contact forces are on no record.
 
@@ -31,9 +32,9 @@ struct Substep
     Leftover left;
 };
 
-/// A damper of c N s/m adds the force c/h e to a spring, e what the substep made it longer: together they are a
-/// spring of k + c/h with the rest length at which that gives the force of both. implicit_euler takes e along the
-/// present direction, vbd as the difference of lengths.
+/// A damper of c N s/m adds the force c/h e to a spring, e what the substep made it longer: together they are
+/// a spring of k + c/h with the rest length at which that gives the force of both. implicit_euler takes e
+/// along the present direction, vbd as the difference of lengths.
 void put_dampers_into_springs(const View& view, const std::vector<glm::dvec3>& moved, double h,
                               PhysicalModel& model)
 {

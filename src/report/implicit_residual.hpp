@@ -9,8 +9,8 @@ namespace taut {
 /// Whether a vertex is no further than `way` (m) from where a collider holds it.
 bool touches_collider(const reference::View& view, std::size_t vertex, double way = 0);
 
-/// Fills in primal_residual and imbalance (report.hpp). Leaves them where the plan keeps no inertial guess, and
-/// where elements flow, whose rest shapes the model does not know.
+/// Fills in primal_residual and imbalance (report.hpp). Leaves them where the plan keeps no inertial guess,
+/// and where elements flow, whose rest shapes the model does not know.
 void measure_implicit_residual(const reference::View& view, StepReport& out);
 
 /// StepReport::load_residual of a world that has just made a step; -1 where there is none. Solves a linear
