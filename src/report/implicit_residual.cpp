@@ -27,7 +27,7 @@ constexpr double kNearLimit = 0.9;
 
 struct Substep
 {
-    PhysicalModel model;                   ///< with dampers as springs
+    PhysicalModel model;                    ///< with dampers as springs
     std::vector<glm::dvec3> moved, inertia; ///< m; (x - x~) / h^2, m/s^2
     Leftover left;
 };

@@ -14,7 +14,7 @@ bool touches_collider(const reference::View& view, std::size_t vertex, double wa
 void measure_implicit_residual(const reference::View& view, StepReport& out);
 
 /// StepReport::load_residual of a world that has just made a step; -1 where there is none. Solves a linear
-/// system of the whole scene, as dear as some to some hundred substeps: for the end of a run.
+/// system of the whole scene: for the end of a run, not for every look.
 double measure_load_residual(const World& world);
 
 } // namespace taut
