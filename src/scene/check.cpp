@@ -85,14 +85,20 @@ void check_pin_names(const Pin& pin, ShapeKind kind, const Checker& out)
     constexpr std::array<std::string_view, 4> grid_edges = {"top", "bottom", "left", "right"};
     constexpr std::array<std::string_view, 6> box_faces = {"left", "right", "bottom", "top", "back", "front"};
     const bool named = kind == ShapeKind::grid || kind == ShapeKind::chain;
+    const std::string instead = std::string("; use ") +
+                                (kind == ShapeKind::box     ? "\"faces\", "
+                                 : kind == ShapeKind::grid  ? "\"edges\", \"corners\", "
+                                 : kind == ShapeKind::chain ? "\"corners\", "
+                                                            : "") +
+                                "\"vertices\" or \"box\"";
     if (!named && !pin.corners.empty())
-        out.error("corners", "names a corner, which only grids and chains have; use \"vertices\" or \"box\"");
+        out.error("corners", "names a corner, which only grids and chains have" + instead);
     if (kind != ShapeKind::box && !pin.faces.empty())
-        out.error("faces", "names a face, which only a box has; use \"vertices\" or \"box\"");
+        out.error("faces", "names a face, which only a box has" + instead);
     for (std::size_t i = 0; kind == ShapeKind::box && i < pin.faces.size(); ++i)
         out.at("faces", i).word("", pin.faces[i], box_faces);
     if (kind != ShapeKind::grid && !pin.edges.empty())
-        out.error("edges", "names an edge, which only a grid has; use \"vertices\" or \"box\"");
+        out.error("edges", "names an edge, which only a grid has" + instead);
     for (std::size_t i = 0; kind == ShapeKind::grid && i < pin.edges.size(); ++i)
         out.at("edges", i).word("", pin.edges[i], grid_edges);
     for (std::size_t i = 0; named && i < pin.corners.size(); ++i)
@@ -248,6 +254,17 @@ void check_counts(const Body& body, std::size_t vertex_count, const Checker& out
 
 namespace {
 
+void warn_of_idle_wind(const Scene& scene, const Checker& out)
+{
+    const bool blows =
+        scene.wind.density > 0 && (scene.wind.velocity != glm::dvec3(0) || !scene.wind.keys.empty());
+    const bool moves = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
+        return b.material.drag > 0 || b.material.friction_drag > 0;
+    });
+    if (blows && !moves)
+        out.warning("wind", "moves nothing: no material has \"drag\" or \"friction_drag\"");
+}
+
 void check_world(const Scene& scene, const Checker& out)
 {
     check_times(scene, out);
@@ -259,6 +276,7 @@ void check_world(const Scene& scene, const Checker& out)
     out.positive("accept.stretch", scene.accept.stretch, "(a strain)");
     out.positive("accept.residual", scene.accept.residual, "(a share of the forces)");
     check_wind(scene.wind, out.at("wind"));
+    warn_of_idle_wind(scene, out);
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)
         check_collider(scene.colliders[i], out.at("colliders", i));
 }

@@ -46,9 +46,12 @@ const Field& Field::object(std::string_view kind)
     {
         if (std::find(known.keys.begin(), known.keys.end(), item.key()) != known.keys.end())
             continue;
+        const std::string_view hint = meant(kind, item.key());
         const std::string close = nearest(item.key(), known.keys);
         fail("has the unknown key " + shown(item.key()) + "; " +
-             (close.empty() ? "it may have " + listing(known.keys) : "did you mean \"" + close + "\"?"));
+             (!hint.empty()   ? std::string(hint)
+              : close.empty() ? "it may have " + listing(known.keys)
+                              : "did you mean \"" + close + "\"?"));
     }
     kind_ = known.object;
     return *this;

@@ -89,6 +89,24 @@ const KeySet& keys_of(std::string_view object)
     return *found;
 }
 
+std::string_view meant(std::string_view object, std::string_view key)
+{
+    constexpr std::string_view solid =
+        "a solid is as stiff as \"youngs_modulus\" (Pa) and \"poissons_ratio\" say";
+    constexpr std::string_view cloth =
+        "cloth is as stiff as \"stretch_stiffness\" (N/m) and \"bending_stiffness\" (N m) say";
+    constexpr std::array<std::array<std::string_view, 3>, 4> known = {{
+        {"solid material", "stretch_stiffness", solid},
+        {"solid material", "tear_strain", "solids do not tear"},
+        {"material", "youngs_modulus", cloth},
+        {"material", "poissons_ratio", cloth},
+    }};
+    for (const auto& [kind, wrong, text] : known)
+        if (kind == object && wrong == key)
+            return text;
+    return {};
+}
+
 namespace {
 
 /// Insertions, deletions, replacements and swaps of neighbours.

@@ -231,6 +231,20 @@ TEST_CASE("an unknown method or word names the nearest known one")
     CHECK_THAT(issues[2].text, Contains("did you mean \"top_left\"?"));
 }
 
+TEST_CASE("a wind that nothing catches is a warning")
+{
+    Scene scene = good_scene();
+    scene.wind.density = 1.2;
+    CHECK(check(scene).empty());
+    scene.wind.velocity = {3, 0, 0};
+    const auto issues = check(scene);
+    REQUIRE(issues.size() == 1);
+    CHECK(!issues[0].error);
+    CHECK_THAT(issues[0].text, Contains("no material has \"drag\""));
+    scene.bodies[0].material.drag = 1;
+    CHECK(check(scene).empty());
+}
+
 TEST_CASE("two bodies of one name are a warning")
 {
     Scene scene = good_scene();

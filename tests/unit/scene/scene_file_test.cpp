@@ -183,6 +183,10 @@ TEST_CASE("an unknown key is refused with the nearest known one")
         Contains(
             "bodies[0].pins[0].motion[0].rotate has the unknown key \"center\"; did you mean \"centre\"?"));
     CHECK_THAT(refusal_of("\"qqqqqqqq\": 1"), Contains("it may have \"taut\", \"name\""));
+    CHECK_THAT(refusal_of_body("\"grid\": {}, \"material\": {\"youngs_modulus\": 1}"),
+               Contains("unknown key \"youngs_modulus\"; cloth is as stiff as \"stretch_stiffness\""));
+    CHECK_THAT(refusal_of_body("\"box\": {}, \"material\": {\"stretch_stiffness\": 1}"),
+               Contains("unknown key \"stretch_stiffness\"; a solid is as stiff as \"youngs_modulus\""));
 }
 
 TEST_CASE("a missing or doubled choice is refused")

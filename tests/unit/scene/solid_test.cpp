@@ -146,7 +146,9 @@ TEST_CASE("a solid of a scene has its own defaults, its own keys, and faces to p
             "unknown key \"stretch_stiffness\"");
     refused(R"({"taut": 1, "bodies": [{"box": {}, "material": {"poissons_ratio": 0.5}}]})", "less than 0.5");
     refused(R"({"taut": 1, "bodies": [{"ball": {"cells": 1}}]})", "it must be 2 or more");
-    refused(R"({"taut": 1, "bodies": [{"grid": {}, "pins": [{"face": "top"}]}]})", "only a box has");
+    refused(R"({"taut": 1, "bodies": [{"grid": {}, "pins": [{"face": "top"}]}]})",
+            "only a box has; use \"edges\", \"corners\"");
+    refused(R"({"taut": 1, "bodies": [{"box": {}, "pins": [{"corner": "top_left"}]}]})", "use \"faces\"");
 }
 
 TEST_CASE("the cow of the data folder is read with all its tetrahedra")
