@@ -41,10 +41,20 @@ std::string name_of(const std::string& name, const char* list, std::size_t numbe
     return name.empty() ? std::string(list) + "[" + std::to_string(number) + "]" : name;
 }
 
-/// From the box between `low` and `high` to the one between -half and half.
-double apart(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& half)
+/// Square of the distance from the box between `low` and `high` to the one between -half and half.
+double square_apart(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& half)
 {
-    return glm::length(glm::max(glm::max(low - half, -half - high), glm::dvec3(0)));
+    const glm::dvec3 gap = glm::max(glm::max(low - half, -half - high), glm::dvec3(0));
+    return glm::dot(gap, gap);
+}
+
+/// The furthest that any point moved.
+double furthest(std::span<const glm::dvec3> before, std::span<const glm::dvec3> after)
+{
+    double square = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        square = std::max(square, glm::dot(after[i] - before[i], after[i] - before[i]));
+    return std::sqrt(square);
 }
 
 bool finite(const glm::dvec3& p) { return std::isfinite(p.x + p.y + p.z); }
@@ -227,29 +237,33 @@ void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pai
         into_frame(last_, *last_time_, before_);
 
     const glm::dvec3 middle = shape.radius > 0 ? shape.half : shape.half - shape.size;
+    // Squares of distances: most elements are far from everything, and need no root.
     double nearest = std::numeric_limits<double>::infinity(); // of a surface to the middle, at least
     std::uint64_t deep = 0;
     bool fits = false;
-    const double width = width_of(part, obstacle, now);
+    const double width = kTunnelHole * (width_of(part, obstacle, now) + part.gap);
+    const double reach = shape.radius + speed * timestep_; // of what may arrive within a frame
     for (const auto& e : part.elements)
     {
         const Corners now_at{after_[e[0] - part.first], after_[e[1] - part.first], after_[e[2] - part.first]};
         const glm::dvec3 low = glm::min(glm::min(now_at[0], now_at[1]), now_at[2]);
         const glm::dvec3 high = glm::max(glm::max(now_at[0], now_at[1]), now_at[2]);
-        nearest = std::min(nearest, apart(low, high, middle));
-        const double distance = apart(low, high, shape.half) - shape.radius;
-        if (distance > speed * timestep_)
+        nearest = std::min(nearest, square_apart(low, high, middle));
+        const double distance = square_apart(low, high, shape.half);
+        if (distance > reach * reach)
             continue;
-        fits = fits || hole_of(now_at) > kTunnelHole * (width + part.gap);
-        if (distance <= 0 && lies_deep(shape, now_at, part.edge))
+        fits = fits || hole_of(now_at) > width;
+        if (distance <= 0.25 * shape.radius * shape.radius && lies_deep(shape, now_at, part.edge))
         {
             ++deep;
             if (!pair.inside && !first_)
                 found_.depth = std::max(found_.depth, depth_of(shape, now_at));
         }
     }
+    nearest = std::sqrt(nearest);
     pair.inside = deep > 0 && (pair.inside || first_);
-    const bool through = last_time_ && !pair.inside && went_through(part, obstacle);
+    const bool through = last_time_ && !pair.inside && nearest <= furthest(before_, after_) &&
+                         went_through(part, obstacle);
     if (deep > 0 && !pair.inside)
         elements_ += deep;
     found_.passed += through;

@@ -96,13 +96,13 @@ void mark_limited(const View& view, std::vector<bool>& marks)
     }
 }
 
+} // namespace
+
 bool has_effect(const View& view, std::string_view name)
 {
     return std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
                        [&](const EffectCost& e) { return e.name == name; });
 }
-
-} // namespace
 
 bool touches_collider(const View& view, std::size_t vertex, double way)
 {

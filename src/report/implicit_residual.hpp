@@ -9,6 +9,9 @@ namespace taut {
 /// Whether a vertex is no further than `way` (m) from where a collider holds it.
 bool touches_collider(const reference::View& view, std::size_t vertex, double way = 0);
 
+/// Whether the plan has the effect of that name.
+bool has_effect(const reference::View& view, std::string_view name);
+
 /// Fills in primal_residual and imbalance (report.hpp). Leaves them where the plan keeps no inertial guess,
 /// and where elements flow, whose rest shapes the model does not know.
 void measure_implicit_residual(const reference::View& view, StepReport& out);

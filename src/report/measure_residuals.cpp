@@ -74,9 +74,8 @@ void measure_residuals(const View& view, StepReport& out)
     const bool kept = std::all_of(sets.begin(), sets.end(), [](const ConstraintSet& s) {
         return s.multipliers != kNoBuffer && (s.kind == "distance" || s.kind == "bending");
     });
-    const bool limited = // by forces that are on no record
-        std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
-                    [](const EffectCost& e) { return e.name == "strain_limit" || e.name == "attachment"; });
+    // By forces that are on no record.
+    const bool limited = has_effect(view, "strain_limit") || has_effect(view, "attachment");
     const MethodKind kind = method_of(view.world.scene());
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
         measure_implicit_residual(view, out);
