@@ -22,7 +22,11 @@ endmacro()
 # Kernels with a line "//! lanes" are compiled once more, several elements at a time, for processors that the
 # program finds out about when it runs (docs/lanes.md). Bitwise equality between executors, and between the two,
 # needs separate multiply and add, and no other liberties.
-set(taut_kernel_options "$<$<CONFIG:Release,RelWithDebInfo>:-O3>;$<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>;-ffp-contract=off;-fno-math-errno;-fno-trapping-math;-Wno-shadow;-Wno-conversion;-Wno-sign-conversion;-Wno-unused-parameter")
+set(taut_kernel_level -O3)
+if(TAUT_SANITIZE)
+    set(taut_kernel_level -O0) # GCC optimises checked code of this length for many minutes a file
+endif()
+set(taut_kernel_options "$<$<CONFIG:Release,RelWithDebInfo>:${taut_kernel_level}>;$<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>;-ffp-contract=off;-fno-math-errno;-fno-trapping-math;-Wno-shadow;-Wno-conversion;-Wno-sign-conversion;-Wno-unused-parameter")
 # Eight lanes fill the registers, and blocks are so long that the processor sees little more than one at a time:
 # the order in which GCC leaves instructions matters more than elsewhere (docs/lanes.md).
 set(taut_lanes_options "${taut_kernel_options};-mavx2;$<$<CXX_COMPILER_ID:GNU>:-fschedule-insns>")
