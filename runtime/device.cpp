@@ -129,6 +129,13 @@ DevicePtr open_by_word(std::string_view name, const OpenOptions& options)
 
 } // namespace
 
+void Device::replay(Recording& recording, std::span<const BufferWrite> writes)
+{
+    for (const BufferWrite& w : writes)
+        write(w.buffer, 0, w.bytes);
+    recording.replay();
+}
+
 std::shared_ptr<Device> Device::open(std::string_view selector, const OpenOptions& options)
 {
     std::string asked(selector);

@@ -58,8 +58,10 @@ struct DeviceCounters
     std::uint64_t submissions = 0;
     std::uint64_t dispatches = 0;
     std::uint64_t barriers = 0;
-    std::uint64_t bytes_allocated = 0;  ///< now, over all buffers
-    std::uint64_t memory_blocks = 0;    ///< allocations made from the driver, now
+    std::uint64_t bytes_allocated = 0; ///< now, over all buffers
+    std::uint64_t bytes_reserved =
+        0; ///< now, asked of driver or system: buffers, free room in blocks, staging
+    std::uint64_t memory_blocks = 0; ///< allocations made from the driver, now
     std::uint64_t validation_messages = 0;
 };
 
@@ -85,6 +87,13 @@ private:
 };
 
 using BufferPtr = std::shared_ptr<Buffer>;
+
+/// New contents from a buffer's start on; whole words of 4 bytes.
+struct BufferWrite
+{
+    BufferPtr buffer;
+    std::span<const std::byte> bytes;
+};
 
 /// Device time of one dispatch of a timed replay.
 struct DispatchTime
@@ -149,6 +158,10 @@ public:
 
     /// Checks limits and hands the list to the executor. Prefer Recorder.
     virtual std::unique_ptr<Recording> compile(RecordingDesc desc) = 0;
+
+    /// Hands `writes` over and starts a replay of one of this device's recordings, which sees them; what was
+    /// submitted before does not. Waits for nothing where the executor can (Vulkan; OpenGL orders it itself).
+    virtual void replay(Recording& recording, std::span<const BufferWrite> writes);
 
     /// Waits until everything submitted is done. Throws Error{device_lost} if the device failed.
     virtual void wait() = 0;

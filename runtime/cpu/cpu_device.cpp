@@ -139,7 +139,7 @@ public:
         out.submissions = stats.submissions;
         out.dispatches = stats.dispatches;
         out.barriers = stats.barriers;
-        out.bytes_allocated = stats.bytes;
+        out.bytes_allocated = out.bytes_reserved = stats.bytes;
         out.memory_blocks = stats.blocks;
         return out;
     }

@@ -244,6 +244,7 @@ DeviceCounters Context::counters() const
     const std::lock_guard lock(mutex_);
     DeviceCounters out = counters_;
     out.validation_messages = messages_;
+    out.bytes_reserved = out.bytes_allocated; // what the driver takes for them it does not say
     return out;
 }
 

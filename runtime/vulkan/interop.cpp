@@ -86,7 +86,7 @@ std::shared_ptr<Device> adopt(const VulkanContext& host)
                                std::move(info));
 }
 
-void record_into(Recording& recording, VkCommandBuffer commands)
+void record_into(Recording& recording, VkCommandBuffer commands, std::span<const BufferWrite> writes)
 {
     auto* const own = dynamic_cast<vulkan::VulkanRecording*>(&recording);
     if (own == nullptr)
@@ -95,12 +95,13 @@ void record_into(Recording& recording, VkCommandBuffer commands)
                     "command buffer; compile it on one");
     if (commands == VK_NULL_HANDLE)
         throw Error(ErrorCode::bad_input, "the command buffer is null; give one in the recording state");
-    own->record_into(commands);
+    own->record_into(commands, writes);
 }
 
-void record_into_vulkan(Recording& recording, VkCommandBuffer_T* commands)
+void record_into_vulkan(Recording& recording, VkCommandBuffer_T* commands,
+                        std::span<const BufferWrite> writes)
 {
-    record_into(recording, commands);
+    record_into(recording, commands, writes);
 }
 
 VkBuffer vulkan_buffer(const BufferPtr& buffer, VkDeviceSize* offset)

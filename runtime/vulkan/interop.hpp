@@ -2,6 +2,7 @@
 // For engines that have a Vulkan device of their own: simulate on it and draw from the very buffers.
 
 #include "taut/runtime/device.hpp"
+#include "taut/runtime/vulkan/vulkan_device.hpp"
 
 #include <vulkan/vulkan_core.h>
 
@@ -56,8 +57,10 @@ std::shared_ptr<Device> adopt(const VulkanContext& context);
 /// The caller submits to the queue that this device uses (or orders its own queue after it by a semaphore)
 /// and keeps `recording` alive until the work is done; Device::wait does not know of such work, Device::read
 /// on the same queue comes after it. Compute pipeline, descriptor set 0 and push constants of `commands` are
-/// changed. Throws Error{unsupported} for a recording of another executor.
-void record_into(Recording& recording, VkCommandBuffer commands);
+/// changed. `writes` stand in the commands themselves, before the dispatches: what the host hands over for
+/// this submission, whatever it hands over for others that are in flight. Throws Error{unsupported} for a
+/// recording of another executor.
+void record_into(Recording& recording, VkCommandBuffer commands, std::span<const BufferWrite> writes = {});
 
 /// The VkBuffer behind a buffer, to draw from it without a copy (vertex, index, storage, indirect and
 /// transfer usage). `offset`, if given, receives the byte at which the buffer starts in it. Throws

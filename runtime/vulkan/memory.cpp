@@ -172,4 +172,13 @@ std::uint64_t Memory::block_count() const
     return blocks_.size();
 }
 
+std::uint64_t Memory::block_bytes() const
+{
+    const std::lock_guard lock(mutex_);
+    std::uint64_t sum = 0;
+    for (const std::unique_ptr<Block>& block : blocks_)
+        sum += block->bytes;
+    return sum;
+}
+
 } // namespace taut::vulkan

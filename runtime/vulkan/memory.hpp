@@ -43,6 +43,7 @@ public:
     void release(const Allocation& allocation);
 
     std::uint64_t block_count() const;
+    std::uint64_t block_bytes() const; ///< of all blocks, free room and all
 
 private:
     struct Block

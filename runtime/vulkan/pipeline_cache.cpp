@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 namespace taut::vulkan {
@@ -50,13 +51,23 @@ Header header_for(const VkPhysicalDeviceProperties& device, std::span<const std:
 
 } // namespace
 
+bool may_be_cache(const std::string& path)
+{
+    std::error_code code;
+    const std::filesystem::file_status status = std::filesystem::status(path, code);
+    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+}
+
 std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device)
 {
+    constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
+    if (!may_be_cache(path)) // to open a pipe may wait forever
+        return {};
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file)
         return {};
     const auto size = static_cast<std::int64_t>(file.tellg());
-    if (size < static_cast<std::int64_t>(sizeof(Header)))
+    if (size < static_cast<std::int64_t>(sizeof(Header)) || size > kMostBytes)
         return {};
     Header found;
     std::vector<std::byte> contents(static_cast<std::size_t>(size) - sizeof(Header));
@@ -76,6 +87,8 @@ bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperti
 {
     try
     {
+        if (!may_be_cache(path))
+            return false;
         const Header header = header_for(device, contents);
         std::string text(sizeof(Header) + contents.size(), '\0');
         std::memcpy(text.data(), &header, sizeof(Header));

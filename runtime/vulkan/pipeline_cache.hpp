@@ -10,11 +10,15 @@
 
 namespace taut::vulkan {
 
+/// Whether nothing or a file stands at the path; a folder or a pipe is somebody else's.
+bool may_be_cache(const std::string& path);
+
 /// Contents of the file, without its header. Empty when the file is missing, truncated, damaged, of another
-/// version of the format, or of another device or driver.
+/// version of the format, of another device or driver, or no file but a folder or a pipe.
 std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device);
 
-/// Writes to a temporary name and renames. False when that failed; a cache is no reason to stop.
+/// Writes to a temporary name and renames. False when that failed, or when what stands at the path is no
+/// file; a cache is no reason to stop.
 bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device,
                          std::span<const std::byte> contents) noexcept;
 

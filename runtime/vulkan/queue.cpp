@@ -34,14 +34,14 @@ VkFence Queue::idle_fence()
     return idle_.back();
 }
 
-std::uint64_t Queue::submit(VkCommandBuffer commands)
+std::uint64_t Queue::submit(std::span<const VkCommandBuffer> commands)
 {
     const std::lock_guard lock(mutex_);
     health_.require_alive();
     const VkFence fence = idle_fence();
     auto info = start<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    info.commandBufferCount = 1;
-    info.pCommandBuffers = &commands;
+    info.commandBufferCount = static_cast<std::uint32_t>(commands.size());
+    info.pCommandBuffers = commands.data();
     {
         std::unique_lock<std::mutex> host;
         if (host_mutex_ != nullptr)

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <span>
 #include <vector>
 
 namespace taut::vulkan {
@@ -22,7 +23,8 @@ public:
     ~Queue(); ///< nothing may be in flight
 
     /// Returns the number of the submission. Throws Error{device_lost}.
-    std::uint64_t submit(VkCommandBuffer commands);
+    std::uint64_t submit(std::span<const VkCommandBuffer> commands);
+    std::uint64_t submit(VkCommandBuffer commands) { return submit(std::span(&commands, 1)); }
 
     /// Waits until submission `number` and all before it are done.
     void wait(std::uint64_t number);

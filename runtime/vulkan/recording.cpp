@@ -82,6 +82,7 @@ void VulkanRecording::make_pool()
 {
     auto info = start<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     info.queueFamilyIndex = context_->physical.queue_family;
+    info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     context_->health.check(context_->vk.vkCreateCommandPool(context_->device, &info, nullptr, &pool_),
                            "vkCreateCommandPool");
 }
@@ -192,7 +193,7 @@ void VulkanRecording::write_sets(const std::vector<std::size_t>& set_of,
         steps_[i].set = sets[set_of[i]];
 }
 
-VkCommandBuffer VulkanRecording::begin_commands()
+VkCommandBuffer VulkanRecording::new_commands()
 {
     auto info = start<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     info.commandPool = pool_;
@@ -201,9 +202,13 @@ VkCommandBuffer VulkanRecording::begin_commands()
     const VolkDeviceTable& vk = context_->vk;
     context_->health.check(vk.vkAllocateCommandBuffers(context_->device, &info, &commands),
                            "vkAllocateCommandBuffers");
-    const auto begin = start<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-    context_->health.check(vk.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
     return commands;
+}
+
+void VulkanRecording::begin(VkCommandBuffer commands)
+{
+    const auto info = start<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+    context_->health.check(context_->vk.vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
 }
 
 void VulkanRecording::opening_barrier(VkCommandBuffer commands) const
@@ -276,10 +281,19 @@ void VulkanRecording::record_steps(VkCommandBuffer commands)
 
 void VulkanRecording::record_copy(Copy& copy)
 {
-    const VkCommandBuffer commands = begin_commands();
-    record_steps(commands);
-    context_->health.check(context_->vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer");
-    copy.commands = commands;
+    copy.commands = new_commands();
+    begin(copy.commands);
+    record_steps(copy.commands);
+    context_->health.check(context_->vk.vkEndCommandBuffer(copy.commands), "vkEndCommandBuffer");
+}
+
+void VulkanRecording::record_writes(Copy& copy, std::span<const BufferWrite> writes)
+{
+    if (copy.writes == VK_NULL_HANDLE)
+        copy.writes = new_commands();
+    begin(copy.writes);
+    record_writes(copy.writes, writes);
+    context_->health.check(context_->vk.vkEndCommandBuffer(copy.writes), "vkEndCommandBuffer");
 }
 
 void VulkanRecording::count_work()
@@ -288,7 +302,7 @@ void VulkanRecording::count_work()
     context_->barriers += barrier_count();
 }
 
-void VulkanRecording::replay()
+void VulkanRecording::replay(std::span<const BufferWrite> writes)
 {
     const std::lock_guard lock(mutex_);
     context_->health.require_alive();
@@ -296,16 +310,41 @@ void VulkanRecording::replay()
     if (copy.commands == VK_NULL_HANDLE)
         record_copy(copy);
     context_->queue->wait(copy.submission);
-    copy.submission = context_->queue->submit(copy.commands);
+    if (!writes.empty())
+        record_writes(copy, writes);
+    const VkCommandBuffer both[] = {copy.writes, copy.commands};
+    copy.submission = context_->queue->submit(std::span(both).subspan(writes.empty() ? 1 : 0));
     last_submission_ = copy.submission;
     next_copy_ = (next_copy_ + 1) % copies_.size();
     count_work();
 }
 
-void VulkanRecording::record_into(VkCommandBuffer commands)
+void VulkanRecording::record_writes(VkCommandBuffer commands, std::span<const BufferWrite> writes) const
+{
+    constexpr std::size_t kMostBytes = 65536; // of one vkCmdUpdateBuffer
+    if (writes.empty())
+        return;
+    // A step that is still running may read what is about to be written.
+    auto memory = start<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+    memory.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_WRITE_BIT;
+    memory.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    context_->vk.vkCmdPipelineBarrier(commands,
+                                      VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT,
+                                      VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &memory, 0, nullptr, 0, nullptr);
+    for (const BufferWrite& write : writes)
+        for (std::size_t at = 0; at < write.bytes.size(); at += kMostBytes)
+        {
+            const auto part = write.bytes.subspan(at, std::min(kMostBytes, write.bytes.size() - at));
+            context_->vk.vkCmdUpdateBuffer(commands, vulkan_buffer_of(write.buffer).handle, at, part.size(),
+                                           part.data());
+        }
+}
+
+void VulkanRecording::record_into(VkCommandBuffer commands, std::span<const BufferWrite> writes)
 {
     const std::lock_guard lock(mutex_);
     context_->health.require_alive();
+    record_writes(commands, writes);
     record_steps(commands);
     count_work();
 }

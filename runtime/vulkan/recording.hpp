@@ -2,6 +2,7 @@
 // A recording as Vulkan commands, written once and submitted as often as asked.
 
 #include "taut/runtime/vulkan/context.hpp"
+#include "taut/runtime/vulkan/vulkan_device.hpp"
 
 #include <array>
 #include <mutex>
@@ -15,11 +16,13 @@ public:
     VulkanRecording(std::shared_ptr<Context> context, RecordingDesc desc);
     ~VulkanRecording() override;
 
-    void replay() override;
+    void replay() override { replay({}); }
+    /// `writes` are put into the same submission, before the list.
+    void replay(std::span<const BufferWrite> writes);
     std::vector<DispatchTime> replay_timed() override;
 
     /// Writes the whole list, with barriers against everything before and after, into a host's commands.
-    void record_into(VkCommandBuffer commands);
+    void record_into(VkCommandBuffer commands, std::span<const BufferWrite> writes);
 
 private:
     /// What one dispatch needs at recording time, looked up once.
@@ -35,10 +38,11 @@ private:
         bool indirect_follows = false; ///< an indirect dispatch stands between this barrier and the next
     };
 
-    /// A command buffer and the submission that last used it.
+    /// Command buffers and the submission that last used them.
     struct Copy
     {
         VkCommandBuffer commands = VK_NULL_HANDLE;
+        VkCommandBuffer writes = VK_NULL_HANDLE; ///< recorded anew for each replay that has any
         std::uint64_t submission = 0;
     };
 
@@ -49,7 +53,10 @@ private:
     void make_pool();
     void destroy();
     void record_copy(Copy& copy);
-    VkCommandBuffer begin_commands();
+    void record_writes(Copy& copy, std::span<const BufferWrite> writes);
+    VkCommandBuffer new_commands();
+    void begin(VkCommandBuffer commands);
+    void record_writes(VkCommandBuffer commands, std::span<const BufferWrite> writes) const;
     void record_steps(VkCommandBuffer commands);
     void record_timed();
     void make_query_pools();

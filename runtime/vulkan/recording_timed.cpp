@@ -36,7 +36,8 @@ void VulkanRecording::record_timed()
     };
     if (query_pools_.empty())
         make_query_pools();
-    const VkCommandBuffer commands = begin_commands();
+    const VkCommandBuffer commands = new_commands();
+    begin(commands);
     for (std::size_t p = 0; p < query_pools_.size(); ++p)
     {
         const std::size_t left = 2 * steps_.size() - p * kQueriesPerPool;

@@ -7,12 +7,6 @@
 #include <cstring>
 
 namespace taut::vulkan {
-namespace {
-
-constexpr VkDeviceSize kStagingBytes = VkDeviceSize{8} << 20;
-
-} // namespace
-
 Transfer::Transfer(const VolkDeviceTable& vk, VkDevice device,
                    const VkPhysicalDeviceMemoryProperties& properties, std::uint32_t queue_family,
                    Queue& queue, Health& health)

@@ -10,6 +10,8 @@
 
 namespace taut::vulkan {
 
+inline constexpr VkDeviceSize kStagingBytes = VkDeviceSize{8} << 20; ///< of the mapped block
+
 /// Thread-safe. Every call returns after the device has finished.
 class Transfer
 {

@@ -1,6 +1,7 @@
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 
 #include "taut/runtime/limits.hpp"
+#include "taut/runtime/vulkan/pipeline_cache.hpp"
 #include "taut/runtime/vulkan/recording.hpp"
 
 #include <algorithm>
@@ -68,6 +69,16 @@ public:
         return std::make_unique<VulkanRecording>(context_, std::move(desc));
     }
 
+    void replay(Recording& recording, std::span<const BufferWrite> writes) override
+    {
+        auto* const own_recording = dynamic_cast<VulkanRecording*>(&recording);
+        if (own_recording == nullptr)
+            throw Error(ErrorCode::bad_input, "cannot replay: the recording was not compiled by this device");
+        for (const BufferWrite& w : writes)
+            checked(w.buffer, 0, w.bytes.size());
+        own_recording->replay(writes);
+    }
+
     void wait() override { context_->queue->wait_all(); }
 
     DeviceCounters counters() const override
@@ -77,6 +88,7 @@ public:
         out.dispatches = context_->dispatches;
         out.barriers = context_->barriers;
         out.bytes_allocated = context_->buffer_bytes;
+        out.bytes_reserved = context_->memory->block_bytes() + kStagingBytes;
         out.memory_blocks = context_->memory->block_count() + 1; // and the mapped block of Transfer
         out.validation_messages = context_->instance->log ? context_->instance->log->count() : 0;
         return out;
@@ -109,13 +121,16 @@ private:
 
 std::string selector_of(std::size_t index) { return "vulkan:" + std::to_string(index); }
 
-void require_folder(const std::string& cache_path)
+void require_place(const std::string& cache_path)
 {
     const std::filesystem::path folder = std::filesystem::absolute(cache_path).parent_path();
     std::error_code error;
     if (!std::filesystem::is_directory(folder, error))
         throw Error(ErrorCode::io, "pipeline_cache = " + cache_path + ": there is no folder " +
                                        folder.string() + "; make it first");
+    if (!may_be_cache(cache_path))
+        throw Error(ErrorCode::io,
+                    "pipeline_cache = " + cache_path + ": a folder or a pipe stands there; name a file");
 }
 
 } // namespace
@@ -158,7 +173,7 @@ std::vector<DeviceInfo> list_vulkan()
 std::shared_ptr<Device> open_vulkan(std::size_t index, const OpenOptions& options)
 {
     if (!options.pipeline_cache.empty())
-        vulkan::require_folder(options.pipeline_cache);
+        vulkan::require_place(options.pipeline_cache);
     std::shared_ptr<vulkan::Instance> instance = vulkan::Instance::create(options.validation);
     std::vector<vulkan::PhysicalDevice> devices = vulkan::physical_devices(*instance);
     if (index >= devices.size())

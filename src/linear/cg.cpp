@@ -3,6 +3,7 @@
 
 #include "taut/linear/cg.hpp"
 #include "taut/linear/cg_state.hpp"
+#include "taut/runtime/required.hpp"
 
 #include "taut/kernels/cg_collect.hpp"
 #include "taut/kernels/cg_direction.hpp"
@@ -64,7 +65,7 @@ Grid grid_of(const Operator& op, Preconditioner kind, std::uint32_t groups)
 
 ConjugateGradient::ConjugateGradient(std::shared_ptr<Device> device, std::shared_ptr<const Operator> op,
                                      Preconditioning preconditioning, bool pairs)
-    : device_(std::move(device)),
+    : device_(required(std::move(device), "a ConjugateGradient")),
       operator_(std::move(op)),
       preconditioning_(std::move(preconditioning)),
       pairs_(pairs),

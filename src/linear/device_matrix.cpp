@@ -2,6 +2,7 @@
 
 #include "taut/linear/check.hpp"
 #include "taut/linear/device_formats.hpp"
+#include "taut/runtime/required.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ int DeviceMatrix::scale_exponent(const SparseMatrix& matrix)
 std::shared_ptr<DeviceMatrix> DeviceMatrix::upload(const std::shared_ptr<Device>& device,
                                                    const SparseMatrix& matrix, const UploadOptions& options)
 {
-    check(*device, matrix, options);
+    check(*required(device, "DeviceMatrix::upload"), matrix, options);
     switch (options.format)
     {
     case Format::automatic: break;

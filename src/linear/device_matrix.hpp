@@ -26,7 +26,7 @@ public:
 
     /// Throws what check_structure throws; Error{limit} for more than kMostRows rows or, with padding, more
     /// than kMostEntries entries, and naming format and bytes when a buffer would be larger than the device
-    /// allows, ELL would waste more than kLargestEllWaste, or a row is longer than the kernel's loops may go;
+    /// allows, or a row is longer than the kernel's loops may go;
     /// Error{bad_input} for a matrix that is not square, or bcsr3 with rows no multiple of 3.
     static std::shared_ptr<DeviceMatrix> upload(const std::shared_ptr<Device>&, const SparseMatrix&,
                                                 const UploadOptions&);

@@ -9,6 +9,7 @@
 
 #include "taut/plan/material.hpp"
 #include "taut/plan/methods.hpp"
+#include "taut/runtime/required.hpp"
 #include "taut/world/carry.hpp"
 
 #include <algorithm>
@@ -216,6 +217,8 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
     : impl_(std::make_unique<Impl>())
 {
     Impl& my = *impl_;
+    one = required(std::move(one), "a HybridWorld");
+    other = required(std::move(other), "a HybridWorld");
     const bool meshes = std::all_of(scene.bodies.begin(), scene.bodies.end(),
                                     [](const Body& b) { return !b.mesh.positions.empty(); });
     my.scene = meshes ? scene : resolve(scene);

@@ -1,6 +1,7 @@
 // The four costs that a plan weighs, measured on the device itself with kernels that a step uses.
 
 #include "taut/kernels/distance.hpp"
+#include "taut/world/kept_traits.hpp"
 #include "taut/world/world.hpp"
 
 #include <glm/vec4.hpp>
@@ -103,19 +104,34 @@ private:
     BufferPtr constraint_, position_, delta_, step_, events_, table_;
 };
 
-/// Fills the costs.
-void measure_costs(Device& device, DeviceTraits& traits)
+DeviceCosts measured(Device& device)
 {
+    DeviceCosts out;
     Probe probe(device);
     const double few = probe.time_dispatches(8, 1), many = probe.time_dispatches(72, 1);
-    traits.dispatch_ns = std::max((many - few) / 64, 1.0);
+    out.dispatch_ns = std::max((many - few) / 64, 1.0);
     const double short_tail = probe.time_tail(Probe::kOneColour),
                  long_tail = probe.time_tail(Probe::kManyColours);
-    traits.group_barrier_ns = std::max((long_tail - short_tail) / (Probe::kPhases - 1), 1.0);
+    out.group_barrier_ns = std::max((long_tail - short_tail) / (Probe::kPhases - 1), 1.0);
     const double all = probe.time_dispatches(1, Probe::kSprings), one = probe.time_dispatches(1, 1);
-    traits.element_ns = std::max((all - one) / Probe::kSprings, 1e-3);
-    traits.lane_element_ns = std::max(
-        (probe.time_tail(Probe::kLargeColour) - short_tail) / Probe::kLaneSprings, traits.element_ns);
+    out.element_ns = std::max((all - one) / Probe::kSprings, 1e-3);
+    out.lane_element_ns =
+        std::max((probe.time_tail(Probe::kLargeColour) - short_tail) / Probe::kLaneSprings, out.element_ns);
+    return out;
+}
+
+/// From the file, or measured and added to it.
+DeviceCosts costs_of(Device& device, const std::string& key)
+{
+    const std::filesystem::path file = costs_kept_in();
+    if (file.empty())
+        return measured(device);
+    const std::map<std::string, DeviceCosts> kept = read_costs(file);
+    if (const auto found = kept.find(key); found != kept.end())
+        return found->second;
+    const DeviceCosts costs = measured(device);
+    add_costs(file, key, costs);
+    return costs;
 }
 
 } // namespace
@@ -134,17 +150,14 @@ DeviceTraits limits_as_traits(const Device& device)
 DeviceTraits measure_traits(Device& device)
 {
     static std::mutex mutex;
-    static std::map<std::string, DeviceTraits> known;
+    static std::map<std::string, DeviceCosts> known;
     const std::lock_guard lock(mutex);
     const DeviceInfo& info = device.info();
     const std::string key = info.executor + "|" + info.selector + "|" + info.name + "|" + info.driver;
-    DeviceTraits traits = limits_as_traits(device);
     auto found = known.find(key);
     if (found == known.end())
-    {
-        measure_costs(device, traits);
-        return known.emplace(key, traits).first->second;
-    }
+        found = known.emplace(key, costs_of(device, key)).first;
+    DeviceTraits traits = limits_as_traits(device);
     traits.dispatch_ns = found->second.dispatch_ns;
     traits.group_barrier_ns = found->second.group_barrier_ns;
     traits.element_ns = found->second.element_ns;

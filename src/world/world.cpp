@@ -1,5 +1,6 @@
 #include "taut/world/world_impl.hpp"
 
+#include "taut/runtime/required.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 #include "taut/world/inputs.hpp"
 
@@ -19,8 +20,7 @@ void World::Impl::create_buffers()
 {
     for (const PlanBuffer& buffer : plan.buffers)
     {
-        buffers.push_back(device->make_buffer(
-            buffer.bytes, buffer.name, buffer.host_written ? BufferUse::host_written : BufferUse::device));
+        buffers.push_back(device->make_buffer(buffer.bytes, buffer.name)); // inputs come with the submission
         if (!buffer.initial.empty())
             device->write(buffers.back(), 0, buffer.initial);
     }
@@ -62,17 +62,29 @@ Pace World::Impl::pace(const Clock& of) const
     return {of.substep, of.gravity, of.lead};
 }
 
-void World::Impl::write_inputs()
+/// Inputs that do not move are written before the first step and after something has changed them, only.
+std::vector<InputWrite> World::Impl::take_inputs()
 {
-    if (moves || steps == 0)
-        write_all_inputs();
+    std::vector<InputWrite> inputs;
+    if (moves || stale)
+        inputs = step_inputs(scene, plan, time());
+    stale = false;
+    if (forces_changed)
+    {
+        weigh_forces();
+        inputs.push_back({plan.force, forces});
+    }
+    forces_changed = false;
+    return inputs;
 }
 
-/// Inputs that do not move are written before the first step and when something changes them, only.
-void World::Impl::write_all_inputs()
+/// Views of `inputs` for the device.
+std::vector<BufferWrite> World::Impl::writes_of(const std::vector<InputWrite>& inputs) const
 {
-    for (const InputWrite& write : step_inputs(scene, plan, time()))
-        device->write(buffers[write.buffer], 0, write.bytes);
+    std::vector<BufferWrite> writes;
+    for (const InputWrite& input : inputs)
+        writes.push_back({buffers[input.buffer], input.bytes});
+    return writes;
 }
 
 template <typename Real>
@@ -165,8 +177,7 @@ void World::Impl::count_step()
 {
     ++steps;
     guessed = true;
-    for (const auto& [vertex, size] : force_size)
-        push += size * scene.timestep;
+    push += force_sum * scene.timestep;
 }
 
 /// Cloth that can tear is looked at between steps: one word says whether any spring is too long.
@@ -210,17 +221,20 @@ bool has_constraints(const Scene& scene)
 World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOptions& options)
     : impl_(std::make_unique<Impl>())
 {
+    impl_->device = required(std::move(device), "a World");
     impl_->scene = resolved(scene);
-    impl_->device = std::move(device);
     // Costs only decide how constraints are grouped: without any, no probe runs.
-    const DeviceTraits traits =
-        has_constraints(impl_->scene) ? measure_traits(*impl_->device) : limits_as_traits(*impl_->device);
+    const DeviceTraits traits = options.traits                  ? *options.traits
+                                : has_constraints(impl_->scene) ? measure_traits(*impl_->device)
+                                                                : limits_as_traits(*impl_->device);
     impl_->options = options.plan;
     impl_->traits = traits;
     impl_->plan = make_plan(impl_->scene, traits, options.plan);
     impl_->moves = inputs_move(impl_->scene, impl_->plan);
     impl_->restart_clock({});
     impl_->create_buffers();
+    if (impl_->plan.force != kNoBuffer)
+        impl_->keep_forces(std::vector<std::byte>(impl_->plan.buffers[impl_->plan.force].bytes));
     impl_->record();
 }
 
@@ -230,15 +244,16 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::step()
 {
-    impl_->write_inputs();
+    const std::vector<InputWrite> inputs = impl_->take_inputs();
     if (impl_->recording)
-        impl_->recording->replay();
+        impl_->device->replay(*impl_->recording, impl_->writes_of(inputs));
     impl_->after_step();
 }
 
 std::vector<EffectTime> World::step_timed()
 {
-    impl_->write_inputs();
+    for (const InputWrite& write : impl_->take_inputs())
+        impl_->device->write(impl_->buffers[write.buffer], 0, write.bytes);
     std::vector<EffectTime> times;
     for (const EffectCost& effect : impl_->plan.effects)
         times.push_back({effect.name, 0, 0});
@@ -329,9 +344,9 @@ void World::record_into(VkCommandBuffer_T* commands)
         throw Error(ErrorCode::unsupported,
                     "record_into: cloth that can tear is looked at after every step; use step(), or leave "
                     "tear_strain out");
-    impl_->write_inputs();
+    const std::vector<InputWrite> inputs = impl_->take_inputs();
     if (impl_->recording)
-        record_into_vulkan(*impl_->recording, commands);
+        record_into_vulkan(*impl_->recording, commands, impl_->writes_of(inputs));
     impl_->count_step();
 }
 
@@ -342,7 +357,7 @@ void World::set_timestep(double seconds)
     impl_->scene.timestep = impl_->plan.timestep = seconds;
     impl_->move_velocities(before);
     impl_->restart_clock(Clock(impl_->clock));
-    impl_->write_all_inputs();
+    impl_->stale = true;
 }
 
 void World::set_gravity(const glm::dvec3& gravity)
@@ -353,34 +368,7 @@ void World::set_gravity(const glm::dvec3& gravity)
     impl_->scene.gravity = gravity;
     impl_->move_velocities(before);
     impl_->restart_clock(Clock(impl_->clock));
-    impl_->write_all_inputs();
-}
-
-void World::set_force(std::uint32_t vertex, const glm::dvec3& force)
-{
-    const Plan& plan = impl_->plan;
-    if (plan.force == kNoBuffer)
-        throw Error(ErrorCode::unsupported,
-                    "set_force: the scene does not call for external forces; set external_forces to true");
-    if (vertex >= plan.vertex_count)
-        throw Error(ErrorCode::bad_input, "set_force: vertex " + std::to_string(vertex) + " of " +
-                                              std::to_string(plan.vertex_count));
-    if (!std::isfinite(force.x) || !std::isfinite(force.y) || !std::isfinite(force.z))
-        throw Error(ErrorCode::bad_input,
-                    "set_force: the force on vertex " + std::to_string(vertex) + " is not finite");
-    std::uint32_t index = 0;
-    while (plan.original[index] != vertex)
-        ++index;
-    const auto put = [&]<typename Real>(Real) {
-        const glm::vec<4, Real> value(glm::vec<3, Real>(force), Real(0));
-        impl_->device->write(impl_->buffers[plan.force], index * sizeof(value),
-                             std::as_bytes(std::span(&value, 1)));
-    };
-    if (plan.precision == Precision::float64)
-        put(double{});
-    else
-        put(float{});
-    impl_->force_size[vertex] = glm::length(force);
+    impl_->stale = true;
 }
 
 } // namespace taut

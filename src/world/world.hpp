@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -80,12 +81,15 @@ struct EffectTime
 struct WorldOptions
 {
     PlanOptions plan;
+    /// What the plan takes the device for; else its limits, and costs as measure_traits() has them.
+    std::optional<DeviceTraits> traits = std::nullopt;
 };
 
 class World
 {
 public:
     /// Resolves the scene if its bodies have no meshes yet, plans it for the device, uploads, records.
+    /// Throws Error{bad_input} where there is no device, and what resolve() and make_plan() throw.
     World(const Scene& scene, std::shared_ptr<Device> device, const WorldOptions& = {});
     ~World();
     World(World&&) noexcept;
@@ -132,6 +136,9 @@ public:
     /// Force on one vertex [N] from now on; needs Scene::external_forces. A value that is not finite
     /// throws Error{bad_input} and changes nothing (G05). Scene-wide vertex index.
     void set_force(std::uint32_t vertex, const glm::dvec3& force);
+    /// The same for all vertices at once, in the order of the scene: exactly as many as it has, else
+    /// Error{bad_input}. Neither waits for the device: forces go with the next step.
+    void set_forces(std::span<const glm::dvec3> forces);
 
     /// From now on; the plan stays as it is. A state of another timestep may be restored, too: velocities
     /// at the step stay, so a change makes no jump (A12). Waits, as velocities() does: those kept between the
@@ -144,9 +151,11 @@ public:
 
     /// For engines: the buffer of rvec4 positions in plan order, and the step as commands.
     BufferPtr position_buffer() const;
-    /// Vulkan devices only (else Error{unsupported}, also where cloth can tear). Updates the step
-    /// values, then records one step into the caller's command buffer; the caller submits it before the
-    /// next call.
+    /// Vulkan devices only (else Error{unsupported}, also where cloth can tear). Records one step into the
+    /// caller's command buffer, with all that it takes from the host (pins, colliders, gravity, timestep):
+    /// any number of recorded steps may wait or run, as long as they are submitted to one queue in the order
+    /// in which they were recorded, each once. Before the next call of anything else of this world all of
+    /// them must be submitted; what reads or writes vertices waits for them.
     void record_into(VkCommandBuffer_T* commands);
 
 private:

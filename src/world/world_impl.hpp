@@ -2,10 +2,10 @@
 // Internal to src/world: what a World owns. Shared by world.cpp and world_state.cpp.
 
 #include "taut/world/at_step.hpp"
+#include "taut/world/inputs.hpp"
 #include "taut/world/tearing.hpp"
 #include "taut/world/world.hpp"
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -21,9 +21,13 @@ struct World::Impl
     std::uint64_t steps = 0;
     bool guessed = false; ///< the buffer of predictions is of the last substep: no restore() since
     Clock clock;
-    bool moves = false;
-    std::map<std::uint32_t, double> force_size; ///< N, by scene-wide vertex, of forces set from outside
-    double push = 0;                            ///< N s, as WorldDrive::push
+    bool moves = false;               ///< inputs change from step to step
+    bool stale = true;                ///< inputs have changed since they were last written
+    std::vector<std::byte> forces;    ///< set from outside, as plan.force; empty without that effect
+    std::vector<std::uint32_t> place; ///< in the plan's order, of each vertex of the scene; for forces
+    bool forces_changed = false;      ///< since they were last handed over
+    double force_sum = 0;             ///< N, of their lengths
+    double push = 0;                  ///< N s, as WorldDrive::push
     PlanOptions options;
     DeviceTraits traits;
     std::uint64_t torn = 0;     ///< vertices that came apart
@@ -37,8 +41,11 @@ struct World::Impl
     void move_velocities(const Pace& before);
     void create_buffers();
     void record();
-    void write_inputs();
-    void write_all_inputs();
+    std::vector<InputWrite> take_inputs();
+    std::vector<BufferWrite> writes_of(const std::vector<InputWrite>& inputs) const;
+    void keep_forces(std::vector<std::byte> bytes);
+    void weigh_forces();
+    void put_force(std::size_t vertex, const glm::dvec3& force);
     void count_step();
     void after_step();
     void replace_scene(const TornScene& next);

@@ -44,9 +44,8 @@ std::vector<std::uint32_t> places(const Plan& before, const Plan& now,
 void World::Impl::replace_scene(const TornScene& next)
 {
     const std::vector<std::byte> position = raw(plan.position), low = raw(plan.low),
-                                 velocity = raw(plan.velocity), delta = raw(plan.delta),
-                                 force = raw(plan.force), coasting = raw(plan.coasting),
-                                 events = raw(plan.events);
+                                 velocity = raw(plan.velocity), delta = raw(plan.delta), force = forces,
+                                 coasting = raw(plan.coasting), events = raw(plan.events);
     std::vector<std::vector<std::byte>> logs; // of linear solves: they count over the whole run
     for (const PlanSolver& solver : plan.solvers)
         logs.push_back(raw(solver.log));
@@ -74,16 +73,23 @@ void World::Impl::replace_scene(const TornScene& next)
     for (std::size_t k = 0; k < std::min(logs.size(), plan.solvers.size()); ++k)
         device->write(buffers[plan.solvers[k].log], 0, logs[k]);
     if (plan.force != kNoBuffer)
-        device->write(buffers[plan.force], 0, spread(force, from, element));
-    write_all_inputs();
+    {
+        keep_forces(spread(force, from, element));
+        device->write(buffers[plan.force], 0, forces);
+    }
+    stale = true;
 }
 
 WorldState World::state() const
 {
     const Plan& plan = impl_->plan;
-    WorldState out{
-        impl_->steps,           impl_->raw(plan.position), impl_->raw(plan.low), impl_->raw(plan.velocity),
-        impl_->raw(plan.delta), impl_->raw(plan.force),    impl_->clock};
+    WorldState out{impl_->steps,
+                   impl_->raw(plan.position),
+                   impl_->raw(plan.low),
+                   impl_->raw(plan.velocity),
+                   impl_->raw(plan.delta),
+                   impl_->forces,
+                   impl_->clock};
     for (const std::uint32_t buffer : plan.kept)
         out.kept.push_back(impl_->raw(buffer));
     out.coasting = impl_->raw(plan.coasting);
@@ -145,6 +151,8 @@ void World::restore(const WorldState& state)
     for (const auto& [buffer, bytes] : parts)
         if (buffer != kNoBuffer)
             impl_->device->write(impl_->buffers[buffer], 0, *bytes);
+    if (plan.force != kNoBuffer)
+        impl_->keep_forces(state.force);
     for (std::size_t i = 0; i < plan.kept.size(); ++i)
         impl_->device->write(impl_->buffers[plan.kept[i]], 0, state.kept[i]);
     // A world without this buffer says that gravity alone acted.
@@ -159,7 +167,7 @@ void World::restore(const WorldState& state)
     impl_->move_velocities(before);
     if (impl_->clock.timestep != impl_->scene.timestep || before != impl_->pace())
         impl_->restart_clock(impl_->clock);
-    impl_->write_all_inputs();
+    impl_->stale = true;
 }
 
 SolverReport World::solver_report() const

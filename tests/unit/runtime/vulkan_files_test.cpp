@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 using namespace taut;
@@ -181,6 +182,27 @@ TEST_CASE("a pipeline cache in a folder that does not exist is refused when the 
     const Refusal refused = refusal([&] { open_here(false, path); });
     CHECK(refused.code == ErrorCode::io);
     CHECK(contains(refused.text, path));
+}
+
+TEST_CASE("a folder or a pipe in the place of the pipeline cache is refused, and left alone")
+{
+    const Folder folder;
+    const fs::path there = folder.path / "pipelines.bin";
+    const bool pipe = GENERATE(false, true);
+    if (pipe)
+        REQUIRE(mkfifo(there.c_str(), 0600) == 0);
+    else
+        fs::create_directory(there);
+    VkPhysicalDeviceProperties here{};
+    CHECK(vulkan::load_pipeline_cache(there.string(), here).empty()); // and does not wait for a writer
+    CHECK_FALSE(vulkan::save_pipeline_cache(there.string(), here, {}));
+    CHECK(fs::exists(there));
+    CHECK_FALSE(fs::is_regular_file(there));
+    if (list_vulkan().empty())
+        return;
+    const Refusal refused = refusal([&] { open_here(false, there.string()); });
+    CHECK(refused.code == ErrorCode::io);
+    CHECK(contains(refused.text, "name a file"));
 }
 
 TEST_CASE("an edited kernel text in TAUT_KERNEL_DIR takes the place of the built-in one")

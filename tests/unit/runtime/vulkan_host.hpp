@@ -187,4 +187,74 @@ private:
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
 };
 
+/// Command buffers of a host that has several frames in flight: one is waited for when its turn comes again.
+class Flights
+{
+public:
+    Flights(const Host& host, std::size_t count) : host_(host), commands_(count), fences_(count)
+    {
+        VkCommandBufferAllocateInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+        info.commandPool = host.pool;
+        info.commandBufferCount = static_cast<std::uint32_t>(count);
+        REQUIRE(host.call<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(
+                    host.device, &info, commands_.data()) == VK_SUCCESS);
+        VkFenceCreateInfo done = {};
+        done.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        done.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+        for (VkFence& fence : fences_)
+            REQUIRE(host.call<PFN_vkCreateFence>("vkCreateFence")(host.device, &done, nullptr, &fence) ==
+                    VK_SUCCESS);
+    }
+
+    ~Flights()
+    {
+        wait();
+        for (const VkFence fence : fences_)
+            host_.call<PFN_vkDestroyFence>("vkDestroyFence")(host_.device, fence, nullptr);
+    }
+
+    VkCommandBuffer begin()
+    {
+        wait_for(fences_[next_]);
+        VkCommandBufferBeginInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+        REQUIRE(host_.call<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(commands_[next_], &info) ==
+                VK_SUCCESS);
+        return commands_[next_];
+    }
+
+    /// What was begun last; does not wait.
+    void submit()
+    {
+        REQUIRE(host_.call<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(commands_[next_]) == VK_SUCCESS);
+        host_.call<PFN_vkResetFences>("vkResetFences")(host_.device, 1, &fences_[next_]);
+        VkSubmitInfo info = {};
+        info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+        info.commandBufferCount = 1;
+        info.pCommandBuffers = &commands_[next_];
+        REQUIRE(host_.call<PFN_vkQueueSubmit>("vkQueueSubmit")(host_.queue, 1, &info, fences_[next_]) ==
+                VK_SUCCESS);
+        next_ = (next_ + 1) % commands_.size();
+    }
+
+    void wait() const
+    {
+        for (const VkFence fence : fences_)
+            wait_for(fence);
+    }
+
+private:
+    void wait_for(VkFence fence) const
+    {
+        host_.call<PFN_vkWaitForFences>("vkWaitForFences")(host_.device, 1, &fence, VK_TRUE,
+                                                           ~std::uint64_t{0});
+    }
+
+    const Host& host_;
+    std::vector<VkCommandBuffer> commands_;
+    std::vector<VkFence> fences_;
+    std::size_t next_ = 0;
+};
+
 } // namespace taut::vulkan_test

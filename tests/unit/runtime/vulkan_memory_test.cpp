@@ -88,6 +88,8 @@ TEST_CASE("many small Vulkan buffers share few allocations and give them back")
         device->write<std::byte>(buffers.back(), pattern(bytes, i));
     }
     CHECK(device->counters().bytes_allocated == sum);
+    CHECK(device->counters().bytes_reserved >= sum + (8u << 20)); // and the staging room
+    CHECK(device->counters().bytes_reserved < sum + (256u << 20));
     CHECK(device->counters().memory_blocks <= blocks_before + 2);
     for (std::size_t i = 0; i < buffers.size(); i += 2)
         buffers[i].reset();

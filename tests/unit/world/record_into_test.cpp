@@ -32,6 +32,34 @@ TEST_CASE("steps recorded into an engine's commands move the world as its own do
     CHECK(host->messages.empty());
 }
 
+TEST_CASE("steps that wait or run together move the world as steps one by one do")
+{
+    const auto host = vulkan_test::Host::open();
+    if (!host)
+        return;
+    const std::size_t in_flight = GENERATE(1u, 2u, 3u, 4u);
+    {
+        const std::shared_ptr<Device> device = adopt(host->context());
+        World own(test::everything(), device), recorded(test::everything(), device);
+        vulkan_test::Flights flights(*host, in_flight);
+        for (int i = 0; i < 12; ++i)
+        {
+            if (i == 6) // between frames that may still run
+            {
+                own.set_gravity({3, -5, 0});
+                recorded.set_gravity({3, -5, 0});
+            }
+            own.step();
+            recorded.record_into(flights.begin());
+            flights.submit();
+        }
+        flights.wait();
+        CHECK(own.state().position == recorded.state().position);
+        CHECK(own.state().velocity == recorded.state().velocity);
+    }
+    CHECK(host->messages.empty());
+}
+
 TEST_CASE("a world of another executor cannot record into Vulkan commands")
 {
     World world(test::hanging(), Device::open("cpu:serial"));

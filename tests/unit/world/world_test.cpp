@@ -28,6 +28,12 @@ bool same(const WorldState& a, const WorldState& b)
 
 } // namespace
 
+TEST_CASE("a world without a device is refused")
+{
+    CHECK_THROWS_WITH(World(test::everything(), nullptr),
+                      "a World was given no device; give one that Device::open returned");
+}
+
 TEST_CASE("a step is one submission, whatever the number of passes")
 {
     for (const std::string& device : test_devices())
@@ -199,6 +205,45 @@ TEST_CASE("a force moves its vertex as Newton says")
         for (int i = 0; i < 100; ++i)
             world.step();
         CHECK(world.velocities()[0].x == Approx(2.0).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("forces on all vertices at once are those set one by one, and go with the state")
+{
+    for (const std::string& device : test_devices())
+    {
+        INFO(device);
+        World one(test::everything(), test_device(device)), all(test::everything(), test_device(device));
+        std::vector<glm::dvec3> forces(one.positions().size());
+        for (std::size_t v = 0; v < forces.size(); ++v)
+            forces[v] = {0.01 * std::sin(double(v)), 0.02, 0.01 * std::cos(double(v))};
+        const glm::dvec3 without = one.positions()[5];
+        for (int i = 0; i < 3; ++i)
+        {
+            one.step();
+            all.step();
+            for (std::uint32_t v = 0; v < forces.size(); ++v)
+                one.set_force(v, (i + 1.0) * forces[v]);
+            for (glm::dvec3& force : forces)
+                force *= i + 1.0;
+            all.set_forces(forces);
+            for (glm::dvec3& force : forces)
+                force /= i + 1.0;
+        }
+        CHECK(all.state().force == one.state().force); // although no step has used the last ones
+        World third(test::everything(), test_device(device));
+        third.restore(all.state());
+        for (World* world : {&one, &all, &third})
+            world->step();
+        CHECK(same(one.state(), all.state()));
+        CHECK(same(third.state(), all.state()));
+        CHECK(all.positions()[5] != without);
+        CHECK(all.drive().push > 0);
+        CHECK_THROWS_WITH(all.set_forces(std::vector<glm::dvec3>(3)),
+                          Catch::Matchers::Contains("3 forces for a world of"));
+        forces.back().y = std::nan("");
+        CHECK_THROWS_WITH(all.set_forces(forces), Catch::Matchers::Contains("is not finite"));
+        CHECK(all.state().force == one.state().force);
     }
 }
 
