@@ -183,7 +183,7 @@ run_suite() {
         [ $linked -ne 3 ] || continue
         arguments=(--abort)
         [ "$1" != hard ] || export TAUT_HARD_SHORT=1 TAUT_MAP_FIRST=1
-        TAUT_TEST_DEVICES=cpu:serial TAUT_PIPELINE_CACHE=off timeout "$limit" nice \
+        TAUT_TEST_DEVICES=cpu:serial TAUT_PIPELINE_CACHE=off TAUT_DEVICE_COSTS=off timeout "$limit" nice \
             "$work/$program" "${arguments[@]}" > "$work/$program.log" 2>&1 && continue
         [ $? -eq 77 ] || { echo killed; return; } # 77: passed, and left something out
     done

@@ -75,7 +75,7 @@ bool draw(const std::vector<Variant>& variants, const std::vector<CompareRow>& r
 {
     constexpr std::uint32_t kWidth = 400, kHeight = 400, kMostInARow = 5;
     constexpr glm::u8vec3 kInk{70, 76, 84};
-    std::vector<Moment> moments;
+    std::vector<PictureMoment> moments;
     for (const CompareRow& row : rows)
         if (row.refusal.empty())
             moments.push_back({time, row.positions});
@@ -94,7 +94,7 @@ bool draw(const std::vector<Variant>& variants, const std::vector<CompareRow>& r
                 // Vertices may differ from variant to variant, so each has its own drawing of the scene.
                 Pictures pictures(variants[k].scene);
                 const Shot shot = frame_shot(variants[k].scene, moments, kWidth, kHeight);
-                Image picture = pictures.draw(Moment{time, rows[k].positions}, shot);
+                Image picture = pictures.draw(PictureMoment{time, rows[k].positions}, shot);
                 label(picture, rows[k].label, 12, 12, 2, kInk);
                 place(sheet, picture, tile % columns * kWidth, tile / columns * kHeight);
                 ++tile;

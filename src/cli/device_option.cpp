@@ -1,5 +1,7 @@
 #include "taut/cli/device_option.hpp"
 
+#include "taut/world/kept_traits.hpp"
+
 #include <cstdlib>
 #include <filesystem>
 
@@ -14,10 +16,12 @@ std::string environment(const char* name)
     return value == nullptr ? "" : value;
 }
 
-/// Empty when nothing should be kept, or when there is no place for it: a cache never stops a run.
-std::string pipeline_cache()
+/// The file that `variable` names, else `name` in the program's cache folder. Empty when nothing should be
+/// kept
+/// ("off"), or when there is no place for it: what is kept never stops a run.
+std::string kept_file(const char* variable, const char* name)
 {
-    const std::string chosen = environment("TAUT_PIPELINE_CACHE");
+    const std::string chosen = environment(variable);
     if (!chosen.empty())
         return chosen == "off" ? "" : chosen;
     fs::path folder = environment("XDG_CACHE_HOME");
@@ -28,7 +32,11 @@ std::string pipeline_cache()
     folder /= "taut";
     std::error_code error;
     fs::create_directories(folder, error);
-    return error ? "" : (folder / "pipelines.bin").string();
+    if (error)
+        return "";
+    const fs::path file = folder / name;
+    const fs::file_status there = fs::status(file, error); // an error, where nothing is there yet
+    return fs::is_regular_file(there) || !fs::exists(there) ? file.string() : "";
 }
 
 } // namespace
@@ -45,7 +53,8 @@ std::shared_ptr<Device> open_device(const std::string& selector)
     OpenOptions options;
     const std::string wanted = selector.empty() ? environment("TAUT_DEVICE") : selector;
     if (wanted.rfind("cpu", 0) != 0 && wanted.rfind("opengl", 0) != 0)
-        options.pipeline_cache = pipeline_cache();
+        options.pipeline_cache = kept_file("TAUT_PIPELINE_CACHE", "pipelines.bin");
+    keep_costs_in(kept_file("TAUT_DEVICE_COSTS", "costs.txt"));
     return Device::open(selector, options);
 }
 

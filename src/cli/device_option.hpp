@@ -13,7 +13,9 @@ namespace taut::cli {
 void add_device_option(CLI::App& command, std::string& selector, const std::string& further = {});
 
 /// Opens with the program's pipeline cache: the file that TAUT_PIPELINE_CACHE names ("off": none), else
-/// taut/pipelines.bin under XDG_CACHE_HOME or ~/.cache. Throws Error{no_device}.
+/// taut/pipelines.bin under XDG_CACHE_HOME or ~/.cache; and with the costs that plans weigh in
+/// TAUT_DEVICE_COSTS
+/// ("off": measured in every run), else taut/costs.txt there. Throws Error{no_device}.
 std::shared_ptr<Device> open_device(const std::string& selector);
 
 } // namespace taut::cli

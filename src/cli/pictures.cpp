@@ -18,13 +18,13 @@ std::vector<std::uint64_t> moment_frames(std::uint64_t frames)
 }
 
 std::vector<std::string> draw_pictures(const World& world, std::shared_ptr<Device> device,
-                                       const std::vector<Moment>& moments,
+                                       const std::vector<PictureMoment>& moments,
                                        const std::filesystem::path& folder, std::string& why_not)
 {
     try
     {
         Pictures pictures(world.scene(), std::move(device));
-        for (const Moment& moment : moments)
+        for (const PictureMoment& moment : moments)
             pictures.add(moment);
         return pictures.write(folder, &world);
     }

@@ -18,7 +18,7 @@ std::vector<std::uint64_t> moment_frames(std::uint64_t frames);
 /// (all moments) into the folder and returns their names. Nothing is written where no device can draw:
 /// `why_not` then says why. Throws Error{io}.
 std::vector<std::string> draw_pictures(const World& world, std::shared_ptr<Device> device,
-                                       const std::vector<Moment>& moments,
+                                       const std::vector<PictureMoment>& moments,
                                        const std::filesystem::path& folder, std::string& why_not);
 
 } // namespace taut::cli

@@ -6,6 +6,7 @@
 #include "taut/cli/output.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
+#include "taut/world/kept_traits.hpp"
 #include "taut/world/world.hpp"
 
 #include <algorithm>
@@ -39,7 +40,22 @@ std::string wrapped(const std::string& head, const std::vector<std::string>& wor
     return text + "\n";
 }
 
-Json to_json(const PlanCommand& options, const Plan& plan, const std::string& device)
+/// What the plan weighed, and where it comes from.
+std::string costs_text(const DeviceTraits& traits, bool measured)
+{
+    const auto ns = [](double value) { return number(value, 3) + " ns"; };
+    const std::string file = costs_kept_in().string();
+    return "costs: a dispatch " + ns(traits.dispatch_ns) + ", a barrier in a group " +
+           ns(traits.group_barrier_ns) + ", an element " + ns(traits.element_ns) + ", in one group alone " +
+           ns(traits.lane_element_ns) +
+           (!measured      ? " (assumed; --device measures)"
+            : file.empty() ? " (measured now)"
+                           : " (from " + file + ")") +
+           "\n";
+}
+
+Json to_json(const PlanCommand& options, const Plan& plan, const std::string& device,
+             const DeviceTraits& traits)
 {
     Json effects = Json::array();
     for (const EffectCost& effect : plan.effects)
@@ -50,6 +66,10 @@ Json to_json(const PlanCommand& options, const Plan& plan, const std::string& de
                            {"bytes_per_step", effect.bytes_per_step}});
     Json json = {{"taut", TAUT_VERSION}, {"scene", options.scene}};
     json["device"] = device.empty() ? Json(nullptr) : Json(device);
+    json["costs_ns"] = {{"dispatch", traits.dispatch_ns},
+                        {"group_barrier", traits.group_barrier_ns},
+                        {"element", traits.element_ns},
+                        {"lane_element", traits.lane_element_ns}};
     json["precision"] = to_string(plan.precision);
     json["substeps"] = plan.substeps;
     json["iterations"] = plan.iterations;
@@ -108,7 +128,8 @@ int show_plan(const PlanCommand& options)
         name = device->info().name;
     }
     const Plan plan = make_plan(scene, traits);
-    std::cout << (options.json ? to_text(to_json(options, plan, name)) : to_table(plan));
+    std::cout << (options.json ? to_text(to_json(options, plan, name, traits))
+                               : to_table(plan) + costs_text(traits, !name.empty()));
     return kDone;
 }
 

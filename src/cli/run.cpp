@@ -115,7 +115,7 @@ public:
     const std::vector<double>& step_ms() const { return step_ms_; }
     /// The smallest V / V0 of all frames.
     double volume_min() const { return volume_min_; }
-    const std::vector<Moment>& moments() const { return moments_; }
+    const std::vector<PictureMoment>& moments() const { return moments_; }
     const std::vector<Look>& looks() const { return looks_.list(); }
     const SoundnessWatch& watch() const { return watch_; }
     const Crossings& crossings() const { return tunnelling_.found(); }
@@ -191,7 +191,7 @@ private:
     bool finite_ = true;
     std::vector<std::uint64_t> moment_frames_;
     std::vector<double> step_ms_;
-    std::vector<Moment> moments_;
+    std::vector<PictureMoment> moments_;
     MeshSequence meshes_;
     std::uint64_t torn_ = 0;
     bool has_volume_ = measure_volume(simulation_.scene(), simulation_.positions()).any;
@@ -228,6 +228,7 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.scene = options.scene;
     result.folder = options.folder.string();
     result.device = world.device().info();
+    result.counters = world.device().counters();
     result.precision = world.plan().precision;
     result.frames = runner.done();
     result.vertices = world.plan().vertex_count;

@@ -105,6 +105,9 @@ Json to_json(const RunResult& result)
     Json json = {{"taut", TAUT_VERSION}, {"scene", result.scene}};
     json["device"] = result.device.name;
     json["executor"] = result.device.executor;
+    json["memory"] = {{"buffers", result.counters.bytes_allocated},
+                      {"reserved", result.counters.bytes_reserved},
+                      {"blocks", result.counters.memory_blocks}};
     json["precision"] = to_string(result.precision);
     json["frames"] = result.frames;
     json["simulated_seconds"] = report.time;

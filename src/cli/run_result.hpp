@@ -17,6 +17,7 @@ struct RunResult
     std::string scene;  ///< as given
     std::string folder; ///< as given or chosen
     DeviceInfo device;
+    DeviceCounters counters; ///< of the device at the end
     Precision precision = Precision::float32;
     std::uint64_t frames = 0; ///< done, one time step each
     std::uint64_t frames_wanted = 0;

@@ -262,8 +262,8 @@ void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pai
     }
     nearest = std::sqrt(nearest);
     pair.inside = deep > 0 && (pair.inside || first_);
-    const bool through = last_time_ && !pair.inside && nearest <= furthest(before_, after_) &&
-                         went_through(part, obstacle);
+    const bool through =
+        last_time_ && !pair.inside && nearest <= furthest(before_, after_) && went_through(part, obstacle);
     if (deep > 0 && !pair.inside)
         elements_ += deep;
     found_.passed += through;

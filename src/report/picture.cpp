@@ -147,9 +147,9 @@ Pictures::Pictures(Scene resolved, std::shared_ptr<Device> device, const Picture
                             "\" has no mesh to draw; give the scene that resolve() returns");
 }
 
-void Pictures::add(Moment moment) { moments_.push_back(std::move(moment)); }
+void Pictures::add(PictureMoment moment) { moments_.push_back(std::move(moment)); }
 
-std::vector<Surface> Pictures::cloth(const Moment& moment) const
+std::vector<Surface> Pictures::cloth(const PictureMoment& moment) const
 {
     const std::vector<Body>& bodies = moment.scene ? moment.scene->bodies : scene_.bodies;
     std::vector<Surface> out;
@@ -222,7 +222,7 @@ void Pictures::finish_strands(std::vector<Surface>& surfaces, const Shot& shot) 
         surface.line_radius = std::max(surface.line_radius, 0.004f * shot.radius);
 }
 
-Image Pictures::draw(const Moment& moment, const Shot& shot)
+Image Pictures::draw(const PictureMoment& moment, const Shot& shot)
 {
     std::vector<Surface> surfaces = cloth(moment);
     add_colliders(surfaces, moment.time, shot);
@@ -236,7 +236,8 @@ Image Pictures::draw(const World& world, const Shot& shot)
                           world.plan().precision == Precision::float32 && !any_embedding(world.scene());
     if (!in_place)
         return draw(
-            Moment{world.time(), world.positions(), std::make_shared<const Scene>(world.scene())}, shot);
+            PictureMoment{world.time(), world.positions(), std::make_shared<const Scene>(world.scene())},
+            shot);
     std::vector<Surface> surfaces = cloth_in_place(world);
     add_colliders(surfaces, world.time(), shot);
     finish_strands(surfaces, shot);
@@ -269,7 +270,7 @@ Image Pictures::contact_sheet()
 std::vector<std::string> Pictures::write(const std::filesystem::path& folder, const World* world)
 {
     const Image sheet = contact_sheet(); // first: it refuses when there is nothing to draw
-    const std::span<const Moment> last(&moments_.back(), 1);
+    const std::span<const PictureMoment> last(&moments_.back(), 1);
     const Shot shot = frame_shot(scene_, last, options_.width, options_.height, 1.35);
     write_png(folder / "picture.png", world != nullptr ? draw(*world, shot) : draw(moments_.back(), shot));
     write_png(folder / "contact_sheet.png", sheet);

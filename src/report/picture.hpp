@@ -13,7 +13,7 @@
 namespace taut {
 
 /// Where every vertex was at one time.
-struct Moment
+struct PictureMoment
 {
     double time = 0;                   ///< s
     std::vector<glm::dvec3> positions; ///< m, bodies one after another, as World::positions() gives them
@@ -32,7 +32,7 @@ struct PictureOptions
 /// collider that has an end; `margin` is the room around them, 1 = none. Of cloth that tears it holds the
 /// parts that hang from pins, or the largest, and what is near them: scraps that fall far leave the picture.
 /// Positions that are not finite are left out.
-Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width,
+Shot frame_shot(const Scene& resolved, std::span<const PictureMoment> moments, std::uint32_t width,
                 std::uint32_t height, double margin = 1.15);
 
 /// Draws scenes. Not thread-safe.
@@ -44,13 +44,13 @@ public:
     explicit Pictures(Scene resolved, std::shared_ptr<Device> device = nullptr, const PictureOptions& = {});
 
     /// For the contact sheet; the last one added is the picture.
-    void add(Moment moment);
+    void add(PictureMoment moment);
     void capture(const World& world)
     {
         add({world.time(), world.positions(), std::make_shared<const Scene>(world.scene())});
     }
 
-    Image draw(const Moment& moment, const Shot& shot);
+    Image draw(const PictureMoment& moment, const Shot& shot);
 
     /// A world in single precision on the device that draws is drawn from its own position buffer, without
     /// a copy; any other from World::positions(). Bitwise the same image either way. Solids with an embedded
@@ -67,7 +67,7 @@ public:
     const Device& device() const { return *renderer_.device(); }
 
 private:
-    std::vector<Surface> cloth(const Moment& moment) const;
+    std::vector<Surface> cloth(const PictureMoment& moment) const;
     std::vector<Surface> cloth_in_place(const World& world) const;
     void add_colliders(std::vector<Surface>& surfaces, double time, const Shot& shot) const;
     void finish_strands(std::vector<Surface>& surfaces, const Shot& shot) const;
@@ -75,7 +75,7 @@ private:
     Scene scene_;
     PictureOptions options_;
     Renderer renderer_;
-    std::vector<Moment> moments_;
+    std::vector<PictureMoment> moments_;
 };
 
 } // namespace taut

@@ -135,10 +135,10 @@ void add_bodies(std::vector<glm::dvec3>& points, const Scene& scene, const std::
 }
 
 /// Everything that a picture should hold.
-std::vector<glm::dvec3> points_of(const Scene& scene, std::span<const Moment> moments)
+std::vector<glm::dvec3> points_of(const Scene& scene, std::span<const PictureMoment> moments)
 {
     std::vector<glm::dvec3> points;
-    for (const Moment& moment : moments)
+    for (const PictureMoment& moment : moments)
     {
         add_bodies(points, moment.scene ? *moment.scene : scene, moment.positions);
         for (const Collider& collider : scene.colliders)
@@ -200,7 +200,7 @@ glm::dvec3 across(const glm::dvec3& axis)
     return glm::normalize(other - glm::dot(other, axis) * axis);
 }
 
-Shot frame_shot(const Scene& resolved, std::span<const Moment> moments, std::uint32_t width,
+Shot frame_shot(const Scene& resolved, std::span<const PictureMoment> moments, std::uint32_t width,
                 std::uint32_t height, double margin)
 {
     const std::vector<glm::dvec3> points = points_of(resolved, moments);

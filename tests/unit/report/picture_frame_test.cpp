@@ -16,7 +16,7 @@ using namespace taut;
 TEST_CASE("every vertex of every moment lies inside the picture")
 {
     const Scene scene = test::everything(6);
-    std::vector<Moment> moments(2);
+    std::vector<PictureMoment> moments(2);
     for (const glm::dvec3& p : scene.bodies[0].mesh.positions)
     {
         moments[0].positions.push_back(p);
@@ -27,7 +27,7 @@ TEST_CASE("every vertex of every moment lies inside the picture")
     const glm::mat4 view = glm::perspectiveRH_ZO(shot.camera.fov, 400.0f / 300.0f, 0.01f, 1000.0f) *
                            glm::lookAtRH(shot.camera.eye, shot.camera.target, shot.camera.up);
     float extreme = 0;
-    for (const Moment& moment : moments)
+    for (const PictureMoment& moment : moments)
         for (const glm::dvec3& p : moment.positions)
         {
             if (std::isnan(p.x))
@@ -50,9 +50,8 @@ TEST_CASE("scraps of torn cloth that fell far leave the picture, and what hangs 
     for (const double x : {0.0, 0.1, 0.2}) // a triangle of its own
         mesh.positions.emplace_back(x, -0.8, x * x);
     mesh.triangles.push_back({sheet, sheet + 1, sheet + 2});
-    const auto radius = [&](const Scene& of, double sheet_falls, double scrap_falls)
-    {
-        Moment moment{0, mesh.positions, std::make_shared<const Scene>(of)};
+    const auto radius = [&](const Scene& of, double sheet_falls, double scrap_falls) {
+        PictureMoment moment{0, mesh.positions, std::make_shared<const Scene>(of)};
         for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
             moment.positions[v].y -= v < sheet ? sheet_falls : scrap_falls;
         return double(frame_shot(of, std::span(&moment, 1), 400, 300).radius);

@@ -211,7 +211,7 @@ TEST_CASE("one state gives the same picture from every executor, bit for bit")
     for (int i = 0; i < 12; ++i)
         first.step();
     const WorldState state = first.state();
-    const Moment moment = {first.time(), first.positions()};
+    const PictureMoment moment = {first.time(), first.positions()};
     const Shot shot = frame_shot(first.scene(), std::span(&moment, 1), 320, 240);
     Pictures pictures(first.scene(), device);
     const Image image = pictures.draw(moment, shot);
@@ -230,7 +230,7 @@ TEST_CASE("capsules and boxes are drawn where they lie, turned as they are")
 {
     TAUT_DRAWING(device);
     Scene scene = test::hanging(2);
-    const Moment moment = {0, scene.bodies[0].mesh.positions};
+    const PictureMoment moment = {0, scene.bodies[0].mesh.positions};
     const Shot shot = frame_shot(scene, std::span(&moment, 1), 320, 240);
     const auto draw = [&](const Collider& collider) {
         scene.colliders = {collider};
@@ -274,7 +274,7 @@ TEST_CASE("a solid is drawn by the surface that it carries")
     Scene ball = plain; // cloth of the same shape
     ball.bodies[0].mesh = test::sphere_mesh(6, 0.4);
     World world(scene, test_device("cpu:serial"));
-    const Moment moment = {0, world.positions()}, of_ball = {0, ball.bodies[0].mesh.positions};
+    const PictureMoment moment = {0, world.positions()}, of_ball = {0, ball.bodies[0].mesh.positions};
     const Shot shot = frame_shot(scene, std::span(&moment, 1), 320, 240);
     const Image seen = Pictures(scene, device).draw(moment, shot);
     CHECK(differing(seen, Pictures(ball, device).draw(of_ball, shot)) == 0);
@@ -291,7 +291,7 @@ TEST_CASE("worlds in double precision and chains are drawn")
     scene.method.precision = "double";
     World world(scene, device);
     world.step();
-    const Moment moment = {world.time(), world.positions()};
+    const PictureMoment moment = {world.time(), world.positions()};
     const Shot shot = frame_shot(world.scene(), std::span(&moment, 1), 160, 120);
     Pictures pictures(world.scene(), device);
     const Image image = pictures.draw(world, shot);
