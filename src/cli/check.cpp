@@ -19,28 +19,69 @@ bool any_error(const std::vector<SceneIssue>& issues)
     return std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; });
 }
 
-/// From the file to the plan, as far as it goes. A file that cannot be read is not an issue of the
-/// scene and is thrown on.
+/// What the plan has to say, for a device that groups colours and for one that does not.
+void add_plan(const Scene& resolved, std::vector<SceneIssue>& issues)
+{
+    for (const PlanWarning& warning : make_plan(resolved).warnings)
+        issues.push_back({false, "", warning.sentence()});
+    DeviceTraits apart; // dispatches that cost nothing are never grouped
+    apart.dispatch_ns = 0;
+    PlanOptions options;
+    options.small_bodies = PlanOptions::SmallBodies::never;
+    try
+    {
+        make_plan(resolved, apart, options);
+    }
+    catch (const Error& error)
+    {
+        issues.push_back(
+            {false, "", std::string("where a device takes a dispatch a colour: ") + error.what()});
+    }
+}
+
+/// What resolving and planning find beyond `issues`, which stay first. resolve() repeats what check() said.
+void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
+{
+    std::vector<SceneIssue> found;
+    const auto take = [&] {
+        for (const SceneIssue& f : found)
+            if (std::none_of(issues.begin(), issues.end(),
+                             [&](const SceneIssue& i) { return i.field == f.field && i.text == f.text; }))
+                issues.push_back(f);
+    };
+    try
+    {
+        const Scene resolved = resolve(scene, &found);
+        take();
+        found = check_resolved(resolved);
+        take();
+        if (!any_error(issues))
+            add_plan(resolved, issues);
+    }
+    catch (const Error& error)
+    {
+        if (error.code() == ErrorCode::out_of_memory)
+            throw;
+        take();
+        if (!any_error(issues))
+            issues.push_back({true, "", error.what()});
+    }
+}
+
+/// From the file to the plan, as far as it goes. A file that cannot be read is no issue of a scene and is
+/// thrown on.
 std::vector<SceneIssue> find_issues(const std::string& file)
 {
     std::vector<SceneIssue> issues;
     try
     {
-        const Scene scene = load_scene(file);
-        issues = check(scene);
-        for (const SceneIssue& unread : unread_keys(scene.method, given_method_keys(file, {})))
-            issues.push_back(unread);
+        issues = check_file(file);
         if (any_error(issues))
             return issues;
-        // resolve() repeats the warnings of check().
-        std::vector<SceneIssue> warnings;
-        const Scene resolved = resolve(scene, &warnings);
-        for (const SceneIssue& w : warnings)
-            if (std::none_of(issues.begin(), issues.end(),
-                             [&](const SceneIssue& i) { return i.field == w.field && i.text == w.text; }))
-                issues.push_back(w);
-        for (const PlanWarning& warning : make_plan(resolved).warnings)
-            issues.push_back({false, "", warning.sentence()});
+        const Scene scene = load_scene(file);
+        for (const SceneIssue& unread : unread_keys(scene.method, given_method_keys(file, {})))
+            issues.push_back(unread);
+        add_resolved(scene, issues);
     }
     catch (const Error& error)
     {

@@ -5,6 +5,7 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/version.hpp"
 
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <new>
@@ -90,6 +91,10 @@ int execute(const cli::Command& command)
 
 int main(int argc, char** argv)
 {
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ,
+                SIG_IGN); // a file beyond the limit is an error that is told, and leaves no half of it
+#endif
     int status = taut::cli::kDone;
     const taut::cli::Command command = parse(argc, argv, status);
     return command ? execute(command) : status;

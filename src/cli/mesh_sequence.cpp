@@ -32,6 +32,7 @@ void MeshSequence::set_scene(const Scene& resolved)
 {
     faces_.clear();
     vertices_.clear();
+    digits_ = resolved.method.precision == "double" ? scene_file::kDoubleDigits : scene_file::kFloatDigits;
     std::size_t first = 0;
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
@@ -60,7 +61,7 @@ void MeshSequence::write(const std::vector<glm::dvec3>& positions, std::uint64_t
     {
         const std::size_t name_end = faces_[body].find('\n') + 1;
         text.append(faces_[body], 0, name_end);
-        scene_file::append_vertices(text, std::span(positions).subspan(vertex, vertices_[body]));
+        scene_file::append_vertices(text, std::span(positions).subspan(vertex, vertices_[body]), digits_);
         vertex += vertices_[body];
         text.append(faces_[body], name_end);
     }

@@ -26,6 +26,7 @@ using scene_file::shown;
 constexpr double kMaxTimestep = 1;
 constexpr double kMinSubstep = 1e-15;
 constexpr double kMaxSteps = 1e9;
+constexpr double kShortTimestep = 1e-6; ///< s: a shorter one is the mistake, where there are too many steps
 
 void check_axis(const glm::dvec3& axis, double degrees, const Checker& out)
 {
@@ -63,9 +64,10 @@ void check_times(const Scene& scene, const Checker& out)
                   ErrorCode::bad_timestep);
     out.not_negative("duration", scene.duration, "s");
     if (good && scene.duration <= kMaxValue && scene.duration / scene.timestep > kMaxSteps)
-        out.error("duration", "is " + shown(scene.duration) + " s, that is " +
-                                  shown(scene.duration / scene.timestep, 6) +
-                                  " time steps; at most 1e9 are run");
+        out.error(scene.timestep < kShortTimestep ? "timestep" : "duration",
+                  "makes " + shown(scene.duration / scene.timestep, 6) + " time steps: a duration of " +
+                      shown(scene.duration) + " s in steps of " + shown(scene.timestep) +
+                      " s; at most 1e9 are run");
 }
 
 void check_pin_box(const Pin& pin, const Checker& out)
@@ -285,8 +287,34 @@ void check_world(const Scene& scene, const Checker& out)
 
 namespace {
 
+/// The member of the body that its tetrahedra come from.
+const char* source_of_tetrahedra(ShapeKind kind)
+{
+    switch (kind)
+    {
+    case ShapeKind::box: return "box";
+    case ShapeKind::ball: return "ball";
+    case ShapeKind::tetrahedra: return "tetrahedra";
+    default: return "mesh.tetrahedra";
+    }
+}
+
+void check_volumes(const Mesh& mesh, ShapeKind kind, const Checker& out)
+{
+    std::size_t flat = 0, first = 0;
+    for (std::size_t k = mesh.tetrahedra.size(); k-- > 0;)
+        if (!(six_volumes(mesh.positions, mesh.tetrahedra[k]) > 0))
+            ++flat, first = k;
+    if (flat > 0)
+        out.error(source_of_tetrahedra(kind),
+                  "has " + std::to_string(flat) + " of " + std::to_string(mesh.tetrahedra.size()) +
+                      " tetrahedra without volume, or left-handed; the first is number " +
+                      std::to_string(first) + " (from 0). A mesh must not be flat, nor scaled to nothing",
+                  ErrorCode::degenerate_rest);
+}
+
 /// Meshes that resolve() made are sound; one filled by hand may point anywhere.
-void check_mesh(const Mesh& mesh, const Checker& out)
+void check_mesh(const Mesh& mesh, ShapeKind kind, const Checker& out)
 {
     const std::size_t count = mesh.positions.size();
     bool sound = true; // every element names vertices that are there
@@ -308,11 +336,8 @@ void check_mesh(const Mesh& mesh, const Checker& out)
         corners("mesh.links", k, mesh.links[k]);
     for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k)
         corners("mesh.tetrahedra", k, mesh.tetrahedra[k]);
-    for (std::size_t k = 0; k < mesh.tetrahedra.size() && sound; ++k)
-        if (!(six_volumes(mesh.positions, mesh.tetrahedra[k]) > 0))
-            out.at("mesh.tetrahedra", k)
-                .error("", "has no volume, or is left-handed; exchange two corners, or remove it",
-                       ErrorCode::degenerate_rest);
+    if (sound)
+        check_volumes(mesh, kind, out);
     if (mesh.grid_columns != 0 && std::size_t(mesh.grid_columns) * mesh.grid_rows != count)
         out.error("mesh", "says " + std::to_string(mesh.grid_columns) + " x " +
                               std::to_string(mesh.grid_rows) + " vertices and has " + std::to_string(count));
@@ -330,7 +355,7 @@ std::vector<SceneIssue> check_resolved(const Scene& scene)
         const Checker at = out.at("bodies", i);
         check_body_values(scene.bodies[i], at);
         scene_file::check_counts(scene.bodies[i], scene.bodies[i].mesh.positions.size(), at);
-        check_mesh(scene.bodies[i].mesh, at);
+        check_mesh(scene.bodies[i].mesh, scene.bodies[i].shape.kind, at);
     }
     return issues;
 }

@@ -24,14 +24,31 @@ std::string shown(const nlohmann::json& value)
 
 } // namespace
 
-Field::Field(const nlohmann::json& value, const std::string& file, std::string path)
+Field::Field(const nlohmann::json& value, const std::string& file, std::string path,
+             std::vector<SceneIssue>* issues)
     : value_(&value),
       file_(&file),
-      path_(std::move(path))
+      path_(std::move(path)),
+      issues_(issues)
 {}
+
+void Field::attempt(const std::function<void()>& part)
+{
+    try
+    {
+        part();
+    }
+    catch (const Listed&)
+    {}
+}
 
 void Field::fail(const std::string& text) const
 {
+    if (issues_)
+    {
+        issues_->push_back({true, path_, path_.empty() ? "the scene " + text : text});
+        throw Listed();
+    }
     throw Error(ErrorCode::bad_input, *file_ + ": " + (path_.empty() ? "the scene" : path_) + " " + text);
 }
 
@@ -48,10 +65,10 @@ const Field& Field::object(std::string_view kind)
             continue;
         const std::string_view hint = meant(kind, item.key());
         const std::string close = nearest(item.key(), known.keys);
-        fail("has the unknown key " + shown(item.key()) + "; " +
-             (!hint.empty()   ? std::string(hint)
-              : close.empty() ? "it may have " + listing(known.keys)
-                              : "did you mean \"" + close + "\"?"));
+        const std::string right = !hint.empty()   ? std::string(hint)
+                                  : close.empty() ? "it may have " + listing(known.keys)
+                                                  : "did you mean \"" + close + "\"?";
+        attempt([&] { fail("has the unknown key " + shown(item.key()) + "; " + right); });
     }
     kind_ = known.object;
     return *this;
@@ -64,7 +81,7 @@ std::optional<Field> Field::find(std::string_view key) const
     const auto member = value_->find(std::string(key));
     if (member == value_->end())
         return std::nullopt;
-    return Field(*member, *file_, (path_.empty() ? "" : path_ + ".") + std::string(key));
+    return Field(*member, *file_, (path_.empty() ? "" : path_ + ".") + std::string(key), issues_);
 }
 
 Field Field::need(std::string_view key) const
@@ -110,7 +127,7 @@ std::vector<Field> Field::elements() const
     std::vector<Field> out;
     out.reserve(value_->size());
     for (std::size_t i = 0; i < value_->size(); ++i)
-        out.emplace_back((*value_)[i], *file_, path_ + '[' + std::to_string(i) + ']');
+        out.emplace_back((*value_)[i], *file_, path_ + '[' + std::to_string(i) + ']', issues_);
     return out;
 }
 
@@ -125,31 +142,31 @@ glm::dvec3 Field::vector() const
 void Field::read(std::string_view key, double& out) const
 {
     if (const auto member = find(key))
-        out = member->number();
+        attempt([&] { out = member->number(); });
 }
 
 void Field::read(std::string_view key, std::uint32_t& out) const
 {
     if (const auto member = find(key))
-        out = member->count();
+        attempt([&] { out = member->count(); });
 }
 
 void Field::read(std::string_view key, bool& out) const
 {
     if (const auto member = find(key))
-        out = member->boolean();
+        attempt([&] { out = member->boolean(); });
 }
 
 void Field::read(std::string_view key, std::string& out) const
 {
     if (const auto member = find(key))
-        out = member->text();
+        attempt([&] { out = member->text(); });
 }
 
 void Field::read(std::string_view key, glm::dvec3& out) const
 {
     if (const auto member = find(key))
-        out = member->vector();
+        attempt([&] { out = member->vector(); });
 }
 
 } // namespace taut::scene_file

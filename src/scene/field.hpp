@@ -6,7 +6,11 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "taut/runtime/base/error.hpp"
+#include "taut/scene/scene.hpp"
+
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,12 +18,30 @@
 
 namespace taut::scene_file {
 
+/// What a reader throws once it has put a mistake on a list; attempt() goes on behind it.
+struct Listed
+{};
+
 /// A view of one JSON value. All readers throw Error{bad_input}: file, path, what is there, what
-/// would be right. Only types are checked here; ranges are the business of check().
+/// would be right. With a list of issues they put it there instead, and what can be read is read. Only types
+/// are checked here; ranges are the business of check().
 class Field
 {
 public:
-    Field(const nlohmann::json& value, const std::string& file, std::string path);
+    /// `issues`: null, or where mistakes are listed; must outlive the view, as the others do.
+    Field(const nlohmann::json& value, const std::string& file, std::string path,
+          std::vector<SceneIssue>* issues = nullptr);
+
+    /// Does `part`; what it lists ends it, and nothing else.
+    static void attempt(const std::function<void()>& part);
+
+    /// Calls `read` with each element of a list; a mistake ends that element only.
+    template <typename Read>
+    void each(const Read& read) const
+    {
+        for (const Field& element : elements())
+            attempt([&] { read(element); });
+    }
 
     /// Refuses anything but an object whose keys are all in keys_of(kind).
     const Field& object(std::string_view kind);
@@ -55,6 +77,7 @@ private:
     const std::string* file_;
     std::string path_;
     std::string_view kind_;
+    std::vector<SceneIssue>* issues_;
 };
 
 } // namespace taut::scene_file

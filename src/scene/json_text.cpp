@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMaxDepth = 32;
+constexpr std::size_t kMaxDepth = 32;
 
 std::string place(std::string_view text, std::size_t byte)
 {
@@ -31,27 +31,38 @@ std::string reason(std::string what)
     return what;
 }
 
-/// Follows the parser to know the path of each key.
-class Watcher
+/// Reads the text once before it is parsed, for what the parser does not tell: keys that stand twice, depth,
+/// and where. (Its own callback looks through a list again after each of its entries.)
+class Watcher final : public nlohmann::json_sax<json>
 {
 public:
     explicit Watcher(const std::string& file) : file_(file) {}
 
-    bool operator()(int depth, json::parse_event_t event, json& parsed)
+    bool null() override { return count(); }
+    bool boolean(bool) override { return count(); }
+    bool number_integer(number_integer_t) override { return count(); }
+    bool number_unsigned(number_unsigned_t) override { return count(); }
+    bool number_float(number_float_t, const string_t&) override { return count(); }
+    bool string(string_t&) override { return count(); }
+    bool binary(binary_t&) override { return count(); }
+    bool start_object(std::size_t) override { return enter(false); }
+    bool start_array(std::size_t) override { return enter(true); }
+    bool end_object() override { return leave(); }
+    bool end_array() override { return leave(); }
+    /// Left to the parser, whose message it is.
+    bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
+
+    bool key(string_t& name) override
     {
-        if (depth > kMaxDepth)
-            throw Error(ErrorCode::bad_input, file_ + ": " + path() + " is nested more than " +
-                                                  std::to_string(kMaxDepth) +
-                                                  " levels deep; a scene needs 8");
-        switch (event)
+        Level& level = levels_.back();
+        if (!level.seen.insert(name).second)
         {
-        case json::parse_event_t::object_start: enter(false); break;
-        case json::parse_event_t::array_start: enter(true); break;
-        case json::parse_event_t::object_end:
-        case json::parse_event_t::array_end: levels_.pop_back(); break;
-        case json::parse_event_t::value: count(); break;
-        case json::parse_event_t::key: key(parsed.get<std::string>()); break;
+            levels_.pop_back();
+            const std::string where = levels_.empty() ? "the scene" : path();
+            throw Error(ErrorCode::bad_input, file_ + ": the key \"" + name + "\" stands twice in " + where +
+                                                  "; keep one of the two");
         }
+        level.key = name;
         return true;
     }
 
@@ -64,29 +75,28 @@ private:
         std::set<std::string> seen;
     };
 
-    void count()
+    bool count()
     {
         if (!levels_.empty())
             ++levels_.back().elements;
+        return true;
     }
 
-    void enter(bool array)
+    bool enter(bool array)
     {
         count();
+        if (levels_.size() > kMaxDepth)
+            throw Error(ErrorCode::bad_input, file_ + ": " + path() + " is nested more than " +
+                                                  std::to_string(kMaxDepth) +
+                                                  " levels deep; a scene needs 8");
         levels_.push_back({array, 0, {}, {}});
+        return true;
     }
 
-    void key(std::string name)
+    bool leave()
     {
-        Level& level = levels_.back();
-        if (!level.seen.insert(name).second)
-        {
-            levels_.pop_back();
-            const std::string where = levels_.empty() ? "the scene" : path();
-            throw Error(ErrorCode::bad_input, file_ + ": the key \"" + name + "\" stands twice in " + where +
-                                                  "; keep one of the two");
-        }
-        level.key = std::move(name);
+        levels_.pop_back();
+        return true;
     }
 
     std::string path() const
@@ -110,7 +120,9 @@ json parse_json(std::string_view text, const std::string& file)
 {
     try
     {
-        return json::parse(text.begin(), text.end(), Watcher(file));
+        Watcher watcher(file);
+        json::sax_parse(text.begin(), text.end(), &watcher);
+        return json::parse(text.begin(), text.end());
     }
     catch (const json::parse_error& error)
     {

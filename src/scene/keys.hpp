@@ -23,7 +23,8 @@ std::span<const KeySet> all_keys();
 /// The candidate with the fewest edits to `word`; empty if none is closer than half its length.
 std::string nearest(std::string_view word, std::span<const std::string_view> candidates);
 
-/// What to say to one who writes into `object` a key that means something elsewhere; empty if nothing is known.
+/// What to say to one who writes into `object` a key that means something elsewhere; empty if nothing is
+/// known.
 std::string_view meant(std::string_view object, std::string_view key);
 
 /// "a", "b" or "c"

@@ -45,8 +45,7 @@ std::string_view exactly_one(const Field& object, const std::array<std::string_v
 std::vector<Keyframe> read_motion(const Field& list)
 {
     std::vector<Keyframe> motion;
-    for (Field entry : list.elements())
-    {
+    list.each([&](Field entry) {
         entry.object("keyframe");
         Keyframe key;
         key.time = entry.need("time").number();
@@ -59,7 +58,7 @@ std::vector<Keyframe> read_motion(const Field& list)
             rotate->read("centre", key.rotate_centre);
         }
         motion.push_back(key);
-    }
+    });
     return motion;
 }
 
@@ -78,8 +77,7 @@ Pin read_pin(Field field)
     field.object("pin");
     Pin pin;
     if (const auto list = field.find("vertices"))
-        for (const Field& vertex : list->elements())
-            pin.vertices.push_back(vertex.count());
+        list->each([&](const Field& vertex) { pin.vertices.push_back(vertex.count()); });
     if (auto box = field.find("box"))
     {
         box->object("box");
@@ -97,8 +95,8 @@ Pin read_pin(Field field)
 
 void read_grid(Field field, Shape& shape)
 {
-    field.object("grid");
     shape.kind = ShapeKind::grid;
+    field.object("grid");
     if (const auto cells = field.find("cells"))
     {
         const auto parts = cells->elements();
@@ -126,8 +124,8 @@ void read_grid(Field field, Shape& shape)
 
 void read_box(Field field, Shape& shape)
 {
-    field.object("solid box");
     shape.kind = ShapeKind::box;
+    field.object("solid box");
     if (const auto cells = field.find("cells"))
     {
         const auto parts = cells->elements();
@@ -141,36 +139,40 @@ void read_box(Field field, Shape& shape)
 
 void read_ball(Field field, Shape& shape)
 {
-    field.object("ball");
     shape.kind = ShapeKind::ball;
+    field.object("ball");
     field.read("cells", shape.ball_cells);
     field.read("radius", shape.radius);
+}
+
+void read_chain(Field field, Shape& shape)
+{
+    shape.kind = ShapeKind::chain;
+    field.object("chain");
+    field.read("links", shape.links);
+    field.read("length", shape.length);
+    field.read("width", shape.width);
+}
+
+void read_kind(std::string_view kind, const Field& field, Shape& shape)
+{
+    if (kind == "grid")
+        return read_grid(field, shape);
+    if (kind == "chain")
+        return read_chain(field, shape);
+    if (kind == "box")
+        return read_box(field, shape);
+    if (kind == "ball")
+        return read_ball(field, shape);
+    shape.kind = kind == "mesh" ? ShapeKind::mesh : ShapeKind::tetrahedra;
+    shape.file = field.text();
 }
 
 void read_shape(const Field& body, Shape& shape)
 {
     constexpr std::array<std::string_view, 6> kinds = {"grid", "chain", "mesh", "box", "ball", "tetrahedra"};
     const std::string_view kind = exactly_one(body, kinds);
-    Field field = body.need(kind);
-    if (kind == "grid")
-        read_grid(field, shape);
-    else if (kind == "chain")
-    {
-        field.object("chain");
-        shape.kind = ShapeKind::chain;
-        field.read("links", shape.links);
-        field.read("length", shape.length);
-        field.read("width", shape.width);
-    }
-    else if (kind == "box")
-        read_box(field, shape);
-    else if (kind == "ball")
-        read_ball(field, shape);
-    else
-    {
-        shape.kind = kind == "mesh" ? ShapeKind::mesh : ShapeKind::tetrahedra;
-        shape.file = field.text();
-    }
+    Field::attempt([&] { read_kind(kind, body.need(kind), shape); });
     const auto weld = body.find("weld_distance");
     if (weld && shape.kind != ShapeKind::mesh)
         weld->fail("stands beside \"" + std::string(kind) + "\"; it belongs to \"mesh\" only");
@@ -210,22 +212,18 @@ Body read_body(Field field)
     if (solid)
         body.material = solid_material();
     if (const auto material = field.find("material"))
-        read_material(*material, solid, body.material);
+        Field::attempt([&] { read_material(*material, solid, body.material); });
     if (const auto transform = field.find("transform"))
-        read_transform(*transform, body.transform);
+        Field::attempt([&] { read_transform(*transform, body.transform); });
     field.read("velocity", body.velocity);
     if (const auto pins = field.find("pins"))
-        for (const Field& pin : pins->elements())
-            body.pins.push_back(read_pin(pin));
+        pins->each([&](const Field& pin) { body.pins.push_back(read_pin(pin)); });
     if (const auto springs = field.find("springs"))
-        for (const Field& spring : springs->elements())
-            body.springs.push_back(read_spring(spring));
+        springs->each([&](const Field& spring) { body.springs.push_back(read_spring(spring)); });
     if (const auto masses = field.find("vertex_masses"))
-        for (const Field& mass : masses->elements())
-            body.vertex_masses.push_back(mass.number());
+        masses->each([&](const Field& mass) { body.vertex_masses.push_back(mass.number()); });
     if (const auto positions = field.find("start_positions"))
-        for (const Field& position : positions->elements())
-            body.start_positions.push_back(position.vector());
+        positions->each([&](const Field& position) { body.start_positions.push_back(position.vector()); });
     if (const auto embedded = field.find("embedded"))
     {
         body.embedded_file = embedded->text();
@@ -289,11 +287,10 @@ Wind read_wind(Field field)
     field.read("density", wind.density);
     field.read("velocity", wind.velocity);
     if (const auto keys = field.find("keys"))
-        for (Field entry : keys->elements())
-        {
+        keys->each([&](Field entry) {
             entry.object("wind key");
             wind.keys.push_back({entry.need("time").number(), entry.need("velocity").vector()});
-        }
+        });
     return wind;
 }
 
@@ -314,22 +311,36 @@ Scene read_scene(Field field)
     field.read("max_speed", scene.max_speed);
     field.read("depenetration_speed", scene.depenetration_speed);
     field.read("external_forces", scene.external_forces);
-    if (const auto method = field.find("method"))
-        read_method(*method, scene.method);
-    if (const auto accept = field.find("accept"))
-        scene.accept = read_accept(*accept);
-    if (const auto wind = field.find("wind"))
-        scene.wind = read_wind(*wind);
-    if (const auto bodies = field.find("bodies"))
-        for (const Field& body : bodies->elements())
-            scene.bodies.push_back(read_body(body));
-    if (const auto colliders = field.find("colliders"))
-        for (const Field& collider : colliders->elements())
-            scene.colliders.push_back(read_collider(collider));
+    const auto part = [&](std::string_view key, const auto& read) {
+        if (const auto member = field.find(key))
+            Field::attempt([&] { read(*member); });
+    };
+    part("method", [&](const Field& method) { read_method(method, scene.method); });
+    part("accept", [&](const Field& accept) { scene.accept = read_accept(accept); });
+    part("wind", [&](const Field& wind) { scene.wind = read_wind(wind); });
+    part("bodies", [&](const Field& list) {
+        list.each([&](const Field& body) { scene.bodies.push_back(read_body(body)); });
+    });
+    part("colliders", [&](const Field& list) {
+        list.each([&](const Field& collider) { scene.colliders.push_back(read_collider(collider)); });
+    });
     return scene;
 }
 
 } // namespace
+
+std::vector<SceneIssue> check_file(const std::filesystem::path& file)
+{
+    const std::string name = file.string();
+    const std::string text = scene_file::read_file(file, scene_file::kMaxSceneBytes);
+    std::vector<SceneIssue> issues;
+    const nlohmann::json tree = scene_file::parse_json(text, name);
+    Scene scene;
+    Field::attempt([&] { scene = read_scene(Field(tree, name, {}, &issues)); });
+    if (issues.empty())
+        issues = check(scene);
+    return issues;
+}
 
 Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name,
                   std::span<const std::string> settings)

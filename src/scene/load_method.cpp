@@ -22,7 +22,7 @@ void read_method(Field field, MethodSettings& method)
 {
     field.object("method");
     field.read("type", method.type);
-    read_substeps(field, method.substeps);
+    Field::attempt([&] { read_substeps(field, method.substeps); });
     field.read("iterations", method.iterations);
     field.read("precision", method.precision);
     field.read("integrator", method.integrator);

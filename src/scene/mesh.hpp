@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,7 @@ struct MeshFindings
     std::vector<std::array<std::uint32_t, 2>> non_manifold_edges; ///< more than two triangles
     std::size_t boundary_edges = 0;
     std::size_t turned_tetrahedra = 0; ///< left-handed in the file
+    std::map<std::string, std::size_t> skipped; ///< lines of an OBJ that are not read, by their first word
 };
 
 /// OBJ, PLY, OFF, STL. Throws Error{io} or Error{bad_input} naming file and what is wrong.

@@ -23,14 +23,15 @@ void append_element(std::string& text, char keyword, const std::array<std::uint3
 
 } // namespace
 
-void append_number(std::string& text, double value)
+void append_number(std::string& text, double value, int digits)
 {
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 9).ptr;
-    text.append(digits, end);
+    char written[32];
+    const auto end =
+        std::to_chars(written, written + sizeof written, value, std::chars_format::general, digits).ptr;
+    text.append(written, end);
 }
 
-void append_vertices(std::string& text, std::span<const glm::dvec3> positions)
+void append_vertices(std::string& text, std::span<const glm::dvec3> positions, int digits)
 {
     text.reserve(text.size() + 48 * positions.size());
     for (const glm::dvec3& p : positions)
@@ -39,7 +40,7 @@ void append_vertices(std::string& text, std::span<const glm::dvec3> positions)
         for (int axis = 0; axis < 3; ++axis)
         {
             text += ' ';
-            append_number(text, p[axis]);
+            append_number(text, p[axis], digits);
         }
         text += '\n';
     }

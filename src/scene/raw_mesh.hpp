@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@ struct RawMesh
 {
     std::vector<glm::dvec3> positions;                   ///< finite, in file order
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices in range; larger faces are fanned
+    std::map<std::string, std::size_t> skipped; ///< lines that may mean something and are not read, by word
 };
 
 /// All throw Error{bad_input} naming `file` and the line or byte, what is there and what would be right.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 namespace taut::scene_file {
 namespace {
@@ -43,8 +44,11 @@ std::string_view read_format(GmshFile& in)
 {
     Words& words = in.values.words();
     const std::string_view version = words.any_word();
-    const bool two = version == "2" || version == "2.0" || version == "2.1" || version == "2.2";
-    if (!two && version != "4.1")
+    double number = 0; // some write "2.000000"
+    const auto read = std::from_chars(version.data(), version.data() + version.size(), number);
+    const bool whole = read.ec == std::errc() && read.ptr == version.data() + version.size();
+    const bool two = whole && (number == 2 || number == 2.1 || number == 2.2);
+    if (!two && !(whole && number == 4.1))
         words.fail("the version is " + quoted(version) + "; 1.0, 2.0 to 2.2 and 4.1 are read");
     const std::string_view form = words.any_word(), size = words.any_word();
     if (form != "0" && form != "1")

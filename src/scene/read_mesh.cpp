@@ -54,6 +54,7 @@ Mesh parse_mesh(std::string_view text, std::string extension, const std::string&
     check_size(raw, file);
     findings = {};
     Mesh mesh = clean(raw, weld_distance, findings);
+    findings.skipped = raw.skipped;
     if (mesh.triangles.empty())
         throw Error(ErrorCode::bad_input,
                     file + ": it has " + std::to_string(raw.positions.size()) +

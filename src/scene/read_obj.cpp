@@ -1,9 +1,12 @@
-// Wavefront OBJ: vertices and faces. Texture coordinates, normals, groups, materials, lines, points
-// and words that no standard knows (some garment tools write `stitch`) carry no cloth and are skipped.
+// Wavefront OBJ: vertices and faces. Texture coordinates, normals, groups and materials carry no cloth and
+// are skipped; lines, points, curves and words that no standard knows (some garment tools write `stitch`) are
+// skipped and counted.
 
 #include "taut/scene/raw_mesh.hpp"
 #include "taut/scene/words.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace taut::scene_file {
@@ -24,6 +27,25 @@ std::uint32_t corner_index(std::string_view word, std::size_t vertex_count, cons
     return static_cast<std::uint32_t>(index - 1);
 }
 
+/// What looks only, or names.
+bool is_looks(std::string_view word)
+{
+    constexpr std::array<std::string_view, 17> words = {
+        "vt",     "vn",    "g",        "o",        "s",   "mg",         "usemtl",    "mtllib", "usemap",
+        "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech"};
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void count_skipped(std::string_view word, RawMesh& mesh)
+{
+    constexpr std::size_t kMostKinds = 16; // a file that is no OBJ has a kind a line
+    if (is_looks(word))
+        return;
+    const std::string shown = quoted(word);
+    if (mesh.skipped.size() < kMostKinds || mesh.skipped.contains(shown))
+        ++mesh.skipped[shown];
+}
+
 } // namespace
 
 RawMesh read_obj(std::string_view text, const std::string& file)
@@ -38,6 +60,8 @@ RawMesh read_obj(std::string_view text, const std::string& file)
         const std::string_view keyword = words.word();
         if (keyword == "v")
             mesh.positions.push_back(words.position());
+        else if (keyword != "f")
+            count_skipped(keyword, mesh);
         if (keyword != "f")
             continue;
         corners.clear();

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <functional>
 
 namespace taut {
 
@@ -24,10 +25,19 @@ using scene_file::Checker;
     throw Error(first->code, text);
 }
 
-void throw_if_any(const std::vector<SceneIssue>& issues)
+bool any_error(const std::vector<SceneIssue>& issues)
 {
-    if (std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; }))
-        fail(issues);
+    return std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; });
+}
+
+/// `found`: null, or where the issues are handed out before it throws.
+void throw_if_any(const std::vector<SceneIssue>& issues, std::vector<SceneIssue>* found)
+{
+    if (!any_error(issues))
+        return;
+    if (found)
+        found->insert(found->end(), issues.begin(), issues.end());
+    fail(issues);
 }
 
 /// `field`: the member of the body that names the file.
@@ -43,6 +53,9 @@ void warn_of(const MeshFindings& findings, bool solid, const Checker& out, const
                                 (solid ? "tetrahedron" : "triangle") + ", dropped");
     if (findings.turned_tetrahedra > 0)
         out.warning(field, "had " + count(findings.turned_tetrahedra, "left-handed tetrahedra, turned"));
+    for (const auto& [word, lines] : findings.skipped)
+        out.warning(field, "has " + count(lines, lines == 1 ? "line " : "lines ") + word +
+                               (lines == 1 ? ", which is not read" : ", which are not read"));
     if (!findings.non_manifold_edges.empty())
         out.warning(field,
                     "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
@@ -204,21 +217,32 @@ bool all_finite(const Mesh& mesh, const Checker& out)
     return true;
 }
 
+/// A file that cannot be used is an issue of the field that names it.
+void attempt(const char* field, const Checker& out, const std::function<void()>& read)
+{
+    try
+    {
+        read();
+    }
+    catch (const Error& error)
+    {
+        if (error.code() == ErrorCode::out_of_memory)
+            throw;
+        out.error(field, std::string("is of no use: ") + error.what(), error.code());
+    }
+}
+
 /// The surface that a solid carries along, in the frame of its shape.
 void embed_surface(Body& body, const std::filesystem::path& directory, const Checker& out)
 {
     Mesh surface;
-    try
-    {
+    attempt("embedded", out, [&] {
         MeshFindings findings;
         surface = read_mesh(directory / body.embedded_file, 0, &findings);
         warn_of(findings, false, out, "embedded");
-    }
-    catch (const Error& error)
-    {
-        out.error("embedded", std::string("is of no use: ") + error.what(), error.code());
+    });
+    if (surface.positions.empty())
         return;
-    }
     apply(body.transform, surface);
     if (!all_finite(surface, out.at("embedded")))
         return;
@@ -235,7 +259,10 @@ void embed_surface(Body& body, const std::filesystem::path& directory, const Che
 
 void resolve_body(Body& body, const std::filesystem::path& directory, const Checker& out)
 {
-    body.mesh = make_mesh(body.shape, directory, out);
+    attempt(body.shape.kind == ShapeKind::tetrahedra ? "tetrahedra" : "mesh", out,
+            [&] { body.mesh = make_mesh(body.shape, directory, out); });
+    if (body.mesh.positions.empty())
+        return;
     apply(body.transform, body.mesh);
     if (all_finite(body.mesh, out.at("transform")) && !body.embedded_file.empty())
         embed_surface(body, directory, out);
@@ -257,10 +284,10 @@ Material solid_material()
     return material;
 }
 
-Scene resolve(const Scene& scene, std::vector<SceneIssue>* warnings)
+Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
 {
     std::vector<SceneIssue> issues = check(scene);
-    throw_if_any(issues);
+    throw_if_any(issues, found);
     Scene resolved = scene;
     const Checker out(issues, {});
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
@@ -268,16 +295,18 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* warnings)
         Body& body = resolved.bodies[b];
         const Checker at = out.at("bodies", b);
         resolve_body(body, scene.directory, at);
-        throw_if_any(issues);
+        if (any_error(issues)) // pins may name what is not there
+            continue;
         std::vector<bool> held(body.mesh.positions.size(), false);
         for (std::size_t p = 0; p < body.pins.size(); ++p)
             resolve_pin(body, body.pins[p], held, at.at("pins", p));
         std::erase_if(body.pins, [](const Pin& pin) { return pin.vertices.empty(); });
     }
+    throw_if_any(issues, found);
     if (resolved.method.substeps == 0)
         resolved.method.substeps = automatic_substeps(resolved);
-    if (warnings)
-        warnings->insert(warnings->end(), issues.begin(), issues.end());
+    if (found)
+        found->insert(found->end(), issues.begin(), issues.end());
     return resolved;
 }
 

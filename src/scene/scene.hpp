@@ -321,8 +321,9 @@ std::vector<SceneIssue> check_resolved(const Scene& scene);
 std::uint32_t automatic_substeps(const Scene& resolved);
 
 /// Checks, generates or loads every body's mesh, applies transforms, resolves pins; returns a scene
-/// whose bodies have `mesh`, and whose pins have only `vertices` and `motion`. Warnings are appended.
-/// Throws Error{bad_input} with the first issue in full and the number of others.
-Scene resolve(const Scene& scene, std::vector<SceneIssue>* warnings = nullptr);
+/// whose bodies have `mesh`, and whose pins have only `vertices` and `motion`. Throws Error with the
+/// code of the first error, its text and the number of others. What was found, warnings and errors, is
+/// appended to `found`, also where it throws.
+Scene resolve(const Scene& scene, std::vector<SceneIssue>* found = nullptr);
 
 } // namespace taut

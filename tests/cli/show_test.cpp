@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 
 using program::Folder;
@@ -46,6 +47,31 @@ TEST_CASE("a plan for a device measures the device and names it")
     const Result readable = folder.taut({"plan", scene});
     CHECK(readable.status == 0);
     CHECK(readable.out.find("distance") != std::string::npos);
+}
+
+TEST_CASE("costs of a device are measured once and kept: the plan is the same in every run")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth()), kept = folder / "costs.txt";
+    const std::string before = std::getenv("TAUT_DEVICE_COSTS") ? std::getenv("TAUT_DEVICE_COSTS") : "";
+    setenv("TAUT_DEVICE_COSTS", kept.c_str(), 1);
+    const auto plan = [&] {
+        return program::parse(folder.taut({"plan", scene, "--device", "cpu:serial", "--json"}).out);
+    };
+    const auto first = plan(), second = plan();
+    CHECK(first == second);
+    std::string text = program::read(kept);
+    CHECK(std::count(text.begin(), text.end(), '\n') == 2);
+    folder.file("costs.txt", text.substr(0, text.find('\t')) + "\t1000000 1 0.5 0.25\n");
+    const auto third = plan();
+    CHECK(third["costs_ns"] ==
+          nlohmann::json{{"dispatch", 1e6}, {"group_barrier", 1}, {"element", 0.5}, {"lane_element", 0.25}});
+    CHECK(third["dispatches_per_step"] < first["dispatches_per_step"]); // grouped more
+    folder.file("costs.txt", "nonsense\n");
+    CHECK(plan()["dispatches_per_step"].is_number());
+    const Result readable = folder.taut({"plan", scene, "--device", "cpu:serial"});
+    CHECK(readable.out.find("(from " + kept + ")") != std::string::npos);
+    setenv("TAUT_DEVICE_COSTS", before.c_str(), 1);
 }
 
 TEST_CASE("check says which field is wrong, and ends with 0 only when nothing is")
@@ -93,6 +119,41 @@ TEST_CASE("check and run name keys that the method does not read, and go on")
     CHECK(messages[1].get<std::string>().rfind("method.start: ", 0) == 0);
 }
 
+TEST_CASE("check lists every member that cannot be read, by field")
+{
+    const Folder folder;
+    const std::string scene = folder.file("scene.json", R"({"taut": 1, "timestep": "short", "gravty": 1,
+        "method": {"type": 3, "substeps": -1, "iterations": 2},
+        "bodies": [{"grid": {"cells": [4]}, "pins": [{"corner": 7}, {"vertices": [0, "one"]}],
+                    "material": {"density": [1], "stiffness": 1, "thickness": true}},
+                   {"cloth": {}}, {"grid": {}, "springs": [{"a": 1}]}],
+        "colliders": [{"sphere": {"radius": "wide"}}]})");
+    const Result result = folder.taut({"check", scene, "--json"});
+    CHECK(result.status == 2);
+    std::set<std::string> fields;
+    const auto issues = program::parse(result.out)["issues"];
+    for (const auto& issue : issues)
+        fields.insert(issue["field"].get<std::string>());
+    CHECK(fields == std::set<std::string>{"", "timestep", "method.type", "method.substeps",
+                                          "bodies[0].grid.cells", "bodies[0].pins[0].corner",
+                                          "bodies[0].pins[1].vertices[1]", "bodies[0].material",
+                                          "bodies[0].material.density", "bodies[0].material.thickness",
+                                          "bodies[1]", "bodies[2].springs[0]", "colliders[0].sphere.radius"});
+}
+
+TEST_CASE("check names the box whose tetrahedra have no volume, and a timestep that is too short")
+{
+    const Folder folder;
+    const auto field = [&](const std::string& text) {
+        const Result result = folder.taut({"check", folder.file("scene.json", text), "--json"});
+        CHECK(result.status == 2);
+        return program::parse(result.out)["issues"].at(0)["field"].get<std::string>();
+    };
+    CHECK(field(R"({"taut": 1, "bodies": [{"box": {"size": [1e-200, 1e-200, 1]}}]})") == "bodies[0].box");
+    CHECK(field(R"({"taut": 1, "timestep": 1e-12, "bodies": [{"grid": {}}]})") == "timestep");
+    CHECK(field(R"({"taut": 1, "duration": 1e12, "bodies": [{"grid": {}}]})") == "duration");
+}
+
 TEST_CASE("check finds a mesh file that is not there")
 {
     const Folder folder;
@@ -100,6 +161,12 @@ TEST_CASE("check finds a mesh file that is not there")
     const Result result = folder.taut({"check", scene});
     CHECK(result.status == 2);
     CHECK((result.out + result.err).find("none.obj") != std::string::npos);
+    const Result json = folder.taut({"check", scene, "--json"});
+    CHECK(json.status == 2);
+    const auto issues = program::parse(json.out)["issues"];
+    REQUIRE(issues.size() == 1);
+    CHECK(issues[0]["field"] == "bodies[0].mesh");
+    CHECK(issues[0]["text"].get<std::string>().find("there is no such file") != std::string::npos);
 }
 
 TEST_CASE("devices lists the native CPU with its limits, each under a selector that opens it")

@@ -77,6 +77,16 @@ TEST_CASE("larger faces are fanned, negative indices count back, lines may be jo
           glm::dvec3(0.15, 1, 0));
 }
 
+TEST_CASE("lines of an OBJ that may mean something and are not read are counted by kind")
+{
+    MeshFindings findings;
+    parse(".obj",
+          "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\no cloth\ns off\nf 1 2 3\nl 1 2\nstitch 1 2\n"
+          "stitch 2 3\n# stitch 1 3\n",
+          0, &findings);
+    CHECK(findings.skipped == std::map<std::string, std::size_t>{{"\"l\"", 1}, {"\"stitch\"", 2}});
+}
+
 TEST_CASE("coordinates keep double precision")
 {
     const Mesh mesh = parse(".obj", "v 0.1 0 0\nv 1.0000000000000002 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -93,6 +93,18 @@ TEST_CASE("the same solid is read from every format")
     }
 }
 
+TEST_CASE("a Gmsh version may have more digits than it needs")
+{
+    for (const Sample& sample : samples())
+        for (const auto& [from, to] : {std::pair{"\n2.2 0 8", "\n2.200000 0 8"}, {"\n4.1 0 8", "\n4.10 0 8"}})
+            if (sample.text.find(from) != std::string::npos)
+            {
+                MeshFindings findings;
+                const std::string text = with(sample.text, from, to);
+                check_two(scene_file::parse_tetrahedra(text, sample.extension, "f", findings), findings);
+            }
+}
+
 TEST_CASE("either file of a TetGen pair names the other")
 {
     const Temporary folder;
