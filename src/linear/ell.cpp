@@ -21,7 +21,7 @@ public:
     {
         for (std::uint32_t row = 0; row < matrix.rows; ++row)
             width_ = std::max(width_, matrix.row_length(row));
-        check_waste(matrix);
+        check_entry_count(std::uint64_t{stride_} * width_, "format ell");
         const std::uint64_t stored = std::uint64_t{stride_} * width_;
         check_bytes(stored * std::max(real_bytes(precision()), 4u), "entries");
         check_trips(rows(), [this](std::uint32_t, std::uint32_t) { return width_; });
@@ -40,17 +40,6 @@ public:
     }
 
 private:
-    void check_waste(const SparseMatrix& matrix) const
-    {
-        const double stored = static_cast<double>(matrix.rows) * width_;
-        if (stored > kLargestEllWaste * static_cast<double>(matrix.nonzeros()))
-            throw Error(ErrorCode::limit, "format ell would pad every row to " + std::to_string(width_) +
-                                              " entries and store " +
-                                              std::to_string(static_cast<std::uint64_t>(stored)) + " for " +
-                                              std::to_string(matrix.nonzeros()) + ": take sell or csr");
-        check_entry_count(std::uint64_t{stride_} * width_, "format ell");
-    }
-
     /// Padding is in the row's own column.
     std::vector<std::uint32_t> columns_of(const SparseMatrix& matrix) const
     {

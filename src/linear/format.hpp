@@ -43,8 +43,8 @@ RowStatistics row_statistics(const SparseMatrix&);
 /// Device bytes of the matrix alone: values, indices, tables. With `pairs` the low words of `mixed` too.
 std::uint64_t matrix_bytes(Format, const SparseMatrix&, Precision, bool pairs = false);
 
-/// ELL stores more than this many times the entries: refused (Error{limit}).
-inline constexpr double kLargestEllWaste = 3;
+/// ELL that stores more than this many times the entries is worth a note.
+inline constexpr double kLargeEllWaste = 3;
 /// Largest block fill below which bcsr3 is refused by `automatic`.
 inline constexpr double kLeastBlockFill = 0.6;
 /// `automatic` takes dense from this share of all places on: there a value with a column number (12 bytes)

@@ -9,6 +9,7 @@
 #include "taut/linear/null_space.hpp"
 #include "taut/linear/system_solver.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/runtime/required.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -93,10 +94,24 @@ Problem pose(const SparseMatrix& a, std::span<const double> b, std::span<const d
     return out;
 }
 
+void note_padding(const SparseMatrix& a, SolveReport& report)
+{
+    std::uint32_t longest = 0;
+    for (std::uint32_t row = 0; row < a.rows; ++row)
+        longest = std::max(longest, a.row_length(row));
+    const std::uint64_t stored = std::uint64_t{longest} * a.rows;
+    if (static_cast<double>(stored) > kLargeEllWaste * static_cast<double>(a.nonzeros()))
+        report.notes.push_back("format ell pads every row to " + std::to_string(longest) +
+                               " entries and stores " + std::to_string(stored) + " for " +
+                               std::to_string(a.nonzeros()) + "; sell or csr would store less");
+}
+
 void choose(SolveReport& report, const SparseMatrix& a, const SolveOptions& options, const DeviceInfo& device)
 {
     report.format = options.format;
     report.format_reason = "asked for";
+    if (options.format == Format::ell)
+        note_padding(a, report);
     if (options.format != Format::automatic)
         return;
     const FormatChoice choice = choose_format(row_statistics(a), device.hardware_gpu);
@@ -120,6 +135,28 @@ void project_change(const NullBasis& basis, const SparseMatrix& a, const Problem
         return;
     report.relative_residual = now;
     x = std::move(without);
+}
+
+std::vector<double> times_power(std::span<const double> values, int power)
+{
+    std::vector<double> out(values.begin(), values.end());
+    for (double& value : out)
+        value = std::ldexp(value, power);
+    return out;
+}
+
+/// A right-hand side whose length is beyond double: the system is solved for a 2^600th of it.
+Solution solve_small(const std::shared_ptr<Device>& device, const SparseMatrix& a, std::span<const double> b,
+                     const SolveOptions& options, std::span<const double> x0)
+{
+    constexpr int kPower = 600;
+    Solution out = solve(device, a, times_power(b, -kPower), options, times_power(x0, -kPower));
+    out.x = times_power(out.x, kPower);
+    for (std::size_t i = 0; i < out.x.size(); ++i)
+        if (!std::isfinite(out.x[i]))
+            throw Error(ErrorCode::bad_input,
+                        "x[" + std::to_string(i) + "] (from 0) is beyond double: give b in a larger unit");
+    return out;
 }
 
 } // namespace
@@ -146,6 +183,7 @@ Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std
                const SolveOptions& options, std::span<const double> x0)
 {
     const Clock::time_point begin = Clock::now();
+    required(device, "solve()");
     check_options(options, a.rows);
     const CheckOptions checks{.asymmetry = options.asymmetry,
                               .project_constants = options.null_space != NullSpace::none,
@@ -163,6 +201,8 @@ Solution solve(const std::shared_ptr<Device>& device, const SparseMatrix& a, std
         report.notes.push_back("A maps constants to zero: x is known up to a constant only");
     Problem problem = pose(a, b, x0, options.held);
     const double size = norm(problem.right);
+    if (!std::isfinite(size))
+        return solve_small(device, a, b, options, x0);
     report.null_part = size > 0 ? basis.project(problem.right) / size : 0;
     if (norm(problem.right) <= kNothingLeft * std::sqrt(a.rows) * size)
         problem.right.assign(a.rows, 0.0);

@@ -41,6 +41,53 @@ SolveOptions big(Preconditioner kind = Preconditioner::jacobi)
 
 } // namespace
 
+TEST_CASE("a right-hand side of any size that double holds is solved", "[linear][solve]")
+{
+    SolveOptions options = big();
+    options.precision = GENERATE(SolvePrecision::float64, SolvePrecision::mixed);
+    const SparseMatrix a = poisson2d(4);
+    const std::vector<double> exact = waves(a.rows);
+    std::vector<double> b(a.rows);
+    multiply(a, exact, b);
+    const double factor = GENERATE(1e-300, 1e300, 4e307); // the length of the last is beyond double
+    for (double& entry : b)
+        entry *= factor;
+    const Solution solution = solve(test_device("cpu:serial"), a, b, options);
+    CHECK(solution.report.status == Status::converged);
+    for (std::uint32_t i = 0; i < a.rows; ++i)
+        CHECK(solution.x[i] / factor == Approx(exact[i]).epsilon(1e-6));
+}
+
+TEST_CASE("ell is used where it is asked for, with a note where it pads much", "[linear][solve]")
+{
+    SparseMatrix a = poisson2d(16);
+    SolveOptions options;
+    options.format = Format::ell;
+    const std::vector<double> b(a.rows, 1.0);
+    CHECK(solve(test_device("cpu:serial"), a, b, options).report.notes.empty());
+    std::vector<Triplet> entries; // an arrow: one long row and column
+    for (std::uint32_t i = 0; i < 200; ++i)
+        entries.push_back({i, i, i == 0 ? 300.0 : 2.0});
+    for (std::uint32_t i = 1; i < 200; ++i)
+        entries.insert(entries.end(), {{0, i, -1.0}, {i, 0, -1.0}});
+    a = from_triplets(200, 200, entries);
+    const Solution solution = solve(test_device("cpu:serial"), a, std::vector<double>(200, 1.0), options);
+    CHECK(solution.report.status == Status::converged);
+    CHECK(solution.report.format == Format::ell);
+    REQUIRE(solution.report.notes.size() == 1);
+    CHECK_THAT(solution.report.notes[0],
+               Catch::Matchers::Contains("pads every row to 200 entries and stores 40000"));
+}
+
+TEST_CASE("a solution beyond double is refused", "[linear][solve]")
+{
+    SparseMatrix a = poisson2d(4);
+    for (double& value : a.value)
+        value *= 1e-3;
+    const std::vector<double> b(a.rows, 1e308);
+    CHECK_THROWS_WITH(solve(test_device("cpu:serial"), a, b), Catch::Matchers::Contains("is beyond double"));
+}
+
 TEST_CASE("solve on every executor, in every precision", "[linear][solve]")
 {
     const std::string selector = GENERATE(from_range(test_devices()));
