@@ -128,5 +128,6 @@ TEST_CASE("tetrahedra that are left-handed or flat are refused by number")
     Scene scene;
     scene.bodies = {corner("neo_hookean", 1e5, 0.3)};
     std::swap(scene.bodies[0].mesh.tetrahedra[0][0], scene.bodies[0].mesh.tetrahedra[0][1]);
-    CHECK_THROWS_WITH(make_plan(scene), Contains("bodies[0].box has 1 of 1 tetrahedra") && Contains("left-handed"));
+    CHECK_THROWS_WITH(make_plan(scene),
+                      Contains("bodies[0].box has 1 of 1 tetrahedra") && Contains("left-handed"));
 }
