@@ -17,8 +17,7 @@ std::string environment(const char* name)
 }
 
 /// The file that `variable` names, else `name` in the program's cache folder. Empty when nothing should be
-/// kept
-/// ("off"), or when there is no place for it: what is kept never stops a run.
+/// kept ("off"), or when there is no place for it: what is kept never stops a run.
 std::string kept_file(const char* variable, const char* name)
 {
     const std::string chosen = environment(variable);
