@@ -12,7 +12,6 @@
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/compliance.glsl"
-#include "shared/cross.glsl"
 
 PARAMS
 {
@@ -50,9 +49,9 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     e1 = further != 0u ? e1 + m1 : e1;
     e2 = further != 0u ? e2 + m2 : e2;
     e3 = further != 0u ? e3 + m3 : e3;
-    rvec3 g1 = exact_cross(e2, e3) * REAL(0.16666666666666666667);
-    rvec3 g2 = exact_cross(e3, e1) * REAL(0.16666666666666666667);
-    rvec3 g3 = exact_cross(e1, e2) * REAL(0.16666666666666666667);
+    rvec3 g1 = cross(e2, e3) * REAL(0.16666666666666666667);
+    rvec3 g2 = cross(e3, e1) * REAL(0.16666666666666666667);
+    rvec3 g3 = cross(e1, e2) * REAL(0.16666666666666666667);
     real square = (dot(g1, g1) + dot(g2, g2)) + dot(g3, g3);
     bool usable = square > real(0) && square < REAL(1e36);
     real soft = scaled_compliance(t.compliance, rate);

@@ -68,17 +68,32 @@
 #define rvec4 vec4
 #endif
 
-// Drivers add the products of dot in different orders (Mesa's OpenGL last to first, its Vulkan first to
-// last). Written out, every executor adds as GLM does and results agree to the last bit.
-real taut_dot(rvec3 a, rvec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
-real taut_dot(rvec4 a, rvec4 b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
-real taut_length(rvec3 a) { return sqrt(taut_dot(a, a)); }
-real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
-#define dot(a, b) taut_dot(a, b)
-#define length(a) taut_length(a)
-
 #define INOUT(T) inout T
 #define PRECISE precise
+
+// Drivers add the products of dot in different orders (Mesa's OpenGL last to first, its Vulkan first to
+// last), and contract those of cross (Mesa from version 26 on). Written out, every executor adds as GLM does
+// and results agree to the last bit. The kernel compiler refuses other built-ins that sum products.
+real taut_dot(rvec3 a, rvec3 b)
+{
+    PRECISE real sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
+    return sum;
+}
+real taut_dot(rvec4 a, rvec4 b)
+{
+    PRECISE real sum = (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w);
+    return sum;
+}
+real taut_length(rvec3 a) { return sqrt(taut_dot(a, a)); }
+real taut_length(rvec4 a) { return sqrt(taut_dot(a, a)); }
+rvec3 taut_cross(rvec3 a, rvec3 b)
+{
+    PRECISE rvec3 area = rvec3(a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y);
+    return area;
+}
+#define dot(a, b) taut_dot(a, b)
+#define length(a) taut_length(a)
+#define cross(a, b) taut_cross(a, b)
 #define DECLARE(prototype) prototype;
 #define rbool bool
 #define ELEMENT uint

@@ -10,7 +10,6 @@
 // Bytes per vertex: 8 + 80 read, 16 written; per corner of a triangle 8 + 64 (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
-#include "shared/cross.glsl"
 #include "shared/reduce.glsl"
 
 PARAMS
@@ -59,7 +58,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     uint last = table[at + 3u];
     rvec3 g = rvec3(real(0));
     for (uint k = table[at + 1u]; k < last; ++k)
-        g += exact_cross(between(v, corner[2u * k]), between(v, corner[2u * k + 1u]));
+        g += cross(between(v, corner[2u * k]), between(v, corner[2u * k + 1u]));
     g *= REAL(0.16666666666666666667);
     real w = position[v].w;
     rvec3 moved = (rvec3(delta[v]) - rvec3(low[v])) - (rvec3(delta[origin]) - rvec3(low[origin]));

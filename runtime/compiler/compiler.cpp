@@ -1,5 +1,6 @@
 #include "taut/runtime/compiler/compiler.hpp"
 
+#include "taut/runtime/compiler/float_rules.hpp"
 #include "taut/runtime/compiler/reflect.hpp"
 
 #include <glslang/Public/ResourceLimits.h>
@@ -147,6 +148,8 @@ std::vector<std::uint32_t> to_spirv(const Flat& flat, const std::string& name, b
         refuse("kernel " + name + " does not link:\n" + explain(program.getInfoLog(), flat));
     std::vector<std::uint32_t> spirv;
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv);
+    check_built_ins(name, spirv);
+    spirv = without_contraction(spirv);
 
     spvtools::SpirvTools tools(vulkan ? SPV_ENV_VULKAN_1_1 : SPV_ENV_OPENGL_4_5);
     std::string complaint;
