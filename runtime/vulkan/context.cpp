@@ -3,6 +3,8 @@
 #include "taut/runtime/vulkan/pipeline_cache.hpp"
 #include "taut/runtime/vulkan/structs.hpp"
 
+#include <algorithm>
+
 namespace taut::vulkan {
 
 std::shared_ptr<Context> Context::create(std::shared_ptr<Instance> instance, PhysicalDevice physical,
@@ -27,6 +29,8 @@ std::shared_ptr<Context> Context::borrow(std::shared_ptr<Instance> instance, Phy
     context->instance = std::move(instance);
     context->physical = std::move(physical);
     context->device = host.device;
+    if (std::min(host.api_version, context->physical.properties.apiVersion) < VK_API_VERSION_1_2)
+        context->physical.float_controls = {}; // the extension is the host's to enable
     context->cache = host.pipeline_cache;
     load_device_table(context->vk, context->instance->loader, context->instance->handle, host.device);
     context->build(host.queue, host.queue_mutex);
@@ -42,13 +46,17 @@ void Context::open_device()
     queue_info.pQueuePriorities = &priority;
     VkPhysicalDeviceFeatures features = {};
     features.shaderFloat64 = physical.info.limits.float64 ? VK_TRUE : VK_FALSE;
-    const char* const portability = "VK_KHR_portability_subset"; // must be enabled where it exists
+    std::vector<const char*> extensions;
+    if (physical.portability_subset)
+        extensions.push_back("VK_KHR_portability_subset"); // must be enabled where it exists
+    if (physical.float_controls_extension)
+        extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
     auto info = start<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
     info.pEnabledFeatures = &features;
-    info.enabledExtensionCount = physical.portability_subset ? 1 : 0;
-    info.ppEnabledExtensionNames = &portability;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     check(instance->table.CreateDevice(physical.handle, &info, nullptr, &device), "vkCreateDevice");
     owns_device_ = true;
     load_device_table(vk, instance->loader, instance->handle, device);
@@ -73,8 +81,7 @@ void Context::build(VkQueue handle, std::mutex* host_mutex)
     memory = std::make_unique<Memory>(vk, device, physical.memory, health);
     queue = std::make_unique<Queue>(vk, device, handle, host_mutex, health);
     transfer = std::make_unique<Transfer>(vk, device, physical.memory, physical.queue_family, *queue, health);
-    pipelines =
-        std::make_unique<Pipelines>(vk, device, cache, limits.max_param_bytes, limits.float64, health);
+    pipelines = std::make_unique<Pipelines>(vk, device, cache, limits, physical.float_controls, health);
 }
 
 Context::~Context()

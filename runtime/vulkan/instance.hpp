@@ -2,6 +2,7 @@
 // The instance, the validation layers and the list of physical devices.
 
 #include "taut/runtime/device.hpp"
+#include "taut/runtime/vulkan/float_controls.hpp"
 
 #include <vulkan/vulkan_core.h>
 
@@ -88,6 +89,8 @@ struct PhysicalDevice
     std::uint32_t queue_family = 0; ///< with compute; with graphics as well where there is one
     bool has_compute = false;
     bool portability_subset = false;
+    bool float_controls_extension = false; ///< VK_KHR_shader_float_controls
+    FloatControls float_controls;          ///< what the extension, or Vulkan 1.2, offers
     std::array<std::uint8_t, VK_UUID_SIZE> uuid = {};
     DeviceInfo info; ///< selector is left empty
 };

@@ -91,6 +91,7 @@ PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle)
     device.handle = handle;
     const std::vector<VkExtensionProperties> extensions = extensions_of(instance, handle);
     device.portability_subset = contains(extensions, "VK_KHR_portability_subset");
+    device.float_controls_extension = contains(extensions, VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
     instance.table.GetPhysicalDeviceProperties(handle, &device.properties);
     instance.table.GetPhysicalDeviceMemoryProperties(handle, &device.memory);
     if (device.properties.apiVersion < VK_API_VERSION_1_1)
@@ -108,10 +109,16 @@ PhysicalDevice describe(const Instance& instance, VkPhysicalDevice handle)
                               contains(extensions, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
     if (names_driver)
         maintenance.pNext = &driver;
+    auto floats = start<VkPhysicalDeviceFloatControlsProperties>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES);
+    floats.pNext = id.pNext;
+    if (device.properties.apiVersion >= VK_API_VERSION_1_2 || device.float_controls_extension)
+        id.pNext = &floats;
     instance.table.GetPhysicalDeviceProperties2(handle, &all);
     VkPhysicalDeviceFeatures features = {};
     instance.table.GetPhysicalDeviceFeatures(handle, &features);
 
+    device.float_controls = float_controls(floats);
     std::copy_n(id.deviceUUID, VK_UUID_SIZE, device.uuid.begin());
     device.info.executor = "vulkan";
     device.info.name = device.properties.deviceName;

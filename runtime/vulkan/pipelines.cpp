@@ -35,12 +35,13 @@ bool uses_float64(std::span<const std::uint32_t> spirv)
 } // namespace
 
 Pipelines::Pipelines(const VolkDeviceTable& vk, VkDevice device, VkPipelineCache cache,
-                     std::uint32_t push_bytes, bool float64, Health& health)
+                     const DeviceLimits& limits, const FloatControls& controls, Health& health)
     : vk_(vk),
       device_(device),
       cache_(cache),
-      push_bytes_(push_bytes),
-      float64_(float64),
+      push_bytes_(limits.max_param_bytes),
+      float64_(limits.float64),
+      controls_(controls),
       health_(health)
 {}
 
@@ -88,15 +89,17 @@ Pipeline Pipelines::make(const KernelInfo& kernel, std::span<const std::uint32_t
 {
     if (spirv.empty())
         throw Error(ErrorCode::bad_input, "kernel " + std::string(kernel.name) + " has no SPIR-V for Vulkan");
-    if (!float64_ && uses_float64(spirv))
+    const bool float64 = uses_float64(spirv);
+    if (!float64_ && float64)
         throw Error(ErrorCode::unsupported,
                     "kernel " + std::string(kernel.name) +
                         " uses 64-bit floats, which this device does not have or the host "
                         "did not enable (shaderFloat64); use precision float");
     const Layout& layout = layout_for(static_cast<std::uint32_t>(kernel.bindings.size()));
     auto module_info = start<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-    module_info.codeSize = spirv.size_bytes();
-    module_info.pCode = spirv.data();
+    const std::vector<std::uint32_t> words = with_float_controls(spirv, controls_, float64);
+    module_info.codeSize = words.size() * sizeof(std::uint32_t);
+    module_info.pCode = words.data();
     VkShaderModule module = VK_NULL_HANDLE;
     health_.check(vk_.vkCreateShaderModule(device_, &module_info, nullptr, &module), "vkCreateShaderModule");
     auto info = start<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);

@@ -2,6 +2,8 @@
 // Compute pipelines by SPIR-V, and one layout for each number of storage buffers.
 
 #include "taut/runtime/base/kernel_info.hpp"
+#include "taut/runtime/device.hpp"
+#include "taut/runtime/vulkan/float_controls.hpp"
 #include "taut/runtime/vulkan/result.hpp"
 #include "taut/runtime/vulkan/volk.hpp"
 
@@ -24,10 +26,10 @@ struct Pipeline
 class Pipelines
 {
 public:
-    /// Takes no ownership of `cache`. `push_bytes` is the range that every layout has, so that all layouts
-    /// are compatible with each other.
-    Pipelines(const VolkDeviceTable& vk, VkDevice device, VkPipelineCache cache, std::uint32_t push_bytes,
-              bool float64, Health& health);
+    /// Takes no ownership of `cache`. Of `limits`: max_param_bytes is the range of push constants that every
+    /// layout has, so that all layouts are compatible with each other; float64 as enabled.
+    Pipelines(const VolkDeviceTable& vk, VkDevice device, VkPipelineCache cache, const DeviceLimits& limits,
+              const FloatControls& controls, Health& health);
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
     ~Pipelines();
@@ -57,6 +59,7 @@ private:
     VkPipelineCache cache_;
     std::uint32_t push_bytes_;
     bool float64_;
+    FloatControls controls_;
     Health& health_;
     std::mutex mutex_;
     std::map<std::uint32_t, Layout> layouts_;
