@@ -11,6 +11,10 @@
 /// gravity taken off; the guess is what the velocity brought; and instead of nothing inertia times the
 /// squares of both.
 #define TAUT_VBD_SUMS 13u
+/// Reals that a group leaves for vbd_shift, all with the inertia as weight: 1, what lacks (3), place from the
+/// body's first row (3), place x what lacks (3), products of the place's components (xx, yy, zz, yz, zx, xy),
+/// what contacts pushed in the substep before (3).
+#define TAUT_VBD_DRIFT 19u
 /// Behind the groups: the way of gravity in a substep (3), written by vbd_choose.
 #define TAUT_VBD_FALL 3u
 

@@ -20,7 +20,7 @@ READ(2, uint, support);    // 2 * body + (1: it has held vertices)
 WRITE(3, real, share);
 READ_ONE(4, StepValues, step_values);
 #if CONTACT
-READ(5, rvec4, solved);     // the displacement before the last contacts, m
+UPDATE(5, rvec4, solved);   // the displacement before the last contacts, m; becomes what they added
 COUNTERS(6, touched);       // by body
 #endif
 
@@ -39,6 +39,7 @@ KERNEL(count)
     rvec3 before = rvec3(solved[i]);
     if (before.x != end.x || before.y != end.y || before.z != end.z)
         COUNT_EVENT(touched, support[i] / 2u);
+    solved[i] = rvec4(end - before, real(0));
 #else
     share[i] = support[i] % 2u != 0u ? shown : real(1);
 #endif

@@ -1,15 +1,18 @@
-// Gives each body that nothing holds the momentum that it must have after the sweeps (vbd_drift), by moving
-// it as a whole: no element changes its shape, and of all such moves this one lowers the incremental
-// potential most. One group per part of a body; every group of a body adds up the sums alike.
+// Gives each body that nothing holds the momentum and the angular momentum that it must have after the sweeps
+// (vbd_drift), by moving and turning it as a whole: no element changes its shape, and of all such moves this
+// one lowers the incremental potential most. One group per part of a body; every group of a body adds up the
+// sums alike.
 //
 // Based on: Nicolaides. Deflation of Conjugate Gradients with Applications to Boundary Value Problems. SINUM
-//   1987: an error along known directions is taken out exactly (here the translations of a body).
-// Departures: with CONTACT a body that touched a collider in the substep before is moved across gravity only:
-//   what carries it is not in the sweeps, and the adaptive start has its share of gravity from there.
-// Bytes per row: 8 + 16 read, 16 written (float).
+//   1987: an error along known directions is taken out exactly (here the rigid motions of a body).
+// Departures: the turn is found for small angles and made by Cayley's transform, which is a rotation for any:
+//   with b half the angle times the axis, r becomes r + 2 / (1 + |b|^2) (b x r + b x (b x r)). Of a body that
+//   lies on a line only the momentum is set.
+//   With CONTACT a body that touched a collider in the substep before is not moved along the push of
+//   contacts: what carries it is not in the sweeps, and a few feet of many vertices could not stop it.
+// Bytes per row: 8 + 32 read, 16 written (float).
 //! variant contact CONTACT=1
 #include "shared/portable.glsl"
-#include "shared/layouts.h"
 #include "shared/vbd_parts.h"
 
 PARAMS
@@ -19,15 +22,15 @@ PARAMS
     uint words; // of a row
 };
 
-READ(0, uint, row);      // as in vbd_rise
-READ(1, real, sums);     // of vbd_drift
-UPDATE(2, rvec4, delta); // m
+READ(0, uint, row);       // as in vbd_rise
+READ(1, real, sums);      // of vbd_drift
+UPDATE(2, rvec4, delta);  // m
+READ(3, rvec4, position); // m
 #if CONTACT
-READ(3, uint, seen); // as in vbd_start
-READ_ONE(4, StepValues, step_values);
+READ(4, uint, seen); // as in vbd_start
 #endif
 
-SHARED(real, sum, 256);
+SHARED(real, sum, 1216);
 
 GROUP_KERNEL(64)
 {
@@ -36,31 +39,58 @@ GROUP_KERNEL(64)
     uint rows = table + TAUT_VBD_PART * groups;
     uint from = row[own + 3u];
     PHASE_BEGIN
-    for (uint k = 0u; k < 4u; ++k)
-        sum[4u * lane + k] = real(0);
+    for (uint k = 0u; k < TAUT_VBD_DRIFT; ++k)
+        sum[TAUT_VBD_DRIFT * lane + k] = real(0);
     for (uint j = from + lane; j < row[own + 4u]; j += 64u)
-        for (uint k = 0u; k < 4u; ++k)
-            sum[4u * lane + k] += sums[4u * j + k];
+        for (uint k = 0u; k < TAUT_VBD_DRIFT; ++k)
+            sum[TAUT_VBD_DRIFT * lane + k] += sums[TAUT_VBD_DRIFT * j + k];
     PHASE_END
     for (uint width = 32u; width > 0u; width /= 2u)
     {
         LANES_BEGIN(width)
-        for (uint k = 0u; k < 4u; ++k)
-            sum[4u * lane + k] += sum[4u * (lane + width) + k];
+        for (uint k = 0u; k < TAUT_VBD_DRIFT; ++k)
+            sum[TAUT_VBD_DRIFT * lane + k] += sum[TAUT_VBD_DRIFT * (lane + width) + k];
         LANES_END
     }
-    rvec3 way = rvec3(sum[0], sum[1], sum[2]) / sum[3];
+    PRECISE rvec3 way = rvec3(sum[1], sum[2], sum[3]) / sum[0];
+    PRECISE rvec3 centre = rvec3(sum[4], sum[5], sum[6]) / sum[0];
+    PRECISE rvec3 turn = rvec3(sum[7], sum[8], sum[9]) / sum[0] - cross(centre, way);
+    PRECISE rvec3 square = rvec3(sum[10], sum[11], sum[12]) / sum[0] - centre * centre;
+    // Half the trace of the moments about the centre of mass; small beside the centre's own it is rounding.
+    PRECISE real trace = square.x + square.y + square.z;
+    bool wide = trace > REAL(1e-4) * dot(centre, centre);
+    PRECISE real scale = wide ? real(1) / trace : real(0); // torque and moments are taken in its unit
+    turn *= scale;
+    square *= scale;
+    PRECISE real yz = (sum[13] / sum[0] - centre.y * centre.z) * scale;
+    PRECISE real zx = (sum[14] / sum[0] - centre.z * centre.x) * scale;
+    PRECISE real xy = (sum[15] / sum[0] - centre.x * centre.y) * scale;
+    PRECISE real a = square.y + square.z, b = square.z + square.x, c = square.x + square.y;
+    // The adjugate of the tensor (a, -xy, -zx; -xy, b, -yz; -zx, -yz, c), which is symmetric.
+    PRECISE rvec3 first = rvec3(b * c - yz * yz, xy * c + yz * zx, xy * yz + b * zx);
+    PRECISE rvec3 second = rvec3(first.y, a * c - zx * zx, a * yz + xy * zx);
+    PRECISE rvec3 third = rvec3(first.z, second.z, a * b - xy * xy);
+    PRECISE real determinant = a * first.x - xy * first.y - zx * first.z;
+    bool solid = determinant > REAL(8e-6); // else rounding would turn it about its line
+    PRECISE rvec3 half_turn = rvec3(dot(first, turn), dot(second, turn), dot(third, turn)) *
+                      (solid ? real(0.5) / determinant : real(0));
+    PRECISE real size = dot(half_turn, half_turn);
+    half_turn *= size > REAL(0.0625) ? real(0.25) / sqrt(size) : real(1);
+    PRECISE real factor = real(2) / (real(1) + dot(half_turn, half_turn));
 #if CONTACT
-    rvec3 gravity = rvec3(step_values[0].gravity_x, step_values[0].gravity_y, step_values[0].gravity_z);
-    real pull = dot(gravity, gravity);
-    uint base = row[words * row[own]];
-    bool touches = seen[2u * base + 1u] != 0u;
-    way -= touches && pull > real(0) ? gravity * (dot(way, gravity) / pull) : rvec3(real(0));
+    PRECISE rvec3 push = rvec3(sum[16], sum[17], sum[18]);
+    PRECISE real pushed = dot(push, push);
+    bool touches = seen[2u * row[words * row[own]] + 1u] != 0u && pushed > real(0);
+    way -= touches ? push * (dot(way, push) / pushed) : rvec3(real(0));
 #endif
     bool moves = group < groups && row[own + 5u] == 0u && abs(way.x) + abs(way.y) + abs(way.z) < REAL(1e18);
+    uint base = row[words * row[own]];
     uint last = moves ? row[own + 2u] : 0u;
     EACH_BEGIN(row[own + 1u], last)
     uint v = row[words * row[rows + uint(i)]];
-    delta[v] = delta[v] + rvec4(way, real(0));
+    PRECISE rvec3 r = rvec3(position[v] - position[base]) + rvec3(delta[v]) - centre;
+    PRECISE rvec3 around = cross(half_turn, r);
+    around = factor * (around + cross(half_turn, around));
+    delta[v] = delta[v] + rvec4(way + around, real(0));
     EACH_END
 }

@@ -113,13 +113,16 @@ void record_shift(PlanBuilder& b)
     if (f.sums == kNoBuffer || !f.loose)
         return;
     const std::uint32_t words = f.row_words();
-    const Use sum[] = {{f.row, 1}, {b.plan.predicted}, {b.plan.delta}, {f.sums, 0}};
-    b.dispatch("vbd_start", "vbd_drift", "", sum, kernels::vbd_drift::Params{f.groups, f.table, words},
-               f.groups, f.rows);
-    std::vector<Use> uses = {{f.row, 1}, {f.sums, 0}, {b.plan.delta}};
+    std::vector<Use> sum = {{f.row, 1}, {b.plan.predicted}, {b.plan.delta}, {f.sums, 0}, {b.plan.position}};
+    std::vector<Use> uses = {{f.row, 1}, {f.sums, 0}, {b.plan.delta}, {b.plan.position}};
     const bool contact = f.seen != kNoBuffer;
     if (contact)
-        uses.insert(uses.end(), {{f.seen, 0}, {b.plan.step_values, 0}});
+    {
+        sum.push_back({f.solved});
+        uses.push_back({f.seen, 0});
+    }
+    b.dispatch("vbd_start", "vbd_drift", contact ? "contact" : "", sum,
+               kernels::vbd_drift::Params{f.groups, f.table, words}, f.groups, f.rows);
     b.dispatch("vbd_start", "vbd_shift", contact ? "contact" : "", uses,
                kernels::vbd_shift::Params{f.groups, f.table, words}, f.groups, f.rows);
 }
@@ -156,8 +159,10 @@ std::vector<std::uint32_t> guard_table(const PlanBuilder& b, BlockBuffers& f,
 void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
 {
     if (guarded(b))
-        f.sums = b.add_buffer("vbd_start", "sums of the rise",
-                              (std::uint64_t(f.groups) * TAUT_VBD_SUMS + TAUT_VBD_FALL) * b.real_size());
+        f.sums =
+            b.add_buffer("vbd_start", "sums of the rise",
+                         (std::uint64_t(f.groups) * std::max(TAUT_VBD_SUMS, TAUT_VBD_DRIFT) + TAUT_VBD_FALL) *
+                             b.real_size());
     const std::uint64_t n = b.plan.vertex_count;
     if (adaptive(b) || !f.omega.empty())
         f.support = b.add_buffer<std::uint32_t>("vbd_start", "support", support_of(b));
@@ -174,7 +179,7 @@ void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
     f.touched = b.add_buffer("vbd_start", "touched", b.scene.bodies.size() * sizeof(std::uint32_t));
     f.seen = b.add_buffer("vbd_start", "touched before", n * 2 * sizeof(std::uint32_t));
     f.solved = b.add_buffer("vbd_start", "displacement before contact", n * 4 * b.real_size());
-    b.plan.kept.insert(b.plan.kept.end(), {f.touched, f.seen});
+    b.plan.kept.insert(b.plan.kept.end(), {f.touched, f.seen, f.solved});
 }
 
 void record_vbd_start(PlanBuilder& b, const Moment&)
@@ -225,6 +230,5 @@ void record_vbd_share(PlanBuilder& b, const Moment&)
     b.dispatch("vbd_start", "vbd_share", f.solved != kNoBuffer ? "contact" : "", uses,
                kernels::vbd_share::Params{b.plan.vertex_count}, b.plan.vertex_count);
 }
-
 
 } // namespace taut
