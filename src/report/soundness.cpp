@@ -227,12 +227,29 @@ Soundness judge(const EnergyBudget& budget, const World& world, Judged what)
     return what == Judged::motion ? judge_motion(budget, state) : judge_state(budget, state);
 }
 
+std::uint64_t frames_between_looks(const Plan& plan, std::uint64_t frames)
+{
+    std::uint64_t moved = 0;
+    for (const EffectCost& effect : plan.effects)
+        moved += effect.bytes_per_step;
+    // A look at a vertex takes as long as steps take for so many bytes (tests/bench/soundness_bench.cpp).
+    constexpr std::uint64_t kLookBytes = 3000;
+    const std::uint64_t look = kLookBytes * plan.vertex_count;
+    const std::uint64_t paid = 100 * look / std::max<std::uint64_t>(moved, 1) + 1;
+    const std::uint64_t wanted = frames < kMotionLooks ? paid : frames / kMotionLooks;
+    return std::min(wanted, paid);
+}
+
 void SoundnessWatch::after(std::uint64_t frame, const World& world)
 {
-    const std::uint64_t every = std::max<std::uint64_t>(frames_ / kMotionLooks, 1);
-    if (frame == 0 || frames_ < kMotionLooks || frame % every != 0)
+    if (every_ == 0)
+        every_ = frames_between_looks(world.plan(), frames_);
+    const auto now = [&](std::uint64_t looks) {
+        return frames_ >= looks && frame * looks / frames_ != (frame - 1) * looks / frames_;
+    };
+    const bool strains = frame > 0 && now(kStrainLooks);
+    if (frame == 0 || (frame % every_ != 0 && !strains))
         return;
-    const bool strains = frame / every % (kMotionLooks / kStrainLooks) == 0;
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());
     torn_ = world.torn();

@@ -64,10 +64,15 @@ enum class Judged
 /// A world that runs the scene that `budget` was made of, from its start. Waits.
 Soundness judge(const EnergyBudget& budget, const World& world, Judged what = Judged::state);
 
-/// Looks at a run on its way. What that costs: docs/statuses.md.
+/// Looks at a run on its way, at least. What that costs: docs/statuses.md.
 inline constexpr std::uint64_t kMotionLooks = 8, kStrainLooks = 2;
 
-/// Looks at a run of so many frames, kMotionLooks times at its motion, kStrainLooks times at strains.
+/// Frames from one look at the motion to the next in a run of so many: kMotionLooks looks, or as many as the
+/// bytes that the plan's steps touch pay for at 1 %, where that is more. 1 or more.
+std::uint64_t frames_between_looks(const Plan& plan, std::uint64_t frames);
+
+/// Looks at a run of so many frames: at its motion after each frames_between_looks(), at strains kStrainLooks
+/// times.
 class SoundnessWatch
 {
 public:
@@ -82,7 +87,7 @@ public:
     std::uint64_t unconverged() const { return unconverged_; }
 
 private:
-    std::uint64_t frames_, unconverged_ = 0, torn_ = 0;
+    std::uint64_t frames_, every_ = 0, unconverged_ = 0, torn_ = 0; ///< every_: 0 before the first frame
     std::optional<EnergyBudget> budget_; ///< made at the first look
     Soundness found_;
 };

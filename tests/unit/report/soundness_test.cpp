@@ -9,8 +9,6 @@
 namespace taut {
 namespace {
 
-using Catch::Matchers::Contains;
-
 /// A square of cloth, 0.2 kg, free.
 Scene sheet(std::uint32_t cells = 4)
 {
@@ -169,6 +167,23 @@ TEST_CASE("explicit springs beyond their stable step are diverged, long before 1
     const StepReport report = measure(world);
     CHECK(rank(report.status) >= rank(Status::diverged));
     CHECK_FALSE(report.reason.empty());
+}
+
+TEST_CASE("dear steps are looked at often, cheap ones eight times a run")
+{
+    Scene scene = test::hanging(16);
+    scene.method.substeps = 10;
+    const auto every = [&](const char* method, std::uint64_t frames) {
+        scene.method.type = method;
+        return frames_between_looks(make_plan(scene), frames);
+    };
+    CHECK(every("xpbd", 80) == 10);
+    CHECK(every("implicit_euler", 80) == 1);
+    CHECK(every("implicit_euler", 3) == 1); // shorter than the looks that any run has
+    const std::uint64_t paid = every("xpbd", 1000000);
+    CHECK(paid > 10);
+    CHECK(paid < 1000); // also of a long run
+    CHECK(every("vbd", 1000000) < paid);
 }
 
 } // namespace taut
