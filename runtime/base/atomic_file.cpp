@@ -67,4 +67,11 @@ void check_writable(const fs::path& file)
         refuse(file, std::strerror(why));
 }
 
+bool is_free_for_file(const std::filesystem::path& file)
+{
+    std::error_code code; // an error, where nothing is there yet
+    const std::filesystem::file_status status = std::filesystem::status(file, code);
+    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
+}
+
 } // namespace taut

@@ -15,4 +15,8 @@ void write_file(const std::filesystem::path& file, std::string_view contents);
 /// file beside the named one, under a temporary name, and removes it.
 void check_writable(const std::filesystem::path& file);
 
+/// Whether nothing is there or a regular file. A folder, a device or a pipe is somebody else's, and to open a
+/// pipe may wait forever.
+bool is_free_for_file(const std::filesystem::path& file);
+
 } // namespace taut

@@ -51,17 +51,10 @@ Header header_for(const VkPhysicalDeviceProperties& device, std::span<const std:
 
 } // namespace
 
-bool may_be_cache(const std::string& path)
-{
-    std::error_code code;
-    const std::filesystem::file_status status = std::filesystem::status(path, code);
-    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
-}
-
 std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device)
 {
     constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
-    if (!may_be_cache(path)) // to open a pipe may wait forever
+    if (!is_free_for_file(path))
         return {};
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file)
@@ -87,7 +80,7 @@ bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperti
 {
     try
     {
-        if (!may_be_cache(path))
+        if (!is_free_for_file(path))
             return false;
         const Header header = header_for(device, contents);
         std::string text(sizeof(Header) + contents.size(), '\0');

@@ -10,9 +10,6 @@
 
 namespace taut::vulkan {
 
-/// Whether nothing or a file stands at the path; a folder or a pipe is somebody else's.
-bool may_be_cache(const std::string& path);
-
 /// Contents of the file, without its header. Empty when the file is missing, truncated, damaged, of another
 /// version of the format, of another device or driver, or no file but a folder or a pipe.
 std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device);

@@ -1,5 +1,6 @@
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 
+#include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/limits.hpp"
 #include "taut/runtime/vulkan/pipeline_cache.hpp"
 #include "taut/runtime/vulkan/recording.hpp"
@@ -128,7 +129,7 @@ void require_place(const std::string& cache_path)
     if (!std::filesystem::is_directory(folder, error))
         throw Error(ErrorCode::io, "pipeline_cache = " + cache_path + ": there is no folder " +
                                        folder.string() + "; make it first");
-    if (!may_be_cache(cache_path))
+    if (!is_free_for_file(cache_path))
         throw Error(ErrorCode::io,
                     "pipeline_cache = " + cache_path + ": a folder or a pipe stands there; name a file");
 }

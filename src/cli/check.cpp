@@ -14,11 +14,6 @@
 namespace taut::cli {
 namespace {
 
-bool any_error(const std::vector<SceneIssue>& issues)
-{
-    return std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; });
-}
-
 /// What the plan has to say, for a device that groups colours and for one that does not.
 void add_plan(const Scene& resolved, std::vector<SceneIssue>& issues)
 {

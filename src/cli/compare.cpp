@@ -57,7 +57,7 @@ Variant read_variant(const CompareCommand& command, const std::string& text)
         else if (!setting.empty())
             settings.push_back(setting);
     }
-    variant.scene = resolve(load_scene(command.scene, settings));
+    variant.scene = resolve_file(command.scene, settings);
     variant.device = open_device(device);
     return variant;
 }

@@ -11,6 +11,7 @@
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/settings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -202,7 +203,7 @@ int ablation(const CostCommand& command, const Scene& scene, const std::vector<S
 int cost(const CostCommand& command)
 {
     std::vector<SceneIssue> issues;
-    const Scene scene = resolve(load_scene(command.scene), &issues);
+    const Scene scene = resolve_file(command.scene, {}, &issues);
     CostOptions options = study_options(command);
     if (!command.folder.empty())
         make_folder(command.folder); // before minutes of work

@@ -1,5 +1,6 @@
 #include "taut/cli/device_option.hpp"
 
+#include "taut/runtime/base/atomic_file.hpp"
 #include "taut/world/kept_traits.hpp"
 
 #include <cstdlib>
@@ -34,8 +35,7 @@ std::string kept_file(const char* variable, const char* name)
     if (error)
         return "";
     const fs::path file = folder / name;
-    const fs::file_status there = fs::status(file, error); // an error, where nothing is there yet
-    return fs::is_regular_file(there) || !fs::exists(there) ? file.string() : "";
+    return is_free_for_file(file) ? file.string() : "";
 }
 
 } // namespace

@@ -118,7 +118,7 @@ std::string to_table(const Plan& plan)
 
 int show_plan(const PlanCommand& options)
 {
-    const Scene scene = resolve(load_scene(options.scene, options.settings));
+    const Scene scene = resolve_file(options.scene, options.settings);
     DeviceTraits traits;
     std::string name;
     if (!options.device.empty())

@@ -330,7 +330,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
 int run(RunCommand options)
 {
     std::vector<SceneIssue> issues;
-    const Scene scene = resolve(load_scene(options.scene, options.settings), &issues);
+    const Scene scene = resolve_file(options.scene, options.settings, &issues);
     for (const SceneIssue& unread :
          unread_keys(scene.method, given_method_keys(options.scene, options.settings)))
         issues.push_back(unread);

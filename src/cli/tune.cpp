@@ -6,6 +6,7 @@
 #include "taut/cli/output.hpp"
 #include "taut/cli/study.hpp"
 #include "taut/report/method_settings.hpp"
+#include "taut/scene/settings.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -118,7 +119,7 @@ std::string summary(const TuneResult& result)
 int tune_scene(const TuneCommand& command)
 {
     std::vector<SceneIssue> issues;
-    const Scene scene = resolve(load_scene(command.scene), &issues);
+    const Scene scene = resolve_file(command.scene, {}, &issues);
     const auto device = open_device(command.device);
     TuneOptions options = tune_options(command);
     StudyProgress progress;

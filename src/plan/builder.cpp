@@ -136,9 +136,13 @@ EffectCost& PlanBuilder::cost_of(std::string_view effect)
 void PlanBuilder::check_pass_count() const
 {
     if (plan.passes.size() >= kMaxPasses)
-        throw Error(ErrorCode::limit, "a time step of more than " + std::to_string(kMaxPasses) +
-                                          " passes; use fewer than " + std::to_string(plan.substeps) +
-                                          " substeps or " + std::to_string(plan.iterations) + " iterations");
+        throw Error(ErrorCode::limit,
+                    "a time step of more than " + std::to_string(kMaxPasses) + " passes; use fewer than " +
+                        std::to_string(plan.substeps) + " substeps or " + std::to_string(plan.iterations) +
+                        " iterations" +
+                        (plan.solvers.empty() ? ""
+                                              : ", or fewer linear_iterations than " +
+                                                    std::to_string(scene.method.linear_iterations)));
 }
 
 void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,

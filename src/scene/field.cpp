@@ -98,11 +98,11 @@ double Field::number() const
     return value_->get<double>();
 }
 
-std::uint32_t Field::count() const
+std::uint32_t Field::count(std::string_view right) const
 {
     const double number = value_->is_number() ? value_->get<double>() : -1;
     if (!(number >= 0 && number <= 4294967295.0 && number == std::floor(number)))
-        refuse("it must be a whole number from 0 to 4294967295");
+        refuse(right.empty() ? "it must be a whole number from 0 to 4294967295" : std::string(right));
     return static_cast<std::uint32_t>(number);
 }
 

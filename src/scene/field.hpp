@@ -52,7 +52,8 @@ public:
     Field need(std::string_view key) const;
 
     double number() const;
-    std::uint32_t count() const; ///< whole, 0..2^32-1
+    /// Whole, 0..2^32-1. `right`: what to say where it is not, in place of that.
+    std::uint32_t count(std::string_view right = {}) const;
     bool boolean() const;
     std::string text() const;
     glm::dvec3 vector() const;

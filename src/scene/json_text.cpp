@@ -134,8 +134,8 @@ json parse_json(std::string_view text, const std::string& file)
         const std::string what = error.what();
         const std::size_t open = what.find('\''), close = what.rfind('\'');
         const std::size_t at = open < close ? text.find(what.substr(open + 1, close - open - 1)) : 0;
-        throw Error(ErrorCode::bad_input,
-                    file + ": " + place(text, at) + ": " + reason(what) + "; numbers must be below 1e308");
+        throw Error(ErrorCode::bad_input, file + ": " + place(text, at) + ": " + reason(what) +
+                                              "; numbers must be at most 1e30 in magnitude");
     }
 }
 

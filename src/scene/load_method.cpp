@@ -5,15 +5,14 @@ namespace {
 
 void read_substeps(const Field& method, std::uint32_t& out)
 {
+    constexpr std::string_view right = "it must be a whole number from 1 to 1000, or \"automatic\"";
     const auto substeps = method.find("substeps");
     if (!substeps)
         return;
     if (!substeps->is_text())
-        out = substeps->count();
-    else if (substeps->text() != "automatic")
-        substeps->refuse("it must be a whole number from 1 to 1000, or \"automatic\"");
-    if (out == 0 && !substeps->is_text())
-        substeps->refuse("it must be a whole number from 1 to 1000, or \"automatic\"");
+        out = substeps->count(right);
+    if (substeps->is_text() ? substeps->text() != "automatic" : out == 0)
+        substeps->refuse(std::string(right));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "taut/scene/checker.hpp"
 #include "taut/scene/embedding.hpp"
+#include "taut/scene/settings.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -23,11 +24,6 @@ using scene_file::Checker;
     if (others > 0)
         text += " (and " + std::to_string(others) + (others == 1 ? " other error)" : " other errors)");
     throw Error(first->code, text);
-}
-
-bool any_error(const std::vector<SceneIssue>& issues)
-{
-    return std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; });
 }
 
 /// `found`: null, or where the issues are handed out before it throws.

@@ -1,10 +1,18 @@
 #include "taut/scene/settings.hpp"
 
+#include "taut/runtime/base/error.hpp"
 #include "taut/scene/file_text.hpp"
 #include "taut/scene/json_text.hpp"
 #include "taut/scene/set_value.hpp"
 
+#include <algorithm>
+
 namespace taut {
+
+bool any_error(std::span<const SceneIssue> issues)
+{
+    return std::any_of(issues.begin(), issues.end(), [](const SceneIssue& issue) { return issue.error; });
+}
 
 std::vector<std::string> given_method_keys(const std::filesystem::path& file,
                                            std::span<const std::string> settings)
@@ -18,6 +26,20 @@ std::vector<std::string> given_method_keys(const std::filesystem::path& file,
         for (const auto& [key, value] : tree["method"].items())
             keys.push_back(key);
     return keys;
+}
+
+Scene resolve_file(const std::filesystem::path& file, std::span<const std::string> settings,
+                   std::vector<SceneIssue>* found)
+{
+    const Scene scene = load_scene(file, settings);
+    try
+    {
+        return resolve(scene, found);
+    }
+    catch (const Error& error)
+    {
+        throw Error(error.code(), file.string() + ": " + error.what());
+    }
 }
 
 } // namespace taut

@@ -15,9 +15,16 @@ Scene load_scene(const std::filesystem::path& file, std::span<const std::string>
 Scene parse_scene(std::string_view json, const std::filesystem::path& directory, std::string_view name,
                   std::span<const std::string> settings);
 
+/// load_scene() and resolve() in one; what resolve() throws then names the file as well as the field.
+Scene resolve_file(const std::filesystem::path& file, std::span<const std::string> settings,
+                   std::vector<SceneIssue>* found = nullptr);
+
 /// All that is wrong with a scene file: every member that cannot be read, or, where all can, what check()
 /// says. Throws Error{io} where the file cannot be read, Error{bad_input} where it is not JSON.
 std::vector<SceneIssue> check_file(const std::filesystem::path& file);
+
+/// Whether one of them is an error, not a warning.
+bool any_error(std::span<const SceneIssue> issues);
 
 /// The keys of `method` in a scene file and in `settings`, in alphabetical order; empty without a
 /// method. Throws as load_scene does where the file cannot be read as an object.

@@ -25,7 +25,14 @@ struct Reading
     VtuArray* array = nullptr;     ///< whose text is being read
     std::exception_ptr thrown;
 
-    std::size_t line() const { return XML_GetCurrentLineNumber(parser); }
+    std::size_t line() const
+    {
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9 // which deprecates the name before
+        return static_cast<std::size_t>(XML_GetCurrentLineNumber64(parser));
+#else
+        return XML_GetCurrentLineNumber(parser);
+#endif
+    }
     [[noreturn]] void fail(const std::string& text) const
     {
         throw Error(ErrorCode::bad_input, file + ": line " + std::to_string(line()) + ": " + text);

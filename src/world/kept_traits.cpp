@@ -82,8 +82,7 @@ bool add_costs(const std::filesystem::path& file, const std::string& device, con
     for (const auto& [name, c] : all)
         text << name << '\t' << c.dispatch_ns << ' ' << c.group_barrier_ns << ' ' << c.element_ns << ' '
              << c.lane_element_ns << '\n';
-    std::error_code code;
-    if (std::filesystem::exists(file, code) && !std::filesystem::is_regular_file(file, code))
+    if (!is_free_for_file(file))
         return false;
     try
     {

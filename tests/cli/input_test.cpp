@@ -91,8 +91,8 @@ TEST_CASE("a scene that cannot be read or makes no sense ends with status 2, in 
     refused(R"({"taut": 1, "gravitty": [0, 0, 0]})", "gravity");
     refused(R"({"taut": 2})", "version");
     refused(scenes::cloth("NaN"), "bad.json");
-    refused(scenes::cloth("-1"), "timestep");
-    refused(scenes::cloth("0"), "timestep");
+    refused(scenes::cloth("-1"), "bad.json: timestep is -1");
+    refused(scenes::cloth("0"), "bad.json: timestep is 0");
     refused(scenes::cloth("1e999"), "bad.json");
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
 }

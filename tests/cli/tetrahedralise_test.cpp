@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 
-using Catch::Matchers::Contains;
 using program::Folder;
 using program::Result;
 
