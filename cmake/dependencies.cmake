@@ -2,7 +2,10 @@
 
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
-find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(Eigen3 REQUIRED NO_MODULE) # without a version: asked for 3.3, Eigen 5 says that it is another one
+if(Eigen3_VERSION VERSION_LESS 3.3)
+    message(FATAL_ERROR "Eigen ${Eigen3_VERSION} in ${Eigen3_DIR} is too old: 3.3 or later is needed")
+endif()
 find_package(nlohmann_json 3.2 REQUIRED)
 find_package(CLI11 REQUIRED)
 if(TAUT_BUILD_TESTS)

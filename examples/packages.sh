@@ -80,8 +80,10 @@ apt_install()
 
 say_what_to_install()
 {
+    local group names=()
+    for group in "$@"; do names+=("$(first_known "$group" || printf '%s' "${group%%|*}")"); done
     say "Taut needs: CMake $taut_cmake_at_least or newer, a C++20 compiler (g++ 12, clang 14 or newer) and, as Debian names them:"
-    say "    ${*//|/ or }"
+    say "    apt-get install -y --no-install-recommends ${names[*]}"
 }
 
 # ensure_packages GROUP...: installs what is missing and nothing else; without anything missing it

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The suites that take longer than a build should: run before a release, one line of summary a part.
-#   tests/matrix.sh [PART...]      parts: release headers asan tsan clang hard mutants; all by default
+#   tests/matrix.sh [PART...]      all by default
 # release: tests/run.sh. headers: a build without precompiled headers, so that every file includes what it
-# uses. asan (address and undefined), tsan: the presets. clang: the release build by clang,
-# where it is installed. hard: the hard cases and the whole map in full on every executor (hours). mutants:
-# every 10th mutant that tests/mutants.csv does not answer, for half an hour.
+# uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
+# installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
+# tests/run.sh in a chroot of that Debian (tests/chroot.sh). hard: the hard cases and the whole map in full on
+# every executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer, for half an hour.
 # A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any
 # failed.
 # shellcheck disable=SC2317 # parts are called by name
@@ -48,9 +49,19 @@ part_hard() {
     env -u TAUT_HARD_SHORT TAUT_REQUIRE_DEVICE="${TAUT_REQUIRE_DEVICE:-1}" "$program"
 }
 
+# Types that differ from file to file, as the compiler sees them when it has the whole program.
+part_odr() {
+    cd "$root" && cmake -S . -B build/odr -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_CXX_FLAGS="-flto=auto -Wodr -Werror=odr" &&
+        cmake --build build/odr --target taut-cli --parallel "$jobs"
+}
+
+part_stable() { "$root/tests/chroot.sh" stable; }
+part_testing() { "$root/tests/chroot.sh" testing; }
+
 part_mutants() { "$root/tests/mutants.sh" --sample 10 --budget 1800; }
 
-[ $# -gt 0 ] || set -- release headers asan tsan clang hard mutants
+[ $# -gt 0 ] || set -- release headers asan tsan clang odr stable testing hard mutants
 failed=0
 for part in "$@"; do
     if ! declare -F "part_$part" > /dev/null; then

@@ -25,8 +25,8 @@ double led_speed(const std::vector<Keyframe>& motion, const glm::dvec3& point, d
     for (std::size_t k = 0; k + 1 < motion.size(); ++k)
     {
         const Keyframe &a = motion[k], &b = motion[k + 1];
-        const glm::dvec3 turn = glm::radians(b.rotate_degrees) * b.rotate_axis -
-                                glm::radians(a.rotate_degrees) * a.rotate_axis;
+        const glm::dvec3 turn =
+            glm::radians(b.rotate_degrees) * b.rotate_axis - glm::radians(a.rotate_degrees) * a.rotate_axis;
         const double arm = glm::length(point - b.rotate_centre) + reach;
         const double way = glm::length(b.translate - a.translate) + 2 * glm::length(turn) * arm +
                            glm::length(b.rotate_centre - a.rotate_centre);
@@ -142,9 +142,9 @@ CrossingWatch::Bounds CrossingWatch::bounds_of(const Part& part, std::span<const
 double CrossingWatch::speed_of(const Part& part, const Obstacle& obstacle, const Moment& now) const
 {
     const double step = now.substep;
-    const glm::dvec3 collider = (frame_at(obstacle.collider, now.time + step).centre -
-                                 frame_at(obstacle.collider, now.time).centre) /
-                                step;
+    const glm::dvec3 collider =
+        (frame_at(obstacle.collider, now.time + step).centre - frame_at(obstacle.collider, now.time).centre) /
+        step;
     double square = 0;
     for (std::size_t i = part.first; i < part.first + part.count; ++i)
     {
@@ -225,8 +225,7 @@ void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pai
                                  double speed)
 {
     const SolidShape& shape = obstacle.shape;
-    const auto into_frame = [&](std::span<const glm::dvec3> x, double time, std::vector<glm::dvec3>& out)
-    {
+    const auto into_frame = [&](std::span<const glm::dvec3> x, double time, std::vector<glm::dvec3>& out) {
         const ColliderFrame frame = frame_at(obstacle.collider, time);
         out.resize(part.count);
         for (std::size_t i = 0; i < part.count; ++i)
@@ -245,7 +244,8 @@ void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pai
     const double reach = shape.radius + speed * timestep_; // of what may arrive within a frame
     for (const auto& e : part.elements)
     {
-        const Corners now_at{after_[e[0] - part.first], after_[e[1] - part.first], after_[e[2] - part.first]};
+        const TriangleCorners now_at{after_[e[0] - part.first], after_[e[1] - part.first],
+                                     after_[e[2] - part.first]};
         const glm::dvec3 low = glm::min(glm::min(now_at[0], now_at[1]), now_at[2]);
         const glm::dvec3 high = glm::max(glm::max(now_at[0], now_at[1]), now_at[2]);
         nearest = std::min(nearest, square_apart(low, high, middle));
@@ -290,7 +290,7 @@ bool CrossingWatch::went_through(const Part& part, const Obstacle& obstacle) con
     {
         if (e[1] == e[2])
             continue; // links
-        Corners before, after;
+        TriangleCorners before, after;
         glm::dvec3 least(std::numeric_limits<double>::infinity()), most = -least;
         for (std::size_t k = 0; k < 3; ++k)
         {

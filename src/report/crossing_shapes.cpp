@@ -33,7 +33,7 @@ double point_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3&
 }
 
 /// Whether the foot of p in the plane of the triangle lies within it.
-bool above(const glm::dvec3& p, const Corners& t, double slack)
+bool above(const glm::dvec3& p, const TriangleCorners& t, double slack)
 {
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double square = glm::dot(normal, normal);
@@ -49,7 +49,7 @@ bool above(const glm::dvec3& p, const Corners& t, double slack)
     return true;
 }
 
-double point_triangle(const glm::dvec3& p, const Corners& t)
+double point_triangle(const glm::dvec3& p, const TriangleCorners& t)
 {
     if (above(p, t, 0))
     {
@@ -72,12 +72,12 @@ double two_segments(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
         if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
             return glm::length(r + s * u - t * v);
     }
-    return std::min({point_segment(a, c, d), point_segment(b, c, d), point_segment(c, a, b),
-                     point_segment(d, a, b)});
+    return std::min(
+        {point_segment(a, c, d), point_segment(b, c, d), point_segment(c, a, b), point_segment(d, a, b)});
 }
 
 /// Of the segment from -half to +half.
-double axis_triangle(const glm::dvec3& half, const Corners& t)
+double axis_triangle(const glm::dvec3& half, const TriangleCorners& t)
 {
     if (half == glm::dvec3(0))
         return point_triangle(half, t);
@@ -92,14 +92,14 @@ double axis_triangle(const glm::dvec3& half, const Corners& t)
 }
 
 /// Whether an axis has the element and the box on different sides.
-bool separates(const glm::dvec3& axis, const glm::dvec3& half, const Corners& t)
+bool separates(const glm::dvec3& axis, const glm::dvec3& half, const TriangleCorners& t)
 {
     const double p[] = {glm::dot(axis, t[0]), glm::dot(axis, t[1]), glm::dot(axis, t[2])};
     const double reach = glm::dot(glm::abs(axis), half);
     return std::min({p[0], p[1], p[2]}) > reach || std::max({p[0], p[1], p[2]}) < -reach;
 }
 
-bool meets_box(const glm::dvec3& half, const Corners& t)
+bool meets_box(const glm::dvec3& half, const TriangleCorners& t)
 {
     const glm::dvec3 edges[] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
     if (separates(glm::cross(edges[0], edges[1]), half, t))
@@ -182,7 +182,7 @@ double width_across(const SolidShape& shape, const glm::dvec3& way)
     return shape.radius + std::max({across.x, across.y, across.z});
 }
 
-double depth_of(const SolidShape& shape, const Corners& element)
+double depth_of(const SolidShape& shape, const TriangleCorners& element)
 {
     if (shape.radius > 0)
         return std::max(shape.radius - axis_triangle(shape.half, element), 0.0);
@@ -197,7 +197,7 @@ double depth_of(const SolidShape& shape, const Corners& element)
     return low;
 }
 
-bool lies_deep(const SolidShape& shape, const Corners& element, double edge)
+bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double edge)
 {
     if (shape.radius > 0)
         return shape.radius - axis_triangle(shape.half, element) > 0.5 * shape.radius;
@@ -231,7 +231,7 @@ std::vector<glm::dvec3> middle_points(const SolidShape& shape, double edge)
     return points;
 }
 
-bool goes_through(const glm::dvec3& point, const Corners& before, const Corners& after)
+bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const TriangleCorners& after)
 {
     // The determinant of (b - a, c - a, point - a), each of which is linear in time.
     const glm::dvec3 u = before[1] - before[0], du = (after[1] - after[0]) - u;
@@ -242,7 +242,7 @@ bool goes_through(const glm::dvec3& point, const Corners& before, const Corners&
         determinant(du, dw, q) + determinant(du, w, dq) + determinant(u, dw, dq), determinant(du, dw, dq)};
     for (const double t : roots(c))
     {
-        Corners then;
+        TriangleCorners then;
         for (std::size_t k = 0; k < 3; ++k)
             then[k] = (1 - t) * before[k] + t * after[k];
         if (above(point, then, 1e-9)) // through an edge is through
@@ -251,7 +251,7 @@ bool goes_through(const glm::dvec3& point, const Corners& before, const Corners&
     return false;
 }
 
-double hole_of(const Corners& t)
+double hole_of(const TriangleCorners& t)
 {
     double edges[] = {glm::length(t[1] - t[0]), glm::length(t[2] - t[1]), glm::length(t[0] - t[2])};
     std::sort(std::begin(edges), std::end(edges));

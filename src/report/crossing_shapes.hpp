@@ -10,7 +10,7 @@
 namespace taut {
 
 /// A triangle, or a link as one whose last two corners coincide.
-using Corners = std::array<glm::dvec3, 3>;
+using TriangleCorners = std::array<glm::dvec3, 3>;
 
 /// A ball is a point, a capsule a segment along y, both with a radius round them; a box has no radius.
 struct SolidShape
@@ -29,13 +29,13 @@ double width_across(const SolidShape& shape, const glm::dvec3& way);
 
 /// Of the deepest point of an element below the surface; 0 of one that is outside. Of a box: to 1e-6 of its
 /// smallest half size.
-double depth_of(const SolidShape& shape, const Corners& element);
+double depth_of(const SolidShape& shape, const TriangleCorners& element);
 
 /// Whether an element lies deeper than half the smallest half size. With its vertices outside, that takes an
 /// edge longer than 1.5 radii of a ball or a capsule, 1.4 half sizes of a cube. A box may be thinner than
 /// the cloth's edges, which then cut through it where cloth is laid over its rim: within 1.5 `edge` of a
 /// rim nothing counts. `edge`: the longest of the body at rest, m.
-bool lies_deep(const SolidShape& shape, const Corners& element, double edge);
+bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double edge);
 
 /// Points in the middle of a collider, closer to each other than its size: centre, axis, or middle plane
 /// less 1.5 `edge` at the rim.
@@ -43,9 +43,9 @@ std::vector<glm::dvec3> middle_points(const SolidShape& shape, double edge);
 
 /// Whether `point` goes through an element whose corners move in straight lines from `before` to `after`.
 /// One that the point lies on at the start and leaves does not count. Links are never gone through.
-bool goes_through(const glm::dvec3& point, const Corners& before, const Corners& after);
+bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const TriangleCorners& after);
 
 /// Radius of the smallest ball round an element: what is less wide may pass between the corners.
-double hole_of(const Corners& element);
+double hole_of(const TriangleCorners& element);
 
 } // namespace taut

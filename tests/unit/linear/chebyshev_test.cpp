@@ -227,7 +227,7 @@ TEST_CASE("chebyshev_interval and Chebyshev refuse what makes no polynomial", "[
     CHECK_THROWS_AS(chebyshev_interval(a, inverse, std::numeric_limits<double>::quiet_NaN()), Error);
     std::vector<double> negative = inverse;
     negative[5] = -1;
-    CHECK_THROWS_WITH(chebyshev_interval(a, negative), Catch::Contains("-1 in row 5"));
+    CHECK_THROWS_WITH(chebyshev_interval(a, negative), Contains("-1 in row 5"));
 
     CHECK_THROWS_AS(Bench<double>("cpu:serial", a, inverse, {0.1, 2}, 0), Error);
     CHECK_THROWS_AS(Bench<double>("cpu:serial", a, inverse, {0.1, 2}, 17), Error);

@@ -11,7 +11,6 @@
 
 using namespace taut;
 using namespace taut::linear;
-using Catch::Matchers::Contains;
 
 namespace {
 

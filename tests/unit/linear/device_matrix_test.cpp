@@ -12,7 +12,6 @@
 using namespace taut;
 using namespace taut::linear;
 using namespace taut::linear::formats_test;
-using Catch::Matchers::Contains;
 using taut::conformance::Random;
 
 namespace {

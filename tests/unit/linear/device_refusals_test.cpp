@@ -11,7 +11,6 @@
 using namespace taut;
 using namespace taut::linear;
 using namespace taut::linear::formats_test;
-using Catch::Matchers::Contains;
 
 TEST_CASE("a matrix that cannot go to a device is refused in words", "[linear][formats]")
 {

@@ -9,7 +9,6 @@
 
 using namespace taut;
 using namespace taut::linear;
-using Catch::Matchers::Contains;
 
 namespace {
 

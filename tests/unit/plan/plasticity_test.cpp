@@ -9,7 +9,6 @@
 #include <cstring>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -6,7 +6,6 @@
 #include "taut/runtime/base/error.hpp"
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

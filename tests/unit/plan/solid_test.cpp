@@ -7,7 +7,6 @@
 #include <cmath>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

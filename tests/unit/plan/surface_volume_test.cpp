@@ -10,7 +10,6 @@
 #include <limits>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

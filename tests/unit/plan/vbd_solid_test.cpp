@@ -12,7 +12,6 @@
 #include <set>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -37,13 +37,13 @@ Collider capsule(double radius, double half_length)
 }
 
 /// Equilateral, of corners at `around` from the middle, in the plane of height y.
-Corners flat(double y, double around)
+TriangleCorners flat(double y, double around)
 {
     const double s = std::sqrt(0.75) * around;
     return {glm::dvec3(around, y, 0), glm::dvec3(-around / 2, y, s), glm::dvec3(-around / 2, y, -s)};
 }
 
-Corners link(const glm::dvec3& a, const glm::dvec3& b) { return {a, b, b}; }
+TriangleCorners link(const glm::dvec3& a, const glm::dvec3& b) { return {a, b, b}; }
 
 /// One triangle as a body, moved as told; three looks a collider's size apart would miss nothing.
 struct Watched
@@ -52,12 +52,12 @@ struct Watched
     CrossingWatch watch;
     std::uint64_t frame = 0;
 
-    Watched(const Corners& corners, const Collider& collider)
+    Watched(const TriangleCorners& corners, const Collider& collider)
         : scene(make(corners, collider)),
           watch(scene)
     {}
 
-    static Scene make(const Corners& corners, const Collider& collider)
+    static Scene make(const TriangleCorners& corners, const Collider& collider)
     {
         Scene scene;
         scene.bodies.resize(1);
@@ -68,7 +68,7 @@ struct Watched
         scene.colliders[0].name = "thing";
         return scene;
     }
-    const Crossings& look(double time, const Corners& at, const glm::dvec3& velocity = glm::dvec3(0))
+    const Crossings& look(double time, const TriangleCorners& at, const glm::dvec3& velocity = glm::dvec3(0))
     {
         const std::vector<glm::dvec3> v(3, velocity);
         watch.look(frame++, time, 1.0 / 600, at, v);
@@ -87,7 +87,7 @@ TEST_CASE("the depth of an element is that of its deepest point, which need not 
     const SolidShape stick = solid_shape(capsule(0.1, 1));
     CHECK(depth_of(stick, flat(0.5, 2)) == Approx(0.1)); // the axis goes through it
     CHECK(depth_of(stick, link({0.06, 0.3, -2}, {0.06, 0.3, 2})) == Approx(0.04));
-    CHECK(depth_of(stick, flat(1.07, 2)) == Approx(0.03)); // above the end
+    CHECK(depth_of(stick, flat(1.07, 2)) == Approx(0.03));                     // above the end
     CHECK(depth_of(stick, link({0.05, -5, 0}, {0.05, 5, 0})) == Approx(0.05)); // along the axis
     const SolidShape plate = solid_shape(box({1, 0.1, 1}));
     CHECK(depth_of(plate, link({0, -1, 0}, {0, 1, 0})) == Approx(0.1).epsilon(1e-4));
@@ -124,13 +124,13 @@ TEST_CASE("a point goes through a moving triangle when it meets it within its ed
     CHECK(goes_through(p, flat(1, 1), flat(0, 1)));        // ends on it
     CHECK_FALSE(goes_through(p, flat(0, 1), flat(-1, 1))); // begins on it
     CHECK_FALSE(goes_through(p, flat(1, 1), flat(0.01, 1)));
-    Corners aside = flat(1, 1), aside_after = flat(-1, 1);
-    for (Corners* c : {&aside, &aside_after})
+    TriangleCorners aside = flat(1, 1), aside_after = flat(-1, 1);
+    for (TriangleCorners* c : {&aside, &aside_after})
         for (glm::dvec3& q : *c)
             q.x += 1.01;
     CHECK_FALSE(goes_through(p, aside, aside_after));
     // Past it and back within the interval: turned over about an axis that holds the point's far side.
-    Corners there = flat(0.2, 1), back = flat(0.2, 1);
+    TriangleCorners there = flat(0.2, 1), back = flat(0.2, 1);
     back[0].y = there[0].y = -0.2; // tilted; the plane is 0.0667 above the point
     CHECK_FALSE(goes_through(p, there, back));
     back[0].y = -1.2; // the corner drops: the plane passes the point
@@ -230,12 +230,11 @@ TEST_CASE("what starts within a collider is not said to have come through it, un
 
 TEST_CASE("may_tunnel: wide holes or long ways, and only near the collider")
 {
-    const auto likely = [](double around, double radius, double height, double speed)
-    {
+    const auto likely = [](double around, double radius, double height, double speed) {
         Watched run(flat(height, around), ball(radius));
         return run.look(0, flat(height, around), {0, -speed, 0}).likely.size();
     };
-    CHECK(likely(0.5, 0.4, 0.401, 0) == 0); // at rest, apart
+    CHECK(likely(0.5, 0.4, 0.401, 0) == 0);   // at rest, apart
     CHECK(likely(0.5, 0.4, 0.401, 0.5) == 1); // a hole of 0.5 takes a ball of 0.4
     CHECK(likely(0.5, 0.6, 0.601, 0.5) == 0);
     CHECK(likely(0.5, 0.6, 3, 0.5) == 0);
@@ -258,7 +257,7 @@ TEST_CASE("a watch says until when nothing can have reached the middle")
     run.scene.gravity = {0, -10, 0};
     CrossingWatch falling(run.scene);
     falling.look(0, 0, 1e-3, at, still);
-    CHECK(falling.clear_for() == Approx(0.5)); // twice 1.25 m
+    CHECK(falling.clear_for() == Approx(0.5));                   // twice 1.25 m
     run.scene.colliders[0].motion = {{4, {}}, {5, {0, 100, 0}}}; // not yet
     run.scene.gravity = glm::dvec3(0);
     CrossingWatch led(run.scene);
@@ -276,7 +275,7 @@ TEST_CASE("a watch leaves bodies alone whose positions are not finite, and start
 {
     Watched run(flat(1, 2), ball(0.5));
     run.look(0, flat(1, 2));
-    Corners lost = flat(-1, 2);
+    TriangleCorners lost = flat(-1, 2);
     lost[1].x = std::numeric_limits<double>::quiet_NaN();
     CHECK(run.look(0.1, lost).seen.empty());
     CHECK(run.look(0.2, flat(-1, 2)).seen.empty()); // of what came before it knows nothing

@@ -7,7 +7,6 @@
 #include <limits>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -18,7 +18,6 @@
 #include <iostream>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

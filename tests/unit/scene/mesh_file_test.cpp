@@ -43,8 +43,6 @@ std::string refusal(const std::string& extension, const std::string& text)
     return "accepted";
 }
 
-using Catch::Matchers::Contains;
-
 std::filesystem::path mesh_folder() { return data_folder() / "meshes"; }
 
 } // namespace

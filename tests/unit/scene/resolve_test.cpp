@@ -8,7 +8,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -4,7 +4,6 @@
 #include "taut/scene/settings.hpp"
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

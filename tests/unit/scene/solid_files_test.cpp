@@ -11,7 +11,6 @@
 #include <algorithm>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -12,7 +12,6 @@
 #include <map>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

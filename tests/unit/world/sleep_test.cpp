@@ -7,7 +7,6 @@
 #include <algorithm>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -239,10 +239,9 @@ TEST_CASE("forces on all vertices at once are those set one by one, and go with 
         CHECK(same(third.state(), all.state()));
         CHECK(all.positions()[5] != without);
         CHECK(all.drive().push > 0);
-        CHECK_THROWS_WITH(all.set_forces(std::vector<glm::dvec3>(3)),
-                          Catch::Matchers::Contains("3 forces for a world of"));
+        CHECK_THROWS_WITH(all.set_forces(std::vector<glm::dvec3>(3)), Contains("3 forces for a world of"));
         forces.back().y = std::nan("");
-        CHECK_THROWS_WITH(all.set_forces(forces), Catch::Matchers::Contains("is not finite"));
+        CHECK_THROWS_WITH(all.set_forces(forces), Contains("is not finite"));
         CHECK(all.state().force == one.state().force);
     }
 }
