@@ -179,7 +179,9 @@ void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
     f.touched = b.add_buffer("vbd_start", "touched", b.scene.bodies.size() * sizeof(std::uint32_t));
     f.seen = b.add_buffer("vbd_start", "touched before", n * 2 * sizeof(std::uint32_t));
     f.solved = b.add_buffer("vbd_start", "displacement before contact", n * 4 * b.real_size());
-    b.plan.kept.insert(b.plan.kept.end(), {f.touched, f.seen, f.solved});
+    b.plan.kept.insert(b.plan.kept.end(), {f.touched, f.seen});
+    if (f.loose) // what contacts pushed in the substep before is for vbd_shift
+        b.plan.kept.push_back(f.solved);
 }
 
 void record_vbd_start(PlanBuilder& b, const Moment&)

@@ -94,6 +94,11 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     CHECK(dispatches(plan, "plane") == 3); // once a substep
     CHECK(plan.passes.size() == 3 * (2 + 7 + 4 * colours + 1));
     CHECK(plan.kept.size() == 3);
+    Scene loose = scene; // momentum is for what nothing holds: two passes, and what contacts pushed
+    loose.bodies[0].pins.clear();
+    plan = make_plan(loose, apart);
+    CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4 + 2));
+    CHECK(plan.kept.size() == 4);
 
     DeviceTraits dear; // dispatches that cost much: all colours in one group
     dear.dispatch_ns = 1e9;
