@@ -29,7 +29,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     SUM_PARTIALS(slope, products, 0u, groups)
     SUM_PARTIALS(bend, curvatures, 0u, groups)
     real share = bend[0] > real(0) ? slope[0] / bend[0] : real(0);
-    share = taut_is_finite(share) ? share : real(0);
+    share = IS_FINITE(share) ? share : real(0);
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);
     EACH_BEGIN(begin, end)

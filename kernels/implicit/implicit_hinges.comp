@@ -68,7 +68,13 @@ KERNEL(count)
                                    between(c.edge0, c.wing1));
         if (s.shaped)
         {
-            rvec3 own = corner == 0u ? s.edge0 : corner == 1u ? s.edge1 : corner == 2u ? s.wing0 : s.wing1;
+            rvec3 own = s.edge0; // by ifs: of doubles Mesa 26's OpenGL gets a chain of ?: wrong
+            if (corner == 1u)
+                own = s.edge1;
+            if (corner == 2u)
+                own = s.wing0;
+            if (corner == 3u)
+                own = s.wing1;
             real stiffness = real(1) / c.compliance;
             pull -= own * (angle_difference(s.angle, c.rest_angle) * stiffness);
             rvec3 row = own * (((h * stiffness) * h) * real(scale));

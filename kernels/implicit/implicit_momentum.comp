@@ -63,7 +63,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     SUM_LANES_2(sum_z, mass)
     real whole = mass[0] > real(0) ? mass[0] : real(1);
     real size = abs(sum_x[0]) + abs(sum_y[0]) + abs(sum_z[0]);
-    bool finite = taut_is_finite(size / whole);
+    bool finite = IS_FINITE(size / whole);
 #if CONTACT
     SUM_LANES(stopped)
     finite = finite && stopped[0] == real(0);

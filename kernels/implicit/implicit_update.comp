@@ -43,12 +43,12 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         LANES_END
     }
     real tried = real(1);
-    bool number = taut_is_finite(rise[0]);
+    bool number = IS_FINITE(rise[0]);
     share = rise[0] <= real(0) ? real(1) : real(0);
     for (uint trial = 1u; trial < trials; ++trial)
     {
         tried *= real(0.5);
-        number = number || taut_is_finite(rise[trial]);
+        number = number || IS_FINITE(rise[trial]);
         if (!(share > real(0)) && rise[trial] <= real(0))
             share = tried;
     }

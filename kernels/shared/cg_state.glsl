@@ -15,14 +15,6 @@
 // Checks without progress before a solve is given up.
 #define TAUT_CG_STALLS 3u
 
-/// PRECISE, because a compiler that may rearrange takes a difference of equals for zero, NaN or not (Mesa
-/// does).
-bool taut_is_finite(real value)
-{
-    PRECISE real difference = value - value;
-    return difference == real(0);
-}
-
 /// Before a direction is made: `s` is what cg_step or cg_restart left, rz and rr are of the residual in hand.
 /// On return s.status says whether to go on, `replace` whether the residual is wanted anew first, and
 /// `keep` whether the step in hand may be added to x.
@@ -45,7 +37,7 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
     s.rr = rr;
     if (s.status != uint(TAUT_CG_RUNNING))
         return s;
-    if (!taut_is_finite(rr) || !taut_is_finite(rz) || !taut_is_finite(s.bb))
+    if (!IS_FINITE(rr) || !IS_FINITE(rz) || !IS_FINITE(s.bb))
     {
         s.status = uint(TAUT_CG_NON_FINITE);
         keep = false;
@@ -124,7 +116,7 @@ CgState cg_measure(CgState s, real curvature)
     s.curvature = curvature;
     s.step = real(0);
     real bend = abs(curvature);
-    if (!taut_is_finite(curvature))
+    if (!IS_FINITE(curvature))
         s.status = uint(TAUT_CG_NON_FINITE);
     else
     {
@@ -132,7 +124,7 @@ CgState cg_measure(CgState s, real curvature)
         real doubt = s.epsilon * s.steepest * s.pmp;
         if (curvature < real(-256) * doubt)
             s.status = uint(TAUT_CG_INDEFINITE_MATRIX);
-        else if (curvature > doubt && taut_is_finite(s.rz / curvature))
+        else if (curvature > doubt && IS_FINITE(s.rz / curvature))
             s.step = s.rz / curvature;
         else
             s.exhausted = 1u;

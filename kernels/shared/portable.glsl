@@ -40,6 +40,8 @@
 //                                      it can hold phases; the native build never inlines it, which leaves
 //                                      a hot loop the registers
 //   rbool, SELECT(c, a, b), ANY(c), ELEMENT, COUNT_EVENT_IF(c, name, index)   see below
+//   IS_FINITE(value)                   by its bits: drivers may take a comparison for one without NaN, and a
+//                                      difference of equals for zero
 //   REAL(0.1)                          a constant of type real with all its digits; GLSL cannot paste a
 //                                      suffix to a number, so flattening writes 0.1f or 0.1lf instead
 // `real`, `rvec3`, `rvec4` are float or double, chosen when the kernel is compiled
@@ -70,6 +72,13 @@
 
 #define INOUT(T) inout T
 #define PRECISE precise
+
+#if TAUT_REAL_DOUBLE
+bool taut_is_finite(double value) { return (unpackDouble2x32(value).y & 0x7FF00000u) != 0x7FF00000u; }
+#else
+bool taut_is_finite(float value) { return (floatBitsToUint(value) & 0x7F800000u) != 0x7F800000u; }
+#endif
+#define IS_FINITE(value) taut_is_finite(value)
 
 // Drivers add the products of dot in different orders (Mesa's OpenGL last to first, its Vulkan first to
 // last), and contract those of cross (Mesa from version 26 on). Written out, every executor adds as GLM does
@@ -110,11 +119,13 @@ rvec3 taut_cross(rvec3 a, rvec3 b)
 
 #define READ(slot, T, name) layout(std430, binding = slot) readonly buffer name##_block { T name[]; }
 #define READ_ONE(slot, T, name) READ(slot, T, name)
-#define WRITE(slot, T, name) layout(std430, binding = slot) writeonly buffer name##_block { T name[]; }
-#define UPDATE(slot, T, name) layout(std430, binding = slot) buffer name##_block { T name[]; }
-#define GROUP_UPDATE(slot, T, name) layout(std430, binding = slot) coherent buffer name##_block { T name[]; }
+#define WRITE(slot, T, name) \
+    layout(std430, binding = slot) writeonly buffer name##_block { PRECISE T name[]; }
+#define UPDATE(slot, T, name) layout(std430, binding = slot) buffer name##_block { PRECISE T name[]; }
+#define GROUP_UPDATE(slot, T, name) \
+    layout(std430, binding = slot) coherent buffer name##_block { PRECISE T name[]; }
 #define COUNTERS(slot, name) layout(std430, binding = slot) buffer name##_counters { uint name[]; }
-#define SHARED(T, name, n) shared T name[n]
+#define SHARED(T, name, n) shared PRECISE T name[n]
 #define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
 #define COUNT_EVENT_IF(condition, buffer, index) if (condition) COUNT_EVENT(buffer, index)
 #define ADD_TWO(sum, a, k, b0, b1) sum = (sum + a[k] * (b0)) + a[(k) + 1u] * (b1)

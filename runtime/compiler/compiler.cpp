@@ -10,6 +10,7 @@
 
 #include <fstream>
 #include <mutex>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -67,6 +68,15 @@ std::string with_literals(std::string line, Precision precision)
     return line;
 }
 
+/// Local variables become PRECISE: for a driver that compiles the text this says what NoContraction says of a
+/// SPIR-V module. Of a local variable the line begins with a type, and its name is followed by "=" or ";".
+std::string with_precise(const std::string& line)
+{
+    static const std::regex local(
+        R"(^(\s+)((?:real|rvec3|rvec4|rbool)\s+\w+\s*=|[A-Z][A-Za-z]*\s+[a-z]\w*\s*[=;]))");
+    return std::regex_replace(line, local, "$1PRECISE $2");
+}
+
 void flatten(Flat& out, const std::string& text, const std::string& file, const std::filesystem::path& root,
              Precision precision, std::set<std::string>& seen)
 {
@@ -77,7 +87,7 @@ void flatten(Flat& out, const std::string& text, const std::string& file, const 
         const auto quote = line.find('"');
         if (line.rfind("#include", 0) != 0 || quote == std::string::npos)
         {
-            out.add(with_literals(line, precision), file, number);
+            out.add(with_precise(with_literals(line, precision)), file, number);
             continue;
         }
         const std::string path = line.substr(quote + 1, line.find('"', quote + 1) - quote - 1);

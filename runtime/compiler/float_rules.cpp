@@ -42,6 +42,7 @@ bool is_exact(std::uint32_t function)
     case GLSLstd450Floor:
     case GLSLstd450Ceil:
     case GLSLstd450Sqrt:
+    case GLSLstd450UnpackDouble2x32:
     case GLSLstd450FMin:
     case GLSLstd450UMin:
     case GLSLstd450SMin:

@@ -15,6 +15,7 @@
 #include <glm/vec4.hpp>
 
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -226,6 +227,7 @@ inline void count_event(std::uint32_t& counter)
 
 #define INOUT(T) T&
 #define PRECISE
+#define IS_FINITE(value) std::isfinite(value)
 #define DECLARE(prototype)
 #define APART [[gnu::noinline]]
 #define LAYOUT_STRUCT(name) struct name

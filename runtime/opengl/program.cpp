@@ -74,6 +74,9 @@ void Program::compile(GLuint shader, const KernelInfo& kernel, bool spirv)
     if (spirv ? kernel.spirv_opengl.empty() : kernel.glsl.empty())
         throw Error(ErrorCode::unsupported, "kernel " + std::string(kernel.name) + " has no " +
                                                 (spirv ? "SPIR-V" : "GLSL text") + " for OpenGL");
+    constexpr std::uint32_t kMagic = 0x07230203; // a driver may crash on what is no module
+    if (spirv && kernel.spirv_opengl.front() != kMagic)
+        refuse(kernel, "is given words that are no SPIR-V module: they do not begin with 0x07230203");
     if (spirv)
     {
         gl.ShaderBinary(1, &shader, GL_SHADER_BINARY_FORMAT_SPIR_V, kernel.spirv_opengl.data(),

@@ -83,6 +83,17 @@ TEST_CASE("functions that are exact, and those that the kernels' header writes o
         CHECK_NOTHROW(compile(expression));
 }
 
+TEST_CASE("what a kernel computes is precise in the text that OpenGL compiles")
+{
+    const auto kernel = compile("dot(a, b)");
+    const std::string text = kernel->glsl;
+    CHECK(text.find("    PRECISE rvec3 a = rvec3(first[i])") != std::string::npos);
+    CHECK(text.find("writeonly buffer name##_block { PRECISE T name[]; }") != std::string::npos);
+    const std::string shape(find_kernel("bending").glsl);
+    CHECK(shape.find("    PRECISE HingeShape hinge;") != std::string::npos);
+    CHECK(shape.find("    rvec3 wing0, wing1;") != std::string::npos); // a member of a structure cannot be
+}
+
 TEST_CASE("no float operation of any kernel may be merged with another")
 {
     int all = 0;
