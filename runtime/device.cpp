@@ -2,6 +2,7 @@
 
 #include "taut/runtime/device.hpp"
 
+#include "taut/runtime/base/flush_denormals.hpp"
 #include "taut/runtime/cpu/cpu_device.hpp"
 #if TAUT_HAS_OPENGL
 #include "taut/runtime/opengl/opengl_device.hpp"
@@ -147,6 +148,7 @@ std::shared_ptr<Device> Device::open(std::string_view selector, const OpenOption
         origin = "device \"" + asked + "\" (from TAUT_DEVICE)";
     }
     const std::string name = lower(asked);
+    const FlushDenormals flushed; // for the threads that software drivers start
     try
     {
         if (DevicePtr device = open_by_word(name, options))
@@ -166,6 +168,7 @@ std::shared_ptr<Device> Device::open(std::string_view selector, const OpenOption
 
 std::vector<DeviceInfo> Device::list()
 {
+    const FlushDenormals flushed; // a driver may keep the threads that it starts here
     std::vector<DeviceInfo> gpus = list_vulkan();
     for (DeviceInfo& info : list_opengl())
         gpus.push_back(std::move(info));

@@ -1,5 +1,7 @@
 #include "taut/runtime/cpu/pool.hpp"
 
+#include "taut/runtime/base/flush_denormals.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <chrono>
@@ -121,6 +123,7 @@ void Pool::run_chunk(std::uint32_t chunk, bool own)
 
 void Pool::work()
 {
+    const FlushDenormals flushed;
     do
     {
         while (const auto chunk = claim(false))

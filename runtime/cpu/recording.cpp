@@ -1,5 +1,7 @@
 #include "taut/runtime/cpu/recording.hpp"
 
+#include "taut/runtime/base/flush_denormals.hpp"
+
 #include <cassert>
 #include <chrono>
 #include <utility>
@@ -72,6 +74,7 @@ void CpuRecording::count_submission()
 void CpuRecording::replay()
 {
     const std::lock_guard lock(engine_->mutex);
+    const FlushDenormals flushed;
     count_submission();
     std::size_t begin = 0;
     for (const std::size_t end : section_ends_)
@@ -85,6 +88,7 @@ std::vector<DispatchTime> CpuRecording::replay_timed()
 {
     using Clock = std::chrono::steady_clock;
     const std::lock_guard lock(engine_->mutex);
+    const FlushDenormals flushed;
     count_submission();
     std::vector<DispatchTime> times;
     times.reserve(passes_.size());

@@ -61,17 +61,17 @@ Places find_places(std::span<const std::uint32_t> spirv)
 FloatControls float_controls(const VkPhysicalDeviceFloatControlsProperties& p)
 {
     FloatControls out;
-    out.float32 = {p.shaderRoundingModeRTEFloat32 == VK_TRUE, p.shaderDenormPreserveFloat32 == VK_TRUE,
+    out.float32 = {p.shaderRoundingModeRTEFloat32 == VK_TRUE, p.shaderDenormFlushToZeroFloat32 == VK_TRUE,
                    p.shaderSignedZeroInfNanPreserveFloat32 == VK_TRUE};
-    out.float64 = {p.shaderRoundingModeRTEFloat64 == VK_TRUE, p.shaderDenormPreserveFloat64 == VK_TRUE,
+    out.float64 = {p.shaderRoundingModeRTEFloat64 == VK_TRUE, p.shaderDenormFlushToZeroFloat64 == VK_TRUE,
                    p.shaderSignedZeroInfNanPreserveFloat64 == VK_TRUE};
     // "32 bits only": the widths other than 32 go together, and ours is one. "None": all go together.
     if (p.roundingModeIndependence == VK_SHADER_FLOAT_CONTROLS_INDEPENDENCE_NONE)
         out.float32.rounds_to_even = out.float64.rounds_to_even =
             out.float32.rounds_to_even && out.float64.rounds_to_even;
     if (p.denormBehaviorIndependence == VK_SHADER_FLOAT_CONTROLS_INDEPENDENCE_NONE)
-        out.float32.keeps_denormals = out.float64.keeps_denormals =
-            out.float32.keeps_denormals && out.float64.keeps_denormals;
+        out.float32.flushes_denormals = out.float64.flushes_denormals =
+            out.float32.flushes_denormals && out.float64.flushes_denormals;
     return out;
 }
 
@@ -83,8 +83,8 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> sp
     const Mode modes[] = {
         {spv::CapabilityRoundingModeRTE, spv::ExecutionModeRoundingModeRTE, narrow.rounds_to_even,
          wide.rounds_to_even},
-        {spv::CapabilityDenormPreserve, spv::ExecutionModeDenormPreserve, narrow.keeps_denormals,
-         wide.keeps_denormals},
+        {spv::CapabilityDenormFlushToZero, spv::ExecutionModeDenormFlushToZero, narrow.flushes_denormals,
+         wide.flushes_denormals},
         {spv::CapabilitySignedZeroInfNanPreserve, spv::ExecutionModeSignedZeroInfNanPreserve,
          narrow.keeps_zeros_and_nan, wide.keeps_zeros_and_nan},
     };

@@ -1,6 +1,6 @@
 #pragma once
-// How a device rounds, and whether it keeps small numbers and signed zeros: asked of each kernel, where the
-// device lets it be asked for, so that bits are those of the native executor.
+// How a device rounds, that denormals are zero and that signed zeros are kept: asked of each kernel, where
+// the device lets it be asked for, so that bits are those of the native executor.
 //
 // Based on: Vulkan Specification, VkPhysicalDeviceFloatControlsProperties (core in 1.2, before that
 //   VK_KHR_shader_float_controls); SPV_KHR_float_controls.
@@ -20,7 +20,7 @@ struct FloatControls
     struct Width
     {
         bool rounds_to_even = false;      ///< RoundingModeRTE
-        bool keeps_denormals = false;     ///< DenormPreserve
+        bool flushes_denormals = false;   ///< DenormFlushToZero
         bool keeps_zeros_and_nan = false; ///< SignedZeroInfNanPreserve
     };
     Width float32, float64;

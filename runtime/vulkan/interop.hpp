@@ -45,9 +45,11 @@ struct VulkanContext
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
 };
 
-/// A Device on the host's handles. Throws Error{bad_input} for a null handle or a queue family that does not
-/// exist, Error{unsupported} for a family without compute, a version below 1.1, or a claimed feature that
-/// the physical device does not have.
+/// A Device on the host's handles. On a software driver its threads are the host's, too: where it keeps
+/// denormals (Mesa 22), results with them differ from other executors', unless the host started it within a
+/// FlushDenormals (taut/runtime/base/flush_denormals.hpp). Throws Error{bad_input} for a null handle or a
+/// queue family that does not exist, Error{unsupported} for a family without compute, a version below 1.1, or
+/// a claimed feature that the physical device does not have.
 std::shared_ptr<Device> adopt(const VulkanContext& context);
 
 /// Records all dispatches of `recording`, with the barriers between them, into a primary command buffer in

@@ -43,7 +43,7 @@ TEST_CASE("a kernel asks for the rounding and the numbers that a device offers t
         const FloatControls all = {{true, true, true}, {true, true, true}};
         const std::vector<std::uint32_t> out = with_float_controls(kernel.spirv_vulkan, all, wide);
         CHECK(is_valid(out));
-        for (const auto mode : {spv::ExecutionModeRoundingModeRTE, spv::ExecutionModeDenormPreserve,
+        for (const auto mode : {spv::ExecutionModeRoundingModeRTE, spv::ExecutionModeDenormFlushToZero,
                                 spv::ExecutionModeSignedZeroInfNanPreserve})
         {
             CHECK(modes_of(out, mode, 32) == 1);
@@ -53,7 +53,7 @@ TEST_CASE("a kernel asks for the rounding and the numbers that a device offers t
         const std::vector<std::uint32_t> less = with_float_controls(kernel.spirv_vulkan, some, wide);
         CHECK(is_valid(less));
         CHECK(modes_of(less, spv::ExecutionModeRoundingModeRTE, 32) == 1);
-        CHECK(modes_of(less, spv::ExecutionModeDenormPreserve, 32) == 0);
+        CHECK(modes_of(less, spv::ExecutionModeDenormFlushToZero, 32) == 0);
     }
 }
 
@@ -62,11 +62,11 @@ TEST_CASE("what a device sets for all widths at once is asked for where all have
     auto offered = VkPhysicalDeviceFloatControlsProperties{};
     offered.roundingModeIndependence = VK_SHADER_FLOAT_CONTROLS_INDEPENDENCE_NONE;
     offered.denormBehaviorIndependence = VK_SHADER_FLOAT_CONTROLS_INDEPENDENCE_ALL;
-    offered.shaderRoundingModeRTEFloat32 = offered.shaderDenormPreserveFloat32 = VK_TRUE;
+    offered.shaderRoundingModeRTEFloat32 = offered.shaderDenormFlushToZeroFloat32 = VK_TRUE;
     const FloatControls out = float_controls(offered);
     CHECK_FALSE(out.float32.rounds_to_even);
-    CHECK(out.float32.keeps_denormals);
-    CHECK_FALSE(out.float64.keeps_denormals);
+    CHECK(out.float32.flushes_denormals);
+    CHECK_FALSE(out.float64.flushes_denormals);
     offered.shaderRoundingModeRTEFloat64 = VK_TRUE;
     CHECK(float_controls(offered).float32.rounds_to_even);
 }
