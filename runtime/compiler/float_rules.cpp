@@ -1,32 +1,14 @@
 #include "taut/runtime/compiler/float_rules.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/spirv.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 #include <spirv/unified1/GLSL.std.450.h>
-#include <spirv/unified1/spirv.hpp>
 
 namespace taut {
 namespace {
-
-constexpr std::size_t kHeaderWords = 5;
-
-/// `visit(op, first word, operands)` for each instruction; the operands are what follows the opcode.
-using Visit = std::function<void(spv::Op, std::size_t, std::span<const std::uint32_t>)>;
-
-void each_instruction(std::span<const std::uint32_t> spirv, const Visit& visit)
-{
-    for (std::size_t i = kHeaderWords; i < spirv.size();)
-    {
-        const std::uint32_t length = spirv[i] >> 16;
-        if (length == 0 || i + length > spirv.size())
-            throw Error(ErrorCode::kernel_compilation, "a SPIR-V module is cut off");
-        visit(static_cast<spv::Op>(spirv[i] & 0xffffu), i, spirv.subspan(i + 1, length - 1));
-        i += length;
-    }
-}
 
 /// Functions of GLSL.std.450 that are exact, or rounded correctly (float_rules.hpp on Sqrt).
 bool is_exact(std::uint32_t function)
@@ -142,7 +124,7 @@ std::vector<std::uint32_t> without_contraction(std::span<const std::uint32_t> sp
     std::vector<std::uint32_t> out(spirv.begin(), place);
     for (const std::uint32_t id : results)
         if (!decorated.contains(id))
-            out.insert(out.end(), {3u << 16 | static_cast<std::uint32_t>(spv::OpDecorate), id,
+            out.insert(out.end(), {spirv_head(spv::OpDecorate, 3), id,
                                    static_cast<std::uint32_t>(spv::DecorationNoContraction)});
     out.insert(out.end(), place, spirv.end());
     return out;

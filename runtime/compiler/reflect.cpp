@@ -1,10 +1,10 @@
 #include "taut/runtime/compiler/reflect.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/spirv.hpp"
 
 #include <algorithm>
 #include <map>
-#include <spirv/unified1/spirv.hpp>
 
 namespace taut {
 namespace {
@@ -99,14 +99,9 @@ void read_instruction(Module& module, spv::Op op, std::span<const std::uint32_t>
 Module parse(std::span<const std::uint32_t> spirv)
 {
     Module module;
-    for (std::size_t i = 5; i < spirv.size();)
-    {
-        const std::uint32_t length = spirv[i] >> 16;
-        if (length == 0 || i + length > spirv.size())
-            break;
-        read_instruction(module, static_cast<spv::Op>(spirv[i] & 0xffffu), spirv.subspan(i + 1, length - 1));
-        i += length;
-    }
+    each_instruction(spirv, [&](spv::Op op, std::size_t, std::span<const std::uint32_t> operands) {
+        read_instruction(module, op, operands);
+    });
     return module;
 }
 

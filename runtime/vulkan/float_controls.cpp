@@ -1,25 +1,19 @@
 #include "taut/runtime/vulkan/float_controls.hpp"
 
+#include "taut/runtime/base/spirv.hpp"
+
 #include <cstring>
-#include <spirv/unified1/spirv.hpp>
 #include <string_view>
 
 namespace taut::vulkan {
 namespace {
-
-constexpr std::size_t kHeaderWords = 5;
-
-std::uint32_t head(spv::Op op, std::size_t words)
-{
-    return static_cast<std::uint32_t>(words) << 16 | static_cast<std::uint32_t>(op);
-}
 
 void add_extension(std::vector<std::uint32_t>& out)
 {
     constexpr std::string_view kName = "SPV_KHR_float_controls";
     std::vector<std::uint32_t> text(kName.size() / 4 + 1, 0); // ends in a zero byte
     std::memcpy(text.data(), kName.data(), kName.size());
-    out.push_back(head(spv::OpExtension, 1 + text.size()));
+    out.push_back(spirv_head(spv::OpExtension, 1 + text.size()));
     out.insert(out.end(), text.begin(), text.end());
 }
 
@@ -33,26 +27,22 @@ struct Mode
 /// Where the parts of a module begin that are added to, in words, and what is its entry point.
 struct Places
 {
-    std::size_t capabilities_end = kHeaderWords, entry_end = 0;
+    std::size_t capabilities_end = kSpirvHeaderWords, entry_end = 0;
     std::uint32_t entry = 0;
 };
 
 Places find_places(std::span<const std::uint32_t> spirv)
 {
     Places out;
-    for (std::size_t i = kHeaderWords; i < spirv.size() && (spirv[i] >> 16) != 0; i += spirv[i] >> 16)
-    {
-        const auto op = static_cast<spv::Op>(spirv[i] & 0xffffu);
-        if (op == spv::OpFunction)
-            break;
+    each_instruction(spirv, [&](spv::Op op, std::size_t place, std::span<const std::uint32_t> operands) {
         if (op == spv::OpCapability)
-            out.capabilities_end = i + (spirv[i] >> 16);
+            out.capabilities_end = place + 1 + operands.size();
         if (op == spv::OpEntryPoint)
         {
-            out.entry = spirv[i + 2];
-            out.entry_end = i + (spirv[i] >> 16);
+            out.entry = operands[1];
+            out.entry_end = place + 1 + operands.size();
         }
-    }
+    });
     return out;
 }
 
@@ -93,10 +83,10 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> sp
     for (const Mode& m : modes)
     {
         if (m.float32 || m.float64)
-            capabilities.insert(capabilities.end(), {head(spv::OpCapability, 2), m.capability});
+            capabilities.insert(capabilities.end(), {spirv_head(spv::OpCapability, 2), m.capability});
         for (const std::uint32_t width : {32u, 64u})
             if (width == 32 ? m.float32 : m.float64)
-                execution.insert(execution.end(), {head(spv::OpExecutionMode, 4), at.entry,
+                execution.insert(execution.end(), {spirv_head(spv::OpExecutionMode, 4), at.entry,
                                                    static_cast<std::uint32_t>(m.mode), width});
     }
     if (capabilities.empty() || at.entry_end == 0)

@@ -1,5 +1,6 @@
 #include "taut/runtime/vulkan/pipelines.hpp"
 
+#include "taut/runtime/base/spirv.hpp"
 #include "taut/runtime/compiler/override.hpp"
 #include "taut/runtime/vulkan/structs.hpp"
 
@@ -15,21 +16,13 @@ std::size_t hash_of(std::span<const std::uint32_t> words)
         std::string_view(reinterpret_cast<const char*>(words.data()), words.size_bytes()));
 }
 
-/// True when the module declares the Float64 capability (opcode 17, capability 10).
 bool uses_float64(std::span<const std::uint32_t> spirv)
 {
-    constexpr std::size_t header_words = 5;
-    for (std::size_t at = header_words; at + 1 < spirv.size();)
-    {
-        const std::uint32_t opcode = spirv[at] & 0xFFFFu;
-        const std::uint32_t words = spirv[at] >> 16;
-        if (opcode != 17 || words == 0) // capabilities come first
-            return false;
-        if (spirv[at + 1] == 10)
-            return true;
-        at += words;
-    }
-    return false;
+    bool found = false;
+    each_instruction(spirv, [&](spv::Op op, std::size_t, std::span<const std::uint32_t> operands) {
+        found = found || (op == spv::OpCapability && operands[0] == spv::CapabilityFloat64);
+    });
+    return found;
 }
 
 } // namespace

@@ -1,52 +1,39 @@
 // The rules that keep the bits of a kernel out of a driver's hands.
 
-#include "support/catch.hpp"
+#include "support/kernel_text.hpp"
 #include "taut/runtime/base/registry.hpp"
-#include "taut/runtime/compiler/compiler.hpp"
+#include "taut/runtime/base/spirv.hpp"
 
 #include <set>
-#include <spirv/unified1/spirv.hpp>
 #include <string>
 
 using namespace taut;
 
 namespace {
 
-std::shared_ptr<const CompiledKernel> compile(const std::string& expression)
+/// A kernel that stores this.
+std::string storing(const std::string& expression)
 {
-    const std::string text = "#include \"shared/portable.glsl\"\nPARAMS { uint count; };\n"
-                             "READ(0, rvec4, first);\nWRITE(1, real, result);\n"
-                             "KERNEL(count)\n{\n    rvec3 a = rvec3(first[i]), b = a * real(2);\n"
-                             "    result[i] = " +
-                             expression + ";\n}\n";
-    return compile_kernel({"sample", text, {}, kernel_variants("sample", text).front(), Precision::float32});
+    return "#include \"shared/portable.glsl\"\nPARAMS { uint count; };\n"
+           "READ(0, rvec4, first);\nWRITE(1, real, result);\n"
+           "KERNEL(count)\n{\n    rvec3 a = rvec3(first[i]), b = a * real(2);\n"
+           "    result[i] = " +
+           expression + ";\n}\n";
 }
 
-std::string refusal(const std::string& expression)
-{
-    try
-    {
-        compile(expression);
-    }
-    catch (const Error& error)
-    {
-        CHECK(error.code() == ErrorCode::kernel_compilation);
-        return error.what();
-    }
-    return "it compiled";
-}
+std::string refusal(const std::string& expression) { return sample_refusal(storing(expression)); }
 
 /// Float operations of a module, and how many of them may be merged with the next one.
 std::pair<int, int> operations(std::span<const std::uint32_t> spirv)
 {
     std::set<std::uint32_t> kept;
     int all = 0, open = 0;
-    for (std::size_t i = 5; i < spirv.size(); i += spirv[i] >> 16)
-        switch (spirv[i] & 0xffffu)
+    each_instruction(spirv, [&](spv::Op op, std::size_t, std::span<const std::uint32_t> operands) {
+        switch (op)
         {
         case spv::OpDecorate:
-            if (spirv[i + 2] == spv::DecorationNoContraction)
-                CHECK(kept.insert(spirv[i + 1]).second); // twice is no valid module
+            if (operands[1] == spv::DecorationNoContraction)
+                CHECK(kept.insert(operands[0]).second); // twice is no valid module
             break;
         case spv::OpFNegate:
         case spv::OpFAdd:
@@ -55,10 +42,11 @@ std::pair<int, int> operations(std::span<const std::uint32_t> spirv)
         case spv::OpFDiv:
         case spv::OpVectorTimesScalar:
             ++all;
-            open += kept.contains(spirv[i + 2]) ? 0 : 1;
+            open += kept.contains(operands[1]) ? 0 : 1;
             break;
         default: break;
         }
+    });
     return {all, open};
 }
 
@@ -80,12 +68,12 @@ TEST_CASE("functions that are exact, and those that the kernels' header writes o
 {
     for (const char* expression :
          {"dot(a, b)", "length(a)", "cross(a, b).x", "sqrt(a.x)", "min(max(abs(a.x), b.y), floor(b.z))"})
-        CHECK_NOTHROW(compile(expression));
+        CHECK_NOTHROW(compile_sample(storing(expression)));
 }
 
 TEST_CASE("what a kernel computes is precise in the text that OpenGL compiles")
 {
-    const auto kernel = compile("dot(a, b)");
+    const auto kernel = compile_sample(storing("dot(a, b)"));
     const std::string text = kernel->glsl;
     CHECK(text.find("    PRECISE rvec3 a = rvec3(first[i])") != std::string::npos);
     CHECK(text.find("writeonly buffer name##_block { PRECISE T name[]; }") != std::string::npos);

@@ -2,8 +2,9 @@
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"
+#include "support/kernel_text.hpp"
 #include "taut/runtime/base/registry.hpp"
-#include "taut/runtime/compiler/compiler.hpp"
+#include "taut/runtime/base/spirv.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -14,15 +15,14 @@ using namespace taut;
 
 namespace {
 
-constexpr std::uint32_t kOpCapability = 17, kCapabilityFloat64 = 10, kCapabilityInt64 = 11;
-
 /// Capabilities that a module asks for, by their number in the SPIR-V specification.
 std::set<std::uint32_t> capabilities(std::span<const std::uint32_t> spirv)
 {
     std::set<std::uint32_t> found;
-    for (std::size_t i = 5; i < spirv.size() && (spirv[i] >> 16) != 0; i += spirv[i] >> 16)
-        if ((spirv[i] & 0xFFFFu) == kOpCapability)
-            found.insert(spirv[i + 1]);
+    each_instruction(spirv, [&](spv::Op op, std::size_t, std::span<const std::uint32_t> operands) {
+        if (op == spv::OpCapability)
+            found.insert(operands[0]);
+    });
     return found;
 }
 
@@ -44,28 +44,6 @@ std::string text_of(const std::string& stem)
             return {std::istreambuf_iterator<char>(file), {}};
         }
     FAIL("there is no kernel " << stem);
-    return {};
-}
-
-std::shared_ptr<const CompiledKernel> compile(const std::string& text,
-                                              Precision precision = Precision::float32)
-{
-    return compile_kernel({"sample", text, {}, kernel_variants("sample", text).front(), precision});
-}
-
-/// What compile_kernel says against a text.
-std::string refusal(const std::string& text)
-{
-    try
-    {
-        compile(text);
-    }
-    catch (const Error& error)
-    {
-        CHECK(error.code() == ErrorCode::kernel_compilation);
-        return error.what();
-    }
-    FAIL("it compiled");
     return {};
 }
 
@@ -127,9 +105,9 @@ TEST_CASE("no kernel asks for more than it may: 64-bit floats in double only, no
             CAPTURE(kernel->name, kernel->variant, to_string(kernel->precision));
             std::set<std::uint32_t> found = capabilities(spirv);
             if (kernel->precision == Precision::float64)
-                found.erase(kCapabilityFloat64); // a kernel of whole numbers alone does without
+                found.erase(spv::CapabilityFloat64); // a kernel of whole numbers alone does without
             CHECK(found == std::set<std::uint32_t>{kShader});
-            CHECK(capabilities(spirv).count(kCapabilityInt64) == 0);
+            CHECK(capabilities(spirv).count(spv::CapabilityInt64) == 0);
         }
 }
 
@@ -175,8 +153,8 @@ TEST_CASE("REAL becomes a literal with all its digits in the precision of the ke
 {
     const std::string text =
         kHead + "WRITE(0, real, result);\nKERNEL(count) { result[i] = REAL(0.1) * REAL(1e-3); }\n";
-    CHECK(contains(std::string(compile(text)->info.glsl), "result[i] = (0.1f) * (1e-3f);"));
-    CHECK(contains(std::string(compile(text, Precision::float64)->info.glsl),
+    CHECK(contains(std::string(compile_sample(text)->info.glsl), "result[i] = (0.1f) * (1e-3f);"));
+    CHECK(contains(std::string(compile_sample(text, Precision::float64)->info.glsl),
                    "result[i] = (0.1lf) * (1e-3lf);"));
 }
 
@@ -221,7 +199,7 @@ TEST_CASE("a text that does not compile is refused with file and line")
 {
     const std::string text =
         kHead + "WRITE(0, real, result);\nKERNEL(count)\n{\n    result[i] = no_such_name;\n}\n";
-    const std::string what = refusal(text);
+    const std::string what = sample_refusal(text);
     CHECK(contains(what, "sample.comp:6"));
     CHECK(contains(what, "no_such_name"));
 }
@@ -251,7 +229,8 @@ TEST_CASE("a mistake in an include is reported at the include's own line")
 
 TEST_CASE("an unknown include is refused by name and place")
 {
-    const std::string what = refusal("#include \"shared/portable.glsl\"\n#include \"shared/nowhere.glsl\"\n");
+    const std::string what =
+        sample_refusal("#include \"shared/portable.glsl\"\n#include \"shared/nowhere.glsl\"\n");
     CHECK(contains(what, "shared/nowhere.glsl"));
     CHECK(contains(what, "sample.comp:2"));
 }
@@ -259,7 +238,7 @@ TEST_CASE("an unknown include is refused by name and place")
 TEST_CASE("slots with a gap, too many buffers and vector parameters are refused by name")
 {
     const std::string body = "KERNEL(count) { result[i] = first[i]; }\n";
-    const std::string gap = refusal(kHead + "READ(0, real, first);\nWRITE(2, real, result);\n" + body);
+    const std::string gap = sample_refusal(kHead + "READ(0, real, first);\nWRITE(2, real, result);\n" + body);
     CHECK(contains(gap, "slot 1"));
     CHECK(contains(gap, "sample"));
 
@@ -271,14 +250,14 @@ TEST_CASE("slots with a gap, too many buffers and vector parameters are refused 
         many += "READ(" + std::to_string(slot) + ", real, " + name + ");\n";
         sum += " + " + name + "[i]";
     }
-    const std::string nine = refusal(many + sum + "; }\n");
+    const std::string nine = sample_refusal(many + sum + "; }\n");
     CHECK(contains(nine, "9"));
     CHECK(contains(nine, "limit is 8"));
 
     const std::string vector =
-        refusal("#include \"shared/portable.glsl\"\nPARAMS { uint count; vec4 wind; };\n"
-                "READ(0, real, first);\nWRITE(1, real, result);\n"
-                "KERNEL(count) { result[i] = first[i] * wind.x; }\n");
+        sample_refusal("#include \"shared/portable.glsl\"\nPARAMS { uint count; vec4 wind; };\n"
+                       "READ(0, real, first);\nWRITE(1, real, result);\n"
+                       "KERNEL(count) { result[i] = first[i] * wind.x; }\n");
     CHECK(contains(vector, "wind"));
     CHECK(contains(vector, "32-bit"));
 }
@@ -308,7 +287,7 @@ TEST_CASE("a kernel compiled at run time runs on every device that takes texts, 
 {
     const std::string text = kHead + "READ(0, real, first);\nWRITE(1, real, result);\nKERNEL(count) { "
                                      "result[i] = first[i] * REAL(0.5); }\n";
-    const auto kernel = compile(text);
+    const auto kernel = compile_sample(text);
     struct Params
     {
         std::uint32_t count;

@@ -2,10 +2,10 @@
 
 #include "support/catch.hpp"
 #include "taut/runtime/base/registry.hpp"
+#include "taut/runtime/base/spirv.hpp"
 #include "taut/runtime/vulkan/float_controls.hpp"
 
 #include <spirv-tools/libspirv.hpp>
-#include <spirv/unified1/spirv.hpp>
 
 using namespace taut;
 using namespace taut::vulkan;
@@ -21,8 +21,9 @@ bool is_valid(const std::vector<std::uint32_t>& spirv)
 int modes_of(const std::vector<std::uint32_t>& spirv, spv::ExecutionMode mode, std::uint32_t width)
 {
     int out = 0;
-    for (std::size_t i = 5; i < spirv.size(); i += spirv[i] >> 16)
-        out += (spirv[i] & 0xffffu) == spv::OpExecutionMode && spirv[i + 2] == mode && spirv[i + 3] == width;
+    each_instruction(spirv, [&](spv::Op op, std::size_t, std::span<const std::uint32_t> operands) {
+        out += op == spv::OpExecutionMode && operands[1] == mode && operands[2] == width;
+    });
     return out;
 }
 
