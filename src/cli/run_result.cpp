@@ -136,6 +136,7 @@ Json to_json(const RunResult& result)
     json["dual_residual"] = known(report.dual_residual);
     json["imbalance"] = known(report.imbalance);
     json["load_residual"] = known(report.load_residual);
+    json["load_way"] = report.load_residual >= 0 ? Json(report.load_way) : Json(nullptr);
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = known(report.active_share);
     json["series"] = result.solvers > 0 ? looks_json(result.looks) : Json(nullptr);

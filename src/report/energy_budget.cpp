@@ -4,6 +4,7 @@
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,18 @@ struct Mover
 {
     std::vector<Keyframe> motion;
     std::vector<glm::dvec3> corners;
+    bool holds = false;
+};
+
+struct Box
+{
+    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
+
+    void take(const glm::dvec3& p)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
 };
 
 std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
@@ -45,7 +58,7 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
                 high = glm::max(high, model.start[model.body_start[b] + v]);
             }
             if (!pin.motion.empty() && low.x <= high.x)
-                out.push_back({pin.motion, box_corners(low, high)});
+                out.push_back({pin.motion, box_corners(low, high), true});
         }
     for (const Collider& c : scene.colliders)
     {
@@ -55,8 +68,8 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
                                                               : c.radius;
         const glm::dvec3 end = c.kind == ColliderKind::capsule ? c.end : c.point;
         if (!c.motion.empty())
-            out.push_back({c.motion, box_corners(glm::min(c.point, end) - size,
-                                                 glm::max(c.point, end) + size)});
+            out.push_back(
+                {c.motion, box_corners(glm::min(c.point, end) - size, glm::max(c.point, end) + size), false});
     }
     return out;
 }
@@ -84,30 +97,48 @@ void extend(const Mover& mover, double from, double to, MoverReach& reach)
             const glm::dvec3 now = pose(mover.motion, from + (to - from) * k / samples, corner);
             reach.speed = std::max(reach.speed, glm::distance(now, before) * samples / (to - from));
             reach.travel = std::max(reach.travel, glm::distance(now, corner));
+            reach.low = glm::min(reach.low, glm::min(now, before));
+            reach.high = glm::max(reach.high, glm::max(now, before));
             before = now;
         }
     }
 }
 
-std::vector<MoverReach> reach_of(const std::vector<Mover>& movers)
+std::vector<MoverPath> paths_of(const std::vector<Mover>& movers)
 {
-    std::vector<double> times;
+    std::vector<MoverPath> out;
     for (const Mover& mover : movers)
-        for (const Keyframe& key : mover.motion)
-            if (key.time > 0)
-                times.push_back(key.time);
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    std::vector<MoverReach> out{{}};
-    for (const double time : times)
     {
-        MoverReach next = out.back();
-        next.time = time;
-        for (const Mover& mover : movers)
-            extend(mover, out.back().time, time, next);
-        out.push_back(next);
+        MoverPath path{mover.holds, {{}}};
+        for (const Keyframe& key : mover.motion)
+            if (key.time > path.reach.back().time)
+            {
+                MoverReach next = path.reach.back();
+                next.time = key.time;
+                extend(mover, path.reach.back().time, key.time, next);
+                path.reach.push_back(next);
+            }
+        out.push_back(std::move(path));
     }
     return out;
+}
+
+/// Where the body of the vertices from `first` to before `last` can have been: a box around its start and
+/// now, as much larger on every side as it was itself and as its speed at the start took it.
+Box room_of(const PhysicalModel& model, std::span<const glm::dvec3> x, std::uint32_t first,
+            std::uint32_t last, double time)
+{
+    Box start, all;
+    double speed = 0;
+    for (std::uint32_t i = first; i < last; ++i)
+    {
+        start.take(model.start[i]);
+        all.take(model.start[i]);
+        all.take(x[i]);
+        speed = std::max(speed, glm::length(model.velocity[i]));
+    }
+    const double more = glm::distance(start.low, start.high) + speed * time;
+    return {all.low - more, all.high + more};
 }
 
 double deepest_start(const Scene& scene, const PhysicalModel& model)
@@ -237,7 +268,7 @@ double largest_wind(const Wind& wind)
 
 EnergyBudget::EnergyBudget(const Scene& resolved)
     : model_(make_model(resolved)),
-      reach_(reach_of(movers_of(resolved, model_))),
+      paths_(paths_of(movers_of(resolved, model_))),
       depth_(deepest_start(resolved, model_)),
       drawn_(drawn_energy(resolved)),
       violation_(largest_violation(resolved, model_)),
@@ -256,17 +287,31 @@ EnergyBudget::EnergyBudget(const Scene& resolved)
     gravity_start_ = gravity_energy(model_, model_.start);
 }
 
-MoverReach EnergyBudget::reach_at(double time) const
+MoverReach EnergyBudget::reach_at(double time, std::span<const glm::dvec3> x) const
 {
-    // The stretch that `time` lies in counts whole.
-    const auto end = std::lower_bound(reach_.begin(), reach_.end(), time,
-                                      [](const MoverReach& r, double t) { return r.time < t; });
-    return end == reach_.end() ? reach_.back() : *end;
+    MoverReach out;
+    std::vector<Box> rooms;
+    for (std::size_t b = 0; !paths_.empty() && b + 1 < model_.body_start.size(); ++b)
+        rooms.push_back(room_of(model_, x, model_.body_start[b], model_.body_start[b + 1], time));
+    for (const MoverPath& path : paths_)
+    {
+        // The stretch that `time` lies in counts whole.
+        const auto end = std::lower_bound(path.reach.begin(), path.reach.end(), time,
+                                          [](const MoverReach& r, double t) { return r.time < t; });
+        const MoverReach& reach = end == path.reach.end() ? path.reach.back() : *end;
+        const bool meets = path.holds || std::any_of(rooms.begin(), rooms.end(), [&](const Box& room) {
+                               return glm::all(glm::lessThanEqual(reach.low, room.high)) &&
+                                      glm::all(glm::lessThanEqual(room.low, reach.high));
+                           });
+        out.speed = std::max(out.speed, meets ? reach.speed : 0.0);
+        out.travel = std::max(out.travel, meets ? reach.travel : 0.0);
+    }
+    return out;
 }
 
 double EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive) const
 {
-    const MoverReach reach = reach_at(drive.time);
+    const MoverReach reach = reach_at(drive.time, x);
     const double g = glm::length(model_.gravity);
     double in = start_ - gas_energy(model_, x);
     double root = 0; // what is added to sqrt(E)

@@ -5,17 +5,26 @@
 #include "taut/report/model.hpp"
 #include "taut/world/world.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
 namespace taut {
 
-/// How far and how fast what a scene moves by itself has gone by a time.
+/// How far and how fast something that a scene moves by itself has gone by a time, and where it was.
 struct MoverReach
 {
     double time = 0;   ///< s: end of the stretch
     double speed = 0;  ///< m/s, largest so far
     double travel = 0; ///< m, longest way so far
+    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL}; ///< m, box of all places so far
+};
+
+/// Pins that move, or a collider that does.
+struct MoverPath
+{
+    bool holds = false;            ///< pins: they move a body wherever it is
+    std::vector<MoverReach> reach; ///< ascending in time
 };
 
 /// Bounds on energy, fp64 on the host. Immutable after construction; const members may be called from any
@@ -23,7 +32,9 @@ struct MoverReach
 ///
 /// Based on: the work-energy theorem. A force that accelerates every part of a mass M by at most g raises
 ///   sqrt(2 E / M) by at most g t; what moves at V passes on at most a multiple of V to what it meets.
-/// Departures: the work of moving pins and colliders is bounded by kHits times their speed, not integrated.
+/// Departures: the work of moving pins and colliders is bounded by kHits times their speed, not integrated. A
+///   collider whose way is further from all that a body can have been at than the body is large has done
+///   none.
 class EnergyBudget
 {
 public:
@@ -47,10 +58,11 @@ public:
     static constexpr double kHits = 4;
 
 private:
-    MoverReach reach_at(double time) const;
+    /// Of all that can have touched bodies that are at `x`, together.
+    MoverReach reach_at(double time, std::span<const glm::dvec3> x) const;
 
     PhysicalModel model_;
-    std::vector<MoverReach> reach_; ///< ascending in time
+    std::vector<MoverPath> paths_;
     double mass_ = 0, lightest_ = 0, start_ = 0, gravity_start_ = 0, depth_ = 0;
     /// J/m^2: half the elastic energy of drawing the places that movers hold apart by a metre, evenly.
     double drawn_ = 0;

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -69,7 +70,8 @@ std::optional<Substep> last_substep(const View& view)
     add_forces(out.model, view.x, force);
     for (const GasElement& e : out.model.gases) // of the guess, which it has pushed
         add_gas_forces(e, view.x, gas);
-    out.left = {std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), h};
+    out.left = {std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), h,
+                false};
     for (std::size_t i = 0; i < count; ++i)
     {
         const double mass = out.model.mass[i];
@@ -135,24 +137,40 @@ void measure_implicit_residual(const View& view, StepReport& out)
     out.imbalance = sizes > 0 ? lefts / sizes : 0;
 }
 
-double measure_load_residual(const World& world)
+bool any_rigid(const PhysicalModel& model)
+{
+    const auto rigid = [](const auto& element) { return !(element.compliance > 0); };
+    return std::any_of(model.springs.begin(), model.springs.end(), rigid) ||
+           std::any_of(model.hinges.begin(), model.hinges.end(), rigid) ||
+           std::any_of(model.volumes.begin(), model.volumes.end(), rigid);
+}
+
+LoadResidual measure_load_residual(const World& world)
 {
     const View view(world);
     const double gravity = glm::length(view.model.gravity);
     const MethodKind kind = method_of(world.scene());
-    if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd) || !(gravity > 0) ||
-        !view.model.surfaces.empty() || has_effect(view, "attachment")) // both join far vertices
-        return -1;
+    const bool sweeps = kind == MethodKind::xpbd;
+    if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps) || !(gravity > 0) ||
+        !view.model.surfaces.empty() || has_effect(view, "attachment") || // both join far vertices
+        any_rigid(view.model))                                            // forces that are on no record
+        return {};
     std::optional<Substep> last = last_substep(view);
     if (!last)
-        return -1;
+        return {};
     Leftover& left = last->left;
+    const double substep = left.time;
+    if (sweeps)
+    {
+        left.time = std::sqrt(view.model.diameter / gravity); // of a fall through the scene's size
+        left.against_response = true;
+    }
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
         left.load[i] = last->model.mass[i] * std::max(gravity, glm::length(last->inertia[i]));
         // One that a collider pushed may have left it in the same substep.
-        left.touches[i] = touches_collider(
-            view, i, glm::length(last->moved[i]) + gravity * left.substep * left.substep);
+        left.touches[i] =
+            touches_collider(view, i, glm::length(last->moved[i]) + gravity * substep * substep);
     }
     mark_limited(view, left.touches);
     return load_residual(last->model, view.x, left);

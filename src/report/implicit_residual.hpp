@@ -1,6 +1,7 @@
 #pragma once
-// What the last substep of implicit_euler or vbd left unsolved.
+// What the last substep of implicit_euler, vbd or xpbd left unsolved.
 
+#include "taut/report/load_residual.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/world_view.hpp"
 
@@ -18,6 +19,6 @@ void measure_implicit_residual(const reference::View& view, StepReport& out);
 
 /// StepReport::load_residual of a world that has just made a step; -1 where there is none. Solves a linear
 /// system of the whole scene: for the end of a run, not for every look.
-double measure_load_residual(const World& world);
+LoadResidual measure_load_residual(const World& world);
 
 } // namespace taut

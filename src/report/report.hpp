@@ -24,7 +24,8 @@ enum class Warning
     solve_failed,
     unconverged,
     tunnelling,
-    may_tunnel
+    may_tunnel,
+    soft
 };
 std::string_view to_string(Warning warning);
 
@@ -59,6 +60,9 @@ struct StepReport
     /// residuals_ahead() measures it and measure() leaves -1; -1 also under other methods, without gravity,
     /// and with plastic strain, attachments and held surface volumes.
     double load_residual = -1;
+    /// xpbd: what the leftovers of its substeps move the worst body in the time of a fall through the scene's
+    /// size, over the body's size; load_residual is then what they move over what its loads do.
+    double load_way = 0;
     double max_speed = 0;        ///< m/s
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1
     SolverReport solver;         ///< of the run so far

@@ -15,6 +15,7 @@ std::string_view to_string(Warning warning)
     case Warning::unconverged: return "unconverged";
     case Warning::tunnelling: return "tunnelling";
     case Warning::may_tunnel: return "may_tunnel";
+    case Warning::soft: return "soft";
     }
     return "unknown";
 }

@@ -6,7 +6,10 @@
 // Departures: n is estimated by the mesh: links from a pin, or across a body that is free (it may come to
 //   hang from one end), and the mass that hangs from the edges of pinned vertices; k iterations count like a
 //   substep of 1/sqrt(k). A sweep of vbd carries a load over one link like one of xpbd, and counts the same.
-//   Measured in docs/methods.md.
+//   Spanned bodies sag by L sqrt(3 e / 8) at a strain of e, so they may have less of it. Solids under xpbd
+//   bend: material of speed of sound c acts as if softer by (c h / edge)^2, so that a bar of length L and
+//   thickness t clamped at its end sags by 3/2 rho g L^4 / (E t^2) times that, 3/2 g h^2 L^4 / (t edge)^2,
+//   too far. Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
@@ -105,7 +108,85 @@ double hanging_vertices(const Body& body, const Neighbours& around, const std::v
     return edges > 0 ? total / carriers : 0;
 }
 
+struct Extent
+{
+    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
+
+    void take(const glm::dvec3& p)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+};
+
+glm::dvec3 centre_of_mass(const Body& body)
+{
+    double mass = 0;
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < body.mesh.positions.size(); ++i)
+    {
+        const double m = body.vertex_masses.empty() ? 1.0 : body.vertex_masses[i];
+        mass += m;
+        sum += m * body.mesh.positions[i];
+    }
+    return mass > 0 ? sum / mass : sum;
+}
+
+/// m: of a bar of square section its side, by volume over surface.
+double thickness_of(const Body& body)
+{
+    const auto& x = body.mesh.positions;
+    double volume = 0, area = 0;
+    for (const auto& t : body.mesh.tetrahedra)
+        volume += std::abs(glm::dot(x[t[1]] - x[t[0]], glm::cross(x[t[2]] - x[t[0]], x[t[3]] - x[t[0]]))) / 6;
+    for (const auto& t : body.mesh.triangles)
+        area += glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 2;
+    return area > 0 ? 4 * volume / area : 0;
+}
+
+constexpr double kSofter = 0.2;
+
+/// s: the longest substep in which a held solid sags by no more than is seen too far, or acts as stiff as it
+/// is but for kSofter; 0 where nothing holds it.
+double longest_for_solid(const Body& body, const SweepLoad& load, double gravity)
+{
+    const double thick = body.pins.empty() ? 0 : thickness_of(body);
+    if (!(thick > 0) || body.mesh.tetrahedra.empty() || !(body.material.youngs_modulus > 0))
+        return 0;
+    const double length = load.reach * load.edge;
+    const double seen = thick * load.edge * std::sqrt(kSeenWay / (1.5 * gravity * length * length * length));
+    const double sound = std::sqrt(body.material.youngs_modulus / body.material.density);
+    return std::max(seen, load.edge * std::sqrt(kSofter) / sound);
+}
+
 } // namespace
+
+bool is_spanned(const Body& body, const glm::dvec3& gravity)
+{
+    constexpr double kSpan = 0.5, kBeside = 0.1, kBelow = 0.2; // of the body's size
+    if (!(glm::length(gravity) > 0))
+        return false;
+    const glm::dvec3 down = glm::normalize(gravity);
+    Extent all, pins;
+    double highest = HUGE_VAL, lowest = -HUGE_VAL; // pins, along gravity
+    for (const glm::dvec3& p : body.mesh.positions)
+        all.take(p);
+    for (const Pin& pin : body.pins)
+        for (const std::uint32_t v : pin.vertices)
+        {
+            const glm::dvec3& p = body.mesh.positions[v];
+            pins.take(p);
+            highest = std::min(highest, glm::dot(p, down));
+            lowest = std::max(lowest, glm::dot(p, down));
+        }
+    if (!(highest <= lowest))
+        return false;
+    const double size = glm::distance(all.low, all.high);
+    const glm::dvec3 off = centre_of_mass(body) - 0.5 * (pins.low + pins.high);
+    const double below = glm::dot(off, down);
+    return lowest - highest <= kBelow * size && glm::distance(pins.low, pins.high) >= kSpan * size &&
+           std::abs(below) <= kBelow * size && glm::length(off - below * down) <= kBeside * size;
+}
 
 SweepLoad sweep_load(const Body& body)
 {
@@ -122,10 +203,9 @@ SweepLoad sweep_load(const Body& body)
         return {};
     SweepLoad out;
     out.edge = mean_edge(body, around);
-    if (pinned.empty())
-        out.vertices = furthest(around, {furthest(around, {0}).second}).first;
-    else
-        out.vertices = std::max<double>(furthest(around, pinned).first, hanging_vertices(body, around, held));
+    out.reach = furthest(around, pinned.empty() ? std::vector{furthest(around, {0}).second} : pinned).first;
+    out.vertices =
+        pinned.empty() ? out.reach : std::max<double>(out.reach, hanging_vertices(body, around, held));
     return out;
 }
 
@@ -142,8 +222,14 @@ std::uint32_t automatic_substeps(const Scene& scene)
             if (!(load.edge > 0))
                 continue;
             const double open = 2 * std::max(load.vertices, 1.0) * g; // m/s^2: see "Based on"
-            const double longest = std::sqrt(kSweepStrain * method.iterations * load.edge / open);
+            const double strain = method.type != "vbd" && is_spanned(body, scene.gravity)
+                                      ? std::min(kSweepStrain, 8.0 / 3 * kSeenWay * kSeenWay)
+                                      : kSweepStrain;
+            const double longest = std::sqrt(strain * method.iterations * load.edge / open);
             most = std::max(most, std::ceil(scene.timestep / longest));
+            const double solid = method.type == "xpbd" ? longest_for_solid(body, load, g) : 0;
+            if (solid > 0)
+                most = std::max(most, std::ceil(scene.timestep / (std::sqrt(method.iterations) * solid)));
         }
     return static_cast<std::uint32_t>(std::min<double>(most, kMostAutomaticSubsteps));
 }

@@ -8,13 +8,19 @@ namespace taut {
 inline constexpr std::uint32_t kLeastSubsteps = 10, kMostAutomaticSubsteps = 1000;
 /// Strain that sweeps over constraints or vertices may leave under the scene's own weight.
 inline constexpr double kSweepStrain = 0.01;
+/// A hundredth of a body's size is where somebody sees that it hangs elsewhere.
+inline constexpr double kSeenWay = 0.01;
 
 /// A body of a resolved scene as a method that sweeps sees it.
 struct SweepLoad
 {
     double vertices = 0; ///< masses of one vertex that hang from one constraint, at most
     double edge = 0;     ///< m, mean length
+    std::uint32_t reach = 0; ///< edges from the pins, or from one end, to what is furthest
 };
 SweepLoad sweep_load(const Body& resolved);
+
+/// Whether pins on all sides carry a body across gravity, as a hammock: then strain shows as its root.
+bool is_spanned(const Body& resolved, const glm::dvec3& gravity);
 
 } // namespace taut

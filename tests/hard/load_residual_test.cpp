@@ -133,4 +133,60 @@ TEST_CASE("what a scene accepts of its loads decides the status [hard]")
     CHECK(end_of(scene).report.status == Status::unconverged);
 }
 
+namespace {
+
+/// A cantilever of 0.5 m, 10 x 2 x 2 cells, strongly damped.
+Scene cantilever(const std::string& method, std::uint32_t substeps, double modulus)
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {10, 2, 2};
+    body.shape.box_size = {0.5, 0.1, 0.1};
+    body.material.density = 1000;
+    body.material.youngs_modulus = modulus;
+    body.material.poissons_ratio = 0;
+    Pin pin;
+    pin.faces = {"left"};
+    body.pins = {pin};
+    scene.bodies = {body};
+    scene.damping = 5;
+    scene.method.type = method;
+    scene.method.substeps = substeps;
+    return resolve(scene);
+}
+
+} // namespace
+
+TEST_CASE(
+    "a stiff bar that xpbd lets sag is not called completed; where it answers to its weight it is [hard]")
+{
+    const double right = end_of(cantilever("vbd", 10, 1e6)).lowest;
+    const End loose = end_of(cantilever("xpbd", 10, 1e9));
+    INFO(loose.lowest << " m, " << loose.report.load_residual << " of its loads, " << loose.report.load_way
+                      << " of its size: " << loose.report.reason);
+    CHECK(loose.lowest < -0.05 - 0.02); // its own thickness, and 200 times what the modulus allows
+    CHECK(loose.report.load_residual > 100);
+    CHECK(loose.report.load_way > 0.01);
+    CHECK(loose.report.status == Status::unconverged);
+    const End held = end_of(cantilever("xpbd", 80, 1e6));
+    INFO(held.lowest << " m against " << right << ", " << held.report.load_residual);
+    CHECK(held.lowest == Approx(right).epsilon(0.05));
+    CHECK(held.report.load_residual < 0.05);
+    CHECK(held.report.status == Status::completed);
+}
+
+TEST_CASE("what nobody sees to sag too far is a warning [hard]")
+{
+    Scene scene = cantilever("xpbd", 10, 1e7);
+    scene.bodies[0].shape.box_size = {0.2, 0.2, 0.2};
+    scene.bodies[0].shape.box_cells = {4, 4, 4};
+    const StepReport report = end_of(resolve(scene)).report;
+    INFO(report.load_residual << " of its loads, " << report.load_way << " of its size");
+    CHECK(report.load_residual > 0.25);
+    CHECK(report.load_way < 0.01);
+    CHECK(report.status == Status::completed);
+    CHECK(report.warnings.count("soft") == 1);
+}
+
 } // namespace taut::hard

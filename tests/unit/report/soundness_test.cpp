@@ -62,15 +62,18 @@ TEST_CASE("what moves passes on its speed; what is pushed, its impulse")
     scene.gravity = glm::dvec3(0);
     const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), {3, 0, 0});
     Collider ball;
-    ball.point = {-5, 0, 0};
+    ball.point = {-1.5, 0, 0};
     ball.motion = {{0, {0, 0, 0}}, {2, {2, 0, 0}}};
     Scene hit = scene;
     hit.colliders = {ball};
     CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).sound()); // 1 m/s
     hit.colliders[0].motion.back().time = 20;                              // 0.1 m/s
     CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).status == Status::diverged);
-    hit.colliders[0].motion = {{0, {}, {0, 0, 1}, 0}, {1, {}, {0, 0, 1}, 8 * 360, {-5, 0, 0}}};
+    hit.colliders[0].motion = {{0, {}, {0, 0, 1}, 0}, {1, {}, {0, 0, 1}, 8 * 360, {-1.5, 0, 0}}};
     CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).sound()); // eight turns a second
+    hit.colliders[0].point = {-5, 0, 0}; // further away than the sheet can have been
+    hit.colliders[0].motion = {{0, {0, 0, 0}}, {2, {2, 0, 0}}};
+    CHECK(judge_state(EnergyBudget(hit), state_of(hit, x, v, 1)).status == Status::diverged);
     RunState pushed = state_of(scene, x, v, 1);
     pushed.drive.push = 1; // N s, to a sheet of 0.2 kg
     CHECK(judge_state(EnergyBudget(scene), pushed).sound());

@@ -20,3 +20,44 @@ TEST_CASE("methods that sweep take the substeps that mesh and weight ask for, ot
     scene.method.iterations = 4;
     CHECK(substeps("vbd") <= sweeps / 2 + 1);
 }
+
+TEST_CASE("what pins on all sides carry takes more substeps than what hangs from an edge", "[substeps]")
+{
+    Scene scene = test::hanging(12);
+    scene.method.type = "xpbd";
+    scene.method.substeps = 0;
+    const std::uint32_t hanging = resolve(scene).method.substeps;
+    Body& body = scene.bodies[0];
+    body.transform.rotate_axis = {1, 0, 0};
+    body.transform.rotate_degrees = -90;
+    body.pins[0].corners = {"top_left", "top_right", "bottom_left", "bottom_right"};
+    CHECK(resolve(scene).method.substeps > 2 * hanging);
+    scene.gravity = {0, 0, -9.81}; // within the cloth: it hangs from two of them
+    CHECK(resolve(scene).method.substeps <= 2 * hanging);
+}
+
+TEST_CASE("a held solid takes what its stiffness asks for, up to where nobody sees it sag", "[substeps]")
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {10, 2, 2};
+    body.shape.box_size = {0.5, 0.1, 0.1};
+    body.material.density = 1000;
+    Pin pin;
+    pin.faces = {"left"};
+    body.pins = {pin};
+    scene.bodies = {body};
+    scene.method.type = "xpbd";
+    scene.method.substeps = 0;
+    const auto substeps = [&](double modulus) {
+        scene.bodies[0].material.youngs_modulus = modulus;
+        return resolve(scene).method.substeps;
+    };
+    const std::uint32_t soft = substeps(1e5), middle = substeps(1e6), stiff = substeps(1e7);
+    CHECK(soft < middle);
+    CHECK(middle < stiff);
+    CHECK(substeps(1e10) < 2 * stiff);
+    scene.bodies[0].pins.clear();
+    CHECK(substeps(1e10) == 10);
+}
