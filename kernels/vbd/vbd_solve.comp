@@ -126,7 +126,7 @@ void solve(uint k)
         real along = usable ? s.stiffness * (real(1) - across) : real(0);
         real stretch = len - s.rest_length;
         stretch = abs(stretch) > last_digits() * len ? stretch : real(0);
-        real pull = s.stiffness * stretch;
+        real pull = usable ? s.stiffness * stretch : real(0); // no direction, no force
         real sideways = s.stiffness * across;
 #if DAMPED
         // Of the potential c/2 (length - first length)^2 / h.
