@@ -13,7 +13,7 @@ taut_packages_build=(g++ cmake ninja-build pkg-config libvulkan-dev libvulkan-vo
     libexpat1-dev)
 taut_packages_run=(libvulkan1 libegl1 mesa-vulkan-drivers libegl-mesa0 libgl1-mesa-dri)
 taut_packages_test=(vulkan-validationlayers)
-taut_packages_bench=(libviennacl-dev) # a rival of taut_linear_bench; no script installs it
+taut_packages_bench=(libviennacl-dev libbullet-dev) # rivals of taut_linear_bench and taut_bullet_bench; no script installs them
 }
 
 # A command that is already there will do, wherever it came from.

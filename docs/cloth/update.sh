@@ -1,5 +1,6 @@
 #!/bin/sh
-# Makes the tables and pictures of docs/cloth.md anew: no number between its marks is typed by hand.
+# Makes the tables and pictures of docs/cloth.md anew: no number between its marks is typed by hand. The figure "bullet"
+# needs taut_bullet_bench beside the program (TAUT_BUILD_TESTS, libbullet-dev).
 #
 #   docs/cloth/update.sh build/release/taut [FIGURE...]
 set -eu
@@ -57,3 +58,15 @@ figure methods $scenes/methods.json "xpbd: device=cpu" "pbd: device=cpu; method.
     "vbd: device=cpu; method.type=vbd; method.substeps=5; method.iterations=2"
 figure opencloth examples/scenes/opencloth.json "pbd, native serial: device=cpu:serial" "native on all cores: device=cpu" \
     "Vulkan: device=vulkan" "OpenGL: device=opengl" "xpbd: device=cpu:serial; method.type=xpbd"
+
+# bullet NAME: an engine's cloth beside ours, from the bench. Wants a machine that does nothing else.
+bullet()
+{
+    case "$wanted" in "  " | *" $1 "*) ;; *) return 0 ;; esac
+    bench=$(dirname "$program")/tests/bench/taut_bullet_bench
+    [ -x "$bench" ] || { echo "SKIPPED: $bench is not built (libbullet-dev)" >&2; return 0; }
+    echo "$1" >&2
+    "$bench" "tests/bench/results/$1.csv" > "$scratch/$1.md"
+    put "$page" "$1" "$scratch/$1.md"
+}
+bullet bullet
