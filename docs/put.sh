@@ -15,9 +15,9 @@ put()
     mv "$scratch/page.md" "$1"
 }
 
-# figure NAME SCENE VARIANT...: runs the variants of a scene, keeps table and picture beside the page. For pages
-# whose figures are comparisons: `program` is the built taut, `page` is docs/X.md, `wanted` is " NAME NAME " or two
-# blanks for all.
+# figure NAME SCENE VARIANT...: runs the variants of a scene, keeps table and picture beside the page, and the curves
+# over time of those that `curves` names. For pages whose figures are comparisons: `program` is the built taut, `page`
+# is docs/X.md, `wanted` is " NAME NAME " or two blanks for all, `curves` is " NAME NAME " or nothing.
 figure()
 {
     name=$1
@@ -32,5 +32,6 @@ figure()
     "$program" compare "$scene" "$@" --out "$scratch/$name" > /dev/null || [ $? -eq 1 ]
     [ ! -f "$scratch/$name/compare.png" ] || cp "$scratch/$name/compare.png" "${page%.md}/$name.png"
     cp "$scratch/$name/compare.csv" "${page%.md}/$name.csv"
+    case "${curves:-}" in *" $name "*) cp "$scratch/$name/compare_series.svg" "${page%.md}/$name.svg" ;; esac
     put "$page" "$name" "$scratch/$name/compare.md"
 }

@@ -159,6 +159,8 @@ int compare_variants(const CompareCommand& command)
     {
         write_file(command.folder / "compare.csv", compare_csv(rows));
         write_file(command.folder / "compare_series.csv", compare_looks_csv(rows));
+        write_svg(command.folder / "compare_series.svg",
+                  compare_series_plot(fs::path(command.scene).stem().string(), rows));
         write_file(command.folder / "compare.md", compare_markdown(rows));
         write_file(command.folder / "compare.json", to_text(json));
         if (!command.no_picture)
@@ -184,7 +186,7 @@ void add_compare(CLI::App& app, Command& chosen)
     command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)")
         ->check(whole_number(0));
     command->add_option("--out", options->folder,
-                        "Folder for compare.csv, .md, .json and .png, and compare_series.csv");
+                        "Folder for compare.csv, .md, .json and .png, compare_series.csv and .svg");
     command->add_flag("--no-picture", options->no_picture, "Draw no picture");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return compare_variants(*options); }; });

@@ -91,11 +91,15 @@ Json looks_json(const std::vector<Look>& looks)
 {
     Json list = Json::array();
     for (const Look& look : looks)
+    {
         list.push_back({{"frame", look.frame},
                         {"time", look.time},
                         {"max_stretch", look.max_stretch},
                         {"active_share", or_null(look.active_share)},
                         {"linear_iterations", or_null(look.linear_iterations)}});
+        if (look.volume)
+            list.back()["volume_ratio"] = *look.volume;
+    }
     return list;
 }
 

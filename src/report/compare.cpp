@@ -27,7 +27,10 @@ void look(const World& world, std::uint64_t frame, Looks& looks, CompareRow& row
     std::optional<SolverReport> solved;
     if (!world.plan().solvers.empty())
         solved = row.report.solver;
-    looks.add(frame, row.report.time, row.report.max_stretch, row.report.active_share, solved);
+    std::optional<double> volume;
+    if (row.report.volume.any)
+        volume = row.report.volume.ratio;
+    looks.add(frame, row.report.time, row.report.max_stretch, row.report.active_share, solved, volume);
     row.worst_stretch = std::max(row.worst_stretch, row.report.max_stretch);
     row.worst_rms_stretch = std::max(row.worst_rms_stretch, row.report.rms_stretch);
     row.smallest_volume = std::min(row.smallest_volume, row.report.volume.least);
@@ -188,19 +191,6 @@ std::string compare_csv(const std::vector<CompareRow>& rows)
     std::string text = csv_line(head(volume));
     for (const CompareRow& row : rows)
         text += csv_line(cells(row, volume));
-    return text;
-}
-
-std::string compare_looks_csv(const std::vector<CompareRow>& rows)
-{
-    std::string text = csv_line({"variant", "frame", "time s", "largest strain %", "active share %",
-                                 "linear iterations since the look before"});
-    for (const CompareRow& row : rows)
-        for (const Look& look : row.looks)
-            text += csv_line({row.label, std::to_string(look.frame), shown(look.time, 6),
-                              shown(100 * look.max_stretch, 4),
-                              look.active_share ? shown(100 * *look.active_share, 4) : "",
-                              look.linear_iterations ? std::to_string(*look.linear_iterations) : ""});
     return text;
 }
 

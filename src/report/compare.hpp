@@ -3,6 +3,7 @@
 
 #include "taut/report/looks.hpp"
 #include "taut/report/residuals.hpp"
+#include "taut/report/svg_plot.hpp"
 
 #include <memory>
 #include <optional>
@@ -47,5 +48,8 @@ std::string compare_markdown(const std::vector<CompareRow>& rows);
 std::string compare_csv(const std::vector<CompareRow>& rows);
 /// The looks of all variants that ran, a line each, as CSV.
 std::string compare_looks_csv(const std::vector<CompareRow>& rows);
+/// The same as curves over time: e_V = |V - V0| / V0 of scenes with volumes, else the largest strain.
+/// Variants without a curve are listed with the reason. `scene`: the name in the title.
+Plot compare_series_plot(const std::string& scene, const std::vector<CompareRow>& rows);
 
 } // namespace taut

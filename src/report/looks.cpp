@@ -7,9 +7,10 @@
 namespace taut {
 
 void Looks::add(std::uint64_t frame, double time, double max_stretch, double active_share,
-                const std::optional<SolverReport>& solved)
+                const std::optional<SolverReport>& solved, const std::optional<double>& volume)
 {
     Look look{frame, time, max_stretch};
+    look.volume = volume;
     if (active_share >= 0)
         look.active_share = active_share;
     if (solved)

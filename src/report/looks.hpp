@@ -18,6 +18,7 @@ struct Look
     double max_stretch = 0;                         ///< largest (l - L)/L of all springs, signed
     std::optional<double> active_share = {};        ///< acad, as World::active_share
     std::optional<std::uint64_t> linear_iterations = {}; ///< of all solves since the look before
+    std::optional<double> volume = {};                   ///< VolumeReport::ratio; of scenes with volumes
 };
 
 /// The looks at one run. A run of any length has at most 2 kLooks + 1 of them.
@@ -32,9 +33,9 @@ public:
     bool due(std::uint64_t frame) const { return frame % every_ == 0 || frame == last_; }
 
     /// `active_share` as World::active_share; `solved`: what the linear solves of the run came to so far,
-    /// empty under methods without any.
+    /// empty under methods without any. `volume`: as Look::volume.
     void add(std::uint64_t frame, double time, double max_stretch, double active_share,
-             const std::optional<SolverReport>& solved);
+             const std::optional<SolverReport>& solved, const std::optional<double>& volume = {});
 
     const std::vector<Look>& list() const { return list_; }
 

@@ -27,6 +27,8 @@ TEST_CASE("variants of a scene are compared, and one that is refused is a row wi
           json["variants"][0]["max_stretch"].get<double>());
     CHECK(program::read(folder / "o/compare.md").find("| coarse | xpbd | cpu:serial |") != std::string::npos);
     CHECK(program::read(folder / "o/compare.csv").rfind("variant,method,executor", 0) == 0);
+    CHECK(program::read(folder / "o/compare_series.svg").find("Largest strain over time: cloth") !=
+          std::string::npos);
 }
 
 TEST_CASE("wrong variants end with 2 and say what would be right")

@@ -4,6 +4,8 @@
 #include "taut/report/compare.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 using namespace taut;
 
@@ -150,4 +152,52 @@ TEST_CASE("compare knows the mean of a volume, and no strain where nothing is a 
     CHECK_FALSE(cells[3].empty()); // the time
     CHECK((cells[4].empty() && cells[5].empty() && cells[6].empty()));
     CHECK_FALSE(cells[7].empty());
+}
+
+TEST_CASE("the curve of a comparison is the volume error where there are volumes, else the strain",
+          "[compare]")
+{
+    const auto device = test_device("cpu:serial");
+    const auto ball = [](const char* method) {
+        return resolve(parse_scene(R"({"taut": 1, "duration": 1, "method": {"type": ")" +
+                                   std::string(method) +
+                                   R"("}, "bodies": [{"ball": {"cells": 4, "radius": 0.5},
+                                       "material": {"model": "springs", "youngs_modulus": 1e4},
+                                       "pins": [{"vertices": [0]}]}]})"));
+    };
+    auto rows = compare({{"x", ball("xpbd"), device}, {"p", ball("pbd"), device}}, 20);
+    const Plot volumes = compare_series_plot("ball", rows);
+    CHECK(volumes.title == "Volume error over time: ball");
+    REQUIRE(volumes.series.size() == 2);
+    CHECK(volumes.gaps.empty());
+    double most = 0;
+    for (std::size_t k = 0; k < rows[0].looks.size(); ++k)
+    {
+        const double error = std::abs(1 - rows[0].looks[k].volume.value());
+        CHECK(volumes.series[0].points[k].y == std::max(error, 1e-5));
+        CHECK(volumes.series[0].points[k].x == rows[0].looks[k].time);
+        most = std::max(most, error);
+    }
+    CHECK(most > 1e-5); // else nothing was drawn but the floor
+    CHECK(1 - rows[0].smallest_volume <= most);
+    const std::string csv = compare_looks_csv(rows);
+    CHECK(csv.find(",volume %\nx,0,0,") != std::string::npos);
+    CHECK(compare_looks_csv(compare({{"s", hanging("pbd"), device}}, 1)).find("volume") == std::string::npos);
+
+    // A run that went out of the numbers ends its curve, and says so.
+    rows[0].looks[5].volume = std::numeric_limits<double>::quiet_NaN();
+    const Plot broken = compare_series_plot("ball", rows);
+    CHECK(broken.series[0].points.size() == 5);
+    REQUIRE(broken.gaps.size() == 1);
+    CHECK(broken.gaps[0].find("x: no finite value from") == 0);
+
+    // Neither refused variants nor such without springs have a curve of strain.
+    Scene refused = hanging("pbd");
+    refused.bodies[0].material.stretch_damping = 1;
+    const Plot strains =
+        compare_series_plot("cloth", compare({{"s", hanging("pbd"), device}, {"r", refused, device}}, 3));
+    CHECK(strains.title == "Largest strain over time: cloth");
+    REQUIRE(strains.series.size() == 1);
+    REQUIRE(strains.gaps.size() == 1);
+    CHECK(strains.gaps[0].find("r: unsupported") == 0);
 }
