@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes the tables and pictures of docs/cloth.md anew: no number between its marks is typed by hand. The figure "bullet"
-# needs taut_bullet_bench beside the program (TAUT_BUILD_TESTS, libbullet-dev).
+# Makes the tables and pictures of docs/cloth.md anew: no number between its marks is typed by hand. The figures "size"
+# and "bullet" are made by taut_size_bench and taut_bullet_bench beside the program (TAUT_BUILD_TESTS; libbullet-dev).
 #
 #   docs/cloth/update.sh build/release/taut [FIGURE...]
 set -eu
@@ -59,14 +59,17 @@ figure methods $scenes/methods.json "xpbd: device=cpu" "pbd: device=cpu; method.
 figure opencloth examples/scenes/opencloth.json "pbd, native serial: device=cpu:serial" "native on all cores: device=cpu" \
     "Vulkan: device=vulkan" "OpenGL: device=opengl" "xpbd: device=cpu:serial; method.type=xpbd"
 
-# bullet NAME: an engine's cloth beside ours, from the bench. Wants a machine that does nothing else.
-bullet()
+# bench NAME [ARGUMENT...]: the table of taut_NAME_bench. Wants a machine that does nothing else.
+bench()
 {
     case "$wanted" in "  " | *" $1 "*) ;; *) return 0 ;; esac
-    bench=$(dirname "$program")/tests/bench/taut_bullet_bench
-    [ -x "$bench" ] || { echo "SKIPPED: $bench is not built (libbullet-dev)" >&2; return 0; }
-    echo "$1" >&2
-    "$bench" "tests/bench/results/$1.csv" > "$scratch/$1.md"
-    put "$page" "$1" "$scratch/$1.md"
+    name=$1
+    shift
+    bench=$(dirname "$program")/tests/bench/taut_${name}_bench
+    [ -x "$bench" ] || { echo "SKIPPED: $bench is not built" >&2; return 0; }
+    echo "$name" >&2
+    "$bench" "tests/bench/results/$name.csv" "$@" > "$scratch/$name.md"
+    put "$page" "$name" "$scratch/$name.md"
 }
-bullet bullet
+bench size docs/cloth
+bench bullet
