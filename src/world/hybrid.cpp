@@ -318,9 +318,12 @@ std::vector<HybridPart> HybridWorld::parts() const
     std::vector<HybridPart> out;
     for (const Side& side : impl_->sides)
     {
-        HybridPart part{side.device->info(), side.bodies, 0, side.milliseconds};
+        HybridPart part{side.device->info(), side.bodies, 0, 0, side.milliseconds};
         for (const std::uint32_t b : side.bodies)
+        {
+            part.vertices += impl_->first[b + 1] - impl_->first[b];
             part.work += impl_->work[b];
+        }
         out.push_back(std::move(part));
     }
     return out;

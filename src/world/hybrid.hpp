@@ -17,9 +17,10 @@ struct HybridOptions
 struct HybridPart
 {
     DeviceInfo device;
-    std::vector<std::uint32_t> bodies; ///< of the scene
-    std::uint64_t work = 0;            ///< vertices and elements of these bodies
-    double milliseconds = 0;           ///< of a step of the part alone, as measured last; 0 without bodies
+    std::vector<std::uint32_t> bodies; ///< of the scene; where bodies are cut, those with a vertex here
+    std::uint64_t vertices = 0;        ///< that it moves
+    std::uint64_t work = 0;            ///< vertices and elements that it works on
+    double milliseconds = 0;           ///< of a step of the part alone, as measured last; 0: not measured
 };
 
 /// Steps a scene on two devices. A body moves as it would alone, so results are those of one device within

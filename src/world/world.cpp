@@ -3,6 +3,7 @@
 #include "taut/runtime/required.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 #include "taut/world/inputs.hpp"
+#include "taut/world/planned.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -16,15 +17,7 @@
 
 namespace taut {
 
-void World::Impl::create_buffers()
-{
-    for (const PlanBuffer& buffer : plan.buffers)
-    {
-        buffers.push_back(device->make_buffer(buffer.bytes, buffer.name)); // inputs come with the submission
-        if (!buffer.initial.empty())
-            device->write(buffers.back(), 0, buffer.initial);
-    }
-}
+void World::Impl::create_buffers() { buffers = make_buffers(*device, plan); }
 
 void World::Impl::record()
 {
@@ -76,15 +69,6 @@ std::vector<InputWrite> World::Impl::take_inputs()
     }
     forces_changed = false;
     return inputs;
-}
-
-/// Views of `inputs` for the device.
-std::vector<BufferWrite> World::Impl::writes_of(const std::vector<InputWrite>& inputs) const
-{
-    std::vector<BufferWrite> writes;
-    for (const InputWrite& input : inputs)
-        writes.push_back({buffers[input.buffer], input.bytes});
-    return writes;
 }
 
 template <typename Real>
@@ -246,7 +230,7 @@ void World::step()
 {
     const std::vector<InputWrite> inputs = impl_->take_inputs();
     if (impl_->recording)
-        impl_->device->replay(*impl_->recording, impl_->writes_of(inputs));
+        impl_->device->replay(*impl_->recording, writes_of(impl_->buffers, inputs));
     impl_->after_step();
 }
 
@@ -346,7 +330,7 @@ void World::record_into(VkCommandBuffer_T* commands)
                     "tear_strain out");
     const std::vector<InputWrite> inputs = impl_->take_inputs();
     if (impl_->recording)
-        record_into_vulkan(*impl_->recording, commands, impl_->writes_of(inputs));
+        record_into_vulkan(*impl_->recording, commands, writes_of(impl_->buffers, inputs));
     impl_->count_step();
 }
 

@@ -42,7 +42,6 @@ struct World::Impl
     void create_buffers();
     void record();
     std::vector<InputWrite> take_inputs();
-    std::vector<BufferWrite> writes_of(const std::vector<InputWrite>& inputs) const;
     void keep_forces(std::vector<std::byte> bytes);
     void weigh_forces();
     void put_force(std::size_t vertex, const glm::dvec3& force);
