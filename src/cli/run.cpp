@@ -32,11 +32,12 @@ namespace {
 
 struct RunCommand
 {
-    std::string scene, device;
+    std::string scene;
+    SimulationOptions simulation;
     std::vector<std::string> settings;
     fs::path folder;
     std::optional<std::uint32_t> frames, every;
-    bool json = false, no_picture = false, sleep = false;
+    bool json = false, no_picture = false;
 };
 
 std::uint64_t frame_count(const RunCommand& options, const Scene& scene)
@@ -297,7 +298,7 @@ void draw(const RunCommand& options, const World& world, const std::shared_ptr<D
 
 RunResult simulate(const RunCommand& options, const Scene& scene, const InterruptGuard& guard)
 {
-    const std::unique_ptr<Simulation> simulation = open_simulation(options.device, scene, options.sleep);
+    const std::unique_ptr<Simulation> simulation = open_simulation(options.simulation, scene);
     const std::uint64_t frames = frame_count(options, scene);
     make_folder(options.folder);
     forget_older_run(options.folder);
@@ -353,8 +354,18 @@ void add_run(CLI::App& app, Command& chosen)
     CLI::App* command = app.add_subcommand("run", "Simulate a scene; write meshes, a report and pictures");
     const auto options = std::make_shared<RunCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
-    add_device_option(*command, options->device,
-                      ", hybrid (the native CPU and the best other device at once), hybrid:DEVICE");
+    add_device_option(*command, options->simulation.device,
+                      ", hybrid (the native CPU and the best other device at once), hybrid:DEVICE, "
+                      "hybrid:DEVICE+DEVICE");
+    command
+        ->add_option("--split", options->simulation.split,
+                     "What --device hybrid divides: bodies (default), or vertices, which also cuts a single "
+                     "cloth")
+        ->check(CLI::IsMember({kSplitBodies, kSplitVertices}));
+    command
+        ->add_option("--share", options->simulation.share,
+                     "Of the vertices, those of the first device, 0 to 1 (default: as measured)")
+        ->check(number_between(0, 1, Ends::closed));
     command->add_option("--set", options->settings, "A value of the scene: method.substeps=20");
     command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)")
         ->check(whole_number(0));
@@ -363,7 +374,7 @@ void add_run(CLI::App& app, Command& chosen)
         ->add_option("--every", options->every,
                      "Frames from one mesh file to the next, 0 = no meshes (default: 30 files a second)")
         ->check(whole_number(0));
-    command->add_flag("--sleep", options->sleep,
+    command->add_flag("--sleep", options->simulation.sleep,
                       "Bodies at rest sleep and cost nothing until something moves them");
     command->add_flag("--no-picture", options->no_picture, "Draw no pictures");
     command->add_flag("--json", options->json, "Print the report as one JSON object");

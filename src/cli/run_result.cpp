@@ -56,6 +56,7 @@ Json parts_json(const std::vector<HybridPart>& parts)
         list.push_back({{"device", part.device.name},
                         {"executor", part.device.executor},
                         {"bodies", part.bodies.size()},
+                        {"vertices", part.vertices},
                         {"work", part.work},
                         {"ms", part.milliseconds}});
     return list;

@@ -3,6 +3,9 @@
 #include "taut/cli/device_option.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/world/sleep.hpp"
+#include "taut/world/split.hpp"
+
+#include <utility>
 
 namespace taut::cli {
 namespace {
@@ -35,36 +38,46 @@ private:
     World world_;
 };
 
+/// `Both`: HybridWorld or SplitWorld.
+template <typename Both>
 class TwoDevices final : public Simulation
 {
 public:
-    TwoDevices(const Scene& scene, std::shared_ptr<Device> cpu, std::shared_ptr<Device> other)
-        : whole_(scene, cpu),
-          hybrid_(scene, cpu, std::move(other))
+    template <typename... Options>
+    TwoDevices(const Scene& scene, std::shared_ptr<Device> first, std::shared_ptr<Device> second,
+               const Options&... options)
+        : whole_(scene, first),
+          both_(scene, first, std::move(second), options...)
     {
-        hybrid_.copy_into(whole_); // refuses now what it would refuse at the end
+        both_.copy_into(whole_); // refuses now what it would refuse at the end
     }
 
-    void step() override { hybrid_.step(); }
-    const Scene& scene() const override { return hybrid_.scene(); }
-    double time() const override { return hybrid_.time(); }
-    std::vector<glm::dvec3> positions() const override { return hybrid_.positions(); }
-    std::vector<glm::dvec3> velocities() const override { return hybrid_.velocities(); }
+    void step() override { both_.step(); }
+    const Scene& scene() const override { return both_.scene(); }
+    double time() const override { return both_.time(); }
+    std::vector<glm::dvec3> positions() const override { return both_.positions(); }
+    std::vector<glm::dvec3> velocities() const override { return both_.velocities(); }
     std::uint32_t substeps() const override { return whole_.plan().substeps; }
-    Events events() const override { return hybrid_.events(); }
-    SolverReport solver_report() const override { return hybrid_.solver_report(); }
+    Events events() const override { return both_.events(); }
+    SolverReport solver_report() const override
+    {
+        if constexpr (requires { both_.solver_report(); })
+            return both_.solver_report();
+        else
+            return {}; // methods that solve systems cannot be cut
+    }
     std::size_t solvers() const override { return whole_.plan().solvers.size(); }
     World& whole() override
     {
-        hybrid_.copy_into(whole_);
+        both_.copy_into(whole_);
         return whole_;
     }
     bool is_whole() const override { return false; }
-    std::vector<HybridPart> parts() const override { return hybrid_.parts(); }
+    std::vector<HybridPart> parts() const override { return both_.parts(); }
 
 private:
     World whole_;
-    HybridWorld hybrid_;
+    Both both_;
 };
 
 class Sleeping final : public Simulation
@@ -112,22 +125,54 @@ std::shared_ptr<Device> best_other()
                 "is none; `taut devices` lists what there is");
 }
 
-} // namespace
-
-std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved, bool sleep)
+bool is_hybrid(const std::string& selector)
 {
-    if (selector != kHybrid && !selector.starts_with(std::string(kHybrid) + ":"))
-    {
-        if (sleep)
-            return std::make_unique<Sleeping>(resolved, open_device(selector));
-        return std::make_unique<OneDevice>(resolved, open_device(selector));
-    }
-    if (sleep)
+    return selector == kHybrid || selector.starts_with(std::string(kHybrid) + ":");
+}
+
+/// What "hybrid", "hybrid:SECOND" or "hybrid:FIRST+SECOND" names.
+std::pair<std::shared_ptr<Device>, std::shared_ptr<Device>> open_both(const std::string& selector)
+{
+    const std::string named = selector == kHybrid ? "" : selector.substr(kHybrid.size() + 1);
+    const std::size_t plus = named.find('+');
+    if (named.empty())
+        return {open_device("cpu"), best_other()};
+    if (plus == std::string::npos)
+        return {open_device("cpu"), open_device(named)};
+    return {open_device(named.substr(0, plus)), open_device(named.substr(plus + 1))};
+}
+
+void check_options(const SimulationOptions& options)
+{
+    const bool vertices = options.split == kSplitVertices;
+    if (vertices && !is_hybrid(options.device))
+        throw Error(ErrorCode::bad_input,
+                    "--split vertices divides a scene between two devices; add --device "
+                    "hybrid, hybrid:DEVICE or hybrid:DEVICE+DEVICE");
+    if (options.share && !vertices)
+        throw Error(ErrorCode::bad_input,
+                    "--share is the first device's part of the vertices; add --split vertices");
+    if (options.sleep && is_hybrid(options.device))
         throw Error(ErrorCode::unsupported,
                     "--sleep and --device hybrid do not go together yet; use one device");
-    const std::string other = selector == kHybrid ? "" : selector.substr(kHybrid.size() + 1);
-    return std::make_unique<TwoDevices>(resolved, open_device("cpu"),
-                                        other.empty() ? best_other() : open_device(other));
+}
+
+} // namespace
+
+std::unique_ptr<Simulation> open_simulation(const SimulationOptions& options, const Scene& resolved)
+{
+    check_options(options);
+    if (!is_hybrid(options.device))
+    {
+        if (options.sleep)
+            return std::make_unique<Sleeping>(resolved, open_device(options.device));
+        return std::make_unique<OneDevice>(resolved, open_device(options.device));
+    }
+    const auto [first, second] = open_both(options.device);
+    if (options.split != kSplitVertices)
+        return std::make_unique<TwoDevices<HybridWorld>>(resolved, first, second);
+    return std::make_unique<TwoDevices<SplitWorld>>(resolved, first, second,
+                                                    SplitOptions{{}, options.share.value_or(-1)});
 }
 
 } // namespace taut::cli

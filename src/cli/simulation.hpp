@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace taut::cli {
@@ -35,10 +36,22 @@ public:
     virtual std::optional<std::size_t> asleep() const { return {}; } ///< bodies, where they may sleep
 };
 
-/// `selector` as --device has it. "hybrid" is the native CPU and the best other device, "hybrid:vulkan" (or
-/// another selector) says which. Throws Error{no_device} where there is no other device, Error{unsupported}
-/// where the scene's method keeps what two worlds cannot put together. `sleep`: bodies at rest sleep, on one
-/// device.
-std::unique_ptr<Simulation> open_simulation(const std::string& selector, const Scene& resolved, bool sleep);
+/// What --split takes: what two devices divide.
+inline constexpr std::string_view kSplitBodies = "bodies", kSplitVertices = "vertices";
+
+struct SimulationOptions
+{
+    /// As --device has it. "hybrid" is the native CPU and the best other device, "hybrid:vulkan" (or another
+    /// selector) says which, "hybrid:cpu:serial+cpu:serial" names both.
+    std::string device;
+    std::string split = std::string(kSplitBodies);
+    std::optional<double> share; ///< of the vertices, the first device's; none: as measured
+    bool sleep = false;          ///< bodies at rest sleep, on one device
+};
+
+/// Throws Error{no_device} where there is no other device, Error{bad_input} for options that do not go
+/// together, Error{unsupported} where the scene's method keeps what two worlds cannot put together, or the
+/// scene cannot be cut.
+std::unique_ptr<Simulation> open_simulation(const SimulationOptions& options, const Scene& resolved);
 
 } // namespace taut::cli
