@@ -4,13 +4,12 @@
 
 #include "bench.hpp"
 #include "conditions.hpp"
+#include "ways.hpp"
 
 #include "taut/report/report.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/world/hybrid.hpp"
-
-#include <glm/geometric.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -19,6 +18,7 @@
 namespace {
 
 using namespace taut;
+using bench::Way;
 
 constexpr std::uint32_t kSides[] = {20, 32, 64, 128, 256, 512};
 
@@ -36,26 +36,8 @@ Scene four_cloths(std::uint32_t side)
         body.pins = {pin};
         scene.bodies.push_back(body);
     }
+    scene.method.substeps = 10;
     return resolve(scene);
-}
-
-/// One way to step the scene.
-struct Way
-{
-    std::string name;
-    std::function<void()> step;
-    std::function<std::vector<glm::dvec3>()> positions;
-};
-
-Way on_device(const Scene& scene, const std::string& selector)
-{
-    const auto world = std::make_shared<World>(scene, Device::open(selector));
-    return {selector,
-            [world] {
-                world->step();
-                world->device().wait();
-            },
-            [world] { return world->positions(); }};
 }
 
 Way on_both(const Scene& scene, const std::string& selector)
@@ -69,11 +51,11 @@ Way on_both(const Scene& scene, const std::string& selector)
 
 std::vector<Way> ways_of(const Scene& scene)
 {
-    std::vector<Way> ways = {on_device(scene, "cpu:serial"), on_device(scene, "cpu")};
+    std::vector<Way> ways = {bench::on_device(scene, "cpu:serial"), bench::on_device(scene, "cpu")};
     for (const char* selector : {"vulkan", "opengl"})
         try
         {
-            ways.push_back(on_device(scene, selector));
+            ways.push_back(bench::on_device(scene, selector));
             ways.push_back(on_both(scene, selector));
         }
         catch (const Error& error)
@@ -81,14 +63,6 @@ std::vector<Way> ways_of(const Scene& scene)
             std::fprintf(stderr, "left out: %s: %s\n", selector, error.what());
         }
     return ways;
-}
-
-double largest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b)
-{
-    double out = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        out = std::max(out, glm::distance(a[i], b[i]));
-    return out;
 }
 
 /// The rows of one grid: verified after the same number of steps, timed in turns.
@@ -103,7 +77,7 @@ void add_grid(std::uint32_t side, std::string& text, std::string& csv)
     const auto reference = ways.front().positions();
     for (std::size_t k = 0; k < ways.size(); ++k)
     {
-        const double error = largest(ways[k].positions(), reference);
+        const double error = bench::largest(ways[k].positions(), reference);
         const double ratio = rivals[k].median() / rivals.front().median();
         char line[200];
         std::snprintf(line, sizeof line, "| %u² | %s | %.3f | %.3f | %.2f | %.2g |\n", side,
