@@ -32,6 +32,8 @@ struct CostCommand
     std::vector<std::string> precisions, methods;
     std::string rank;
     StudyLimits limits;
+    std::optional<double> rest_tolerance, linear_tolerance;
+    std::optional<std::uint32_t> repeats;
     std::string ratio;
     std::vector<double> ratios;
     bool at_rest = false, moving = false, conserved = false, ablation = false, json = false;
@@ -62,6 +64,9 @@ CostOptions study_options(const CostCommand& command)
     options.rest_seconds = command.limits.rest_seconds.value_or(options.rest_seconds);
     options.timing_seconds = command.limits.timing_seconds.value_or(options.timing_seconds);
     options.reference_steps = command.limits.reference_steps.value_or(options.reference_steps);
+    options.rest_tolerance = command.rest_tolerance.value_or(options.rest_tolerance);
+    options.linear_tolerance = command.linear_tolerance;
+    options.repeats = command.repeats.value_or(static_cast<std::uint32_t>(options.repeats));
     if (command.at_rest)
         options.kind = CostKind::at_rest;
     if (command.moving)
@@ -149,6 +154,7 @@ void write_files(const CostStudy& study, const fs::path& folder)
         write_file(folder / "cost_iterations.svg", svg(convergence_plot(study, CostSplit::iterations)));
     }
     write_file(folder / "cost.json", cost_json(study));
+    write_file(folder / "cost_gaps.md", gap_table(cost_plot(study, CostAxis::time)));
 }
 
 int ratios(const CostCommand& command, const Scene& scene, CostOptions options)
@@ -160,6 +166,7 @@ int ratios(const CostCommand& command, const Scene& scene, CostOptions options)
     {
         write_file(command.folder / ("ratio_" + command.ratio + ".csv"), ratio_csv(study));
         write_file(command.folder / ("ratio_" + command.ratio + ".svg"), svg(ratio_plot(study)));
+        write_file(command.folder / ("ratio_" + command.ratio + "_gaps.md"), gap_table(ratio_plot(study)));
     }
     std::cout << "Error against the ratio of " << command.ratio << ": " << study.scene << "\n";
     for (const std::string& sentence : ratio_sentences(study))
@@ -268,10 +275,24 @@ void add_cost(CLI::App& app, Command& chosen)
         without->excludes(command->get_option(other));
     add_limit_options(*command, options->limits,
                       "Moving: frames compared at most (default: the scene's)");
-    command->add_option(
-        "--out", options->folder,
-        "Folder for cost.csv, cost.json, cost.svg and cost_work.svg; with several methods also "
-        "for cost_substeps.svg and cost_iterations.svg");
+    command
+        ->add_option("--repeats", options->repeats,
+                     "Timed repetitions of each setting, in turns with all others (default: 10)")
+        ->check(whole_number(1, 1000));
+    command
+        ->add_option(
+            "--rest-tolerance", options->rest_tolerance,
+            "Static: what a scene moves by in a second at rest, of its displacement (default: 1e-5); "
+            "below it errors depend on when rest is called")
+        ->check(number_between(0, 0.1, Ends::closed));
+    command
+        ->add_option("--linear-tolerance", options->linear_tolerance,
+                     "Of every linear solve (default: the scene's, and what designs vary)")
+        ->check(number_between(0, 1, Ends::open));
+    command->add_option("--out", options->folder,
+                        "Folder for cost.csv, cost.json, cost.svg, cost_work.svg and cost_gaps.md (what has "
+                        "no point); with several methods also "
+                        "for cost_substeps.svg and cost_iterations.svg");
     command->add_flag("--json", options->json, "Print the study as one JSON object")->excludes(without);
     command->callback([&chosen, options] { chosen = [options] { return cost(*options); }; });
 }

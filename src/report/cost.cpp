@@ -34,6 +34,12 @@ void check_input(const Scene& scene, const CostOptions& options)
         throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
     if (!(options.rest_seconds >= 1 && options.rest_seconds <= 1e6))
         throw Error(ErrorCode::bad_input, "the seconds until rest must be from 1 to 1000000.");
+    if (!(options.rest_tolerance >= 0 && options.rest_tolerance <= 0.1))
+        throw Error(ErrorCode::bad_input, "the tolerance of rest must be from 0 to 0.1.");
+    if (options.linear_tolerance && !(*options.linear_tolerance > 0 && *options.linear_tolerance < 1))
+        throw Error(ErrorCode::bad_input, "the tolerance of linear solves must be above 0 and below 1.");
+    if (options.repeats < 1 || options.repeats > 1000)
+        throw Error(ErrorCode::bad_input, "repeats must be from 1 to 1000.");
     if (scene.bodies.empty())
         throw Error(ErrorCode::bad_input, "bodies is empty: there is nothing to measure; add a body.");
 }
@@ -70,6 +76,8 @@ std::vector<MethodSettings> settings_to_try(const Scene& scene, const CostOption
                                                    : method_product(kind, precision, options, scene.method);
             if (!built(kind))
                 more.resize(1); // one gap says it
+            for (MethodSettings& settings : more)
+                settings.linear_tolerance = options.linear_tolerance.value_or(settings.linear_tolerance);
             out.insert(out.end(), more.begin(), more.end());
         }
     return out;
@@ -108,6 +116,7 @@ public:
                            model_.solids.size() + model_.surfaces.size();
         out_.timestep = scene_.timestep;
         out_.basis = options.basis;
+        out_.rest_tolerance = options.rest_tolerance;
         if (!at_rest() && cost::wanted_frames(scene_, options) == 0)
             throw Error(
                 ErrorCode::bad_input,
@@ -128,6 +137,7 @@ public:
                 out_.interrupted || (options_.progress && !options_.progress(out_.points.size(), all.size()));
             out_.points.push_back(point(settings));
         }
+        time_in_turns();
         if (options_.progress)
             options_.progress(all.size(), all.size());
         rank(out_);
@@ -175,11 +185,11 @@ private:
     {
         try
         {
-            Trial trial(scene_, device_, out.settings);
-            measure_error(trial, out);
-            out.sweeps = trial.sweeps();
+            auto trial = std::make_unique<Trial>(scene_, device_, out.settings);
+            measure_error(*trial, out);
+            out.sweeps = trial->sweeps();
             if (out.error)
-                measure_time(trial, out);
+                timed_.push_back({out_.points.size(), std::move(trial), {}});
         }
         catch (const Error& error)
         {
@@ -194,8 +204,10 @@ private:
     {
         const std::vector<glm::dvec3>& goal = out_.reference.frames.back();
         const bool displaced = out_.metric == "e_disp";
-        const Motion motion = at_rest() ? trial.settle({weights_, &goal, options_.rest_seconds, displaced})
-                                        : trial.trajectory(out_.frames);
+        const Motion motion =
+            at_rest() ? trial.settle(
+                            {weights_, &goal, options_.rest_seconds, displaced, {}, options_.rest_tolerance})
+                      : trial.trajectory(out_.frames);
         out.simulated_seconds = static_cast<double>(motion.steps) * scene_.timestep;
         out.status = motion.status;
         out.reason = motion.reason;
@@ -215,24 +227,56 @@ private:
             out.error_smoothed = trajectory_error(weights_, smoothed(motion.frames), smoothed(reference));
     }
 
-    /// At most one simulated second a repetition, from the start on.
-    void measure_time(Trial& trial, CostPoint& out)
+    /// Every setting once, then every setting again: what the machine does beside it falls on all alike. A
+    /// repetition is at most one simulated second, from the start on.
+    void time_in_turns()
     {
         const auto second = static_cast<std::size_t>(std::ceil(1 / scene_.timestep));
         const std::size_t frames = at_rest() ? second : std::min(second, out_.frames);
-        const cost::Timing time = trial.time(frames, options_.timing_seconds);
+        for (Timed& one : timed_)
+            one.trial->warm_up(frames);
+        for (std::size_t round = 0; round < options_.repeats; ++round)
+            for (Timed& one : timed_)
+            {
+                const bool more = round == 0 || one.watch.spent < 1e3 * options_.timing_seconds;
+                const bool stopped =
+                    options_.progress && !options_.progress(out_.points.size(), out_.points.size());
+                out_.interrupted = out_.interrupted || stopped;
+                if (more && (!out_.interrupted || round == 0))
+                    one.trial->repeat(frames, one.watch);
+            }
+        for (const Timed& one : timed_)
+            set_timing(one.watch.timing(), out_.points[one.point]);
+    }
+
+    void set_timing(const cost::Timing& time, CostPoint& out) const
+    {
         out.ms = time.median;
         out.ms_least = time.least;
-        if (!device_->info().hardware_gpu)
-            out.cpu_ms = time.cpu;
+        out.ms_low = time.low;
+        out.ms_high = time.high;
         out.repetitions = time.repetitions;
+        if (device_->info().hardware_gpu)
+            return;
+        out.cpu_ms = time.cpu;
+        out.cpu_low = time.cpu_low;
+        out.cpu_high = time.cpu_high;
     }
+
+    /// A setting that has an error.
+    struct Timed
+    {
+        std::size_t point;
+        std::unique_ptr<Trial> trial;
+        cost::Stopwatch watch;
+    };
 
     const CostOptions& options_;
     std::shared_ptr<Device> device_;
     Scene scene_;
     PhysicalModel model_;
     ErrorWeights weights_;
+    std::vector<Timed> timed_;
     CostStudy out_;
 };
 
@@ -243,14 +287,19 @@ bool CostStudy::sound() const
     return std::any_of(points.begin(), points.end(), [](const CostPoint& p) { return p.error.has_value(); });
 }
 
-CostKind cost_kind(const Scene& scene)
+bool held_still(const Scene& scene)
 {
     const auto held = [](const Body& body) {
         return !body.pins.empty() && std::all_of(body.pins.begin(), body.pins.end(),
                                                  [](const Pin& pin) { return pin.motion.empty(); });
     };
-    const bool all_held = std::all_of(scene.bodies.begin(), scene.bodies.end(), held);
-    return all_held && scene.colliders.empty() && scene.damping > 0 ? CostKind::at_rest : CostKind::moving;
+    return std::all_of(scene.bodies.begin(), scene.bodies.end(), held);
+}
+
+CostKind cost_kind(const Scene& scene)
+{
+    return held_still(scene) && scene.colliders.empty() && scene.damping > 0 ? CostKind::at_rest
+                                                                             : CostKind::moving;
 }
 
 CostStudy run_cost(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options)

@@ -23,6 +23,9 @@ enum class CostKind
     moving,  ///< e_traj against a trajectory
 };
 
+/// What a scene moves by in a second at rest, of its displacement.
+inline constexpr double kRestTolerance = 1e-5;
+
 /// What "cheaper" means.
 enum class CostBasis
 {
@@ -44,8 +47,17 @@ struct CostOptions
     /// Moving: frames compared at most; 0 = the scene's duration. A reference may verify fewer.
     std::size_t frames = 0;
     double rest_seconds = 30;       ///< at rest: simulated s at most until it must rest
+    double rest_tolerance = kRestTolerance; ///< at rest: of the displacement, over a simulated second, 0..0.1
+    std::optional<double>
+        linear_tolerance;           ///< of every linear solve, (0, 1); empty: the scene's and the design's
+    std::size_t repeats = 10;       ///< timed repetitions of a setting, in turns with all others; 1..1000
     double timing_seconds = 2;      ///< wall s after which no further repetition of a setting starts
     double reference_steps = 1.5e9; ///< element steps of R3 at most; a core does about 1e8 a second
+    bool self_reference = true;     ///< whether R4 may be taken where R2 and R3 refuse
+    std::vector<MethodKind> refined; ///< for R4; empty: with one method under test that one, else the usual
+    /// Asked while a reference is computed whether that part of the time for it, (0, 1], is over: true ends
+    /// it, and what is verified until then is taken.
+    std::function<bool(double part)> enough;
     /// Called before each setting; false stops, and what is left is a gap.
     std::function<bool(std::size_t done, std::size_t total)> progress;
 };
@@ -60,6 +72,8 @@ struct CostReference
     bool verified = false;
     std::optional<double> error;                 ///< estimate of its own error, in the metric of the study
     std::optional<double> error_l;               ///< the same as e_L
+    std::vector<double> errors;      ///< `error` of the frames up to each; empty where there is none
+    std::vector<MethodKind> methods; ///< R4: what was taken, and what confirms it
     std::vector<std::vector<glm::dvec3>> frames; ///< moving: start and every frame; at rest: start and rest
 };
 
@@ -82,9 +96,20 @@ struct CostPoint
     double simulated_seconds = 0;         ///< until the error was taken
     double ms = 0, ms_least = 0;          ///< per simulated second, wall: median and least of the repetitions
     std::optional<double> cpu_ms;         ///< the same in process time, median; software devices only
+    double ms_low = 0, ms_high = 0, cpu_low = 0,
+           cpu_high = 0; ///< first and third quartile of the repetitions
+    std::string floor;   ///< words of the floors that its error is below (CostFloor), joined by blanks
     std::size_t repetitions = 0;
     double sweeps = 0;   ///< per simulated second; one visit of every constraint = 1
     bool pareto = false; ///< no other setting is cheaper and more accurate
+};
+
+/// Below it an error says nothing of the method.
+struct CostFloor
+{
+    std::string word;  ///< "reference", "rest", "linear_tolerance", "float", "double"
+    double error = 0;  ///< in the metric of the study
+    std::string words; ///< for people
 };
 
 struct CostTarget
@@ -112,6 +137,7 @@ struct CostStudy
     std::size_t frames = 0; ///< moving: compared
     CostReference reference;
     CostBasis basis = CostBasis::wall;
+    double rest_tolerance = kRestTolerance;
     std::vector<CostPoint> points; ///< method, then precision; with lists then iterations, then substeps
     std::vector<CostTarget> targets;
     std::vector<CostMethod> methods; ///< in the order of points
@@ -121,11 +147,19 @@ struct CostStudy
     bool sound() const;
 };
 
+/// Whether every body is held by pins that stand still.
+bool held_still(const Scene& scene);
 /// At rest: every body held by pins that stand still, no colliders, and damping that brings it there.
 CostKind cost_kind(const Scene& scene);
 
 /// Throws Error{bad_input} for empty or impossible lists, and what World throws for every setting alike.
 CostStudy run_cost(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options = {});
+
+/// Ten times the reference's own error; at rest the rest test; of methods with linear solves the tolerance of
+/// those; one rounding of float and of double. `point` null: all of the study, else those of the point.
+std::vector<CostFloor> cost_floors(const CostStudy& study, const CostPoint* point = nullptr);
+/// Those of a study for its figures: shaded are the ones that hold for every point.
+std::vector<PlotFloor> plot_floors(const CostStudy& study);
 
 /// What a point costs on that basis.
 double price(const CostPoint& point, CostBasis basis);
@@ -161,6 +195,7 @@ enum class CostSplit
 struct CostOrder
 {
     std::string name;              ///< "mass_spring, integrator verlet"
+    std::string method;
     std::uint32_t fixed = 1;       ///< the other count: the one with the most points
     std::vector<PlotPoint> points; ///< x = count, y = error, ascending in x; gaps are left out
     /// Observed: mean of the last two slopes between errors below 50 % and above the reference's floor,

@@ -105,7 +105,7 @@ std::vector<CostOrder> convergence(const CostStudy& study, CostSplit split)
     std::vector<CostOrder> out;
     for (auto& [name, points] : families)
     {
-        CostOrder row{name, longest_row(points, split), {}, {}, false};
+        CostOrder row{name, points[0]->method, longest_row(points, split), {}, {}, false};
         std::sort(points.begin(), points.end(), [&](const CostPoint* a, const CostPoint* b) {
             return varied(*a, split) < varied(*b, split);
         });
@@ -133,11 +133,15 @@ Plot convergence_plot(const CostStudy& study, CostSplit split)
     {
         const std::string fixed =
             std::to_string(row.fixed) + (substeps ? " iteration" : " substep") + (row.fixed == 1 ? "" : "s");
+        const int style = method_style(row.method);
+        const auto alike = std::count_if(plot.series.begin(), plot.series.end(),
+                                         [&](const PlotSeries& series) { return series.style == style; });
         plot.series.push_back({row.name + " (" + fixed + ")", row.points, false,
-                               row.at_floor ? "at its floor" : ""});
+                               row.at_floor ? "at its floor" : "", style, static_cast<int>(alike)});
         orders += (orders.empty() ? "" : "; ") + order_text(row);
     }
     plot.y_most = off_the_top(plot.series, 1);
+    plot.floors = plot_floors(study);
     plot.caption.push_back("Reference class " + study.reference.name + ". " + study.reference.text);
     plot.caption.push_back(
         "Observed order, mean of the last two slopes between errors below 50 % and above the"

@@ -13,9 +13,8 @@ using Counts = std::vector<std::uint32_t>;
 class Design
 {
 public:
-    Design(MethodKind kind, Precision precision, const MethodSettings& base) : base_(base)
+    Design(MethodKind kind, Precision precision, const MethodSettings& base) : base_(settings_for(kind, base))
     {
-        base_.type = std::string(method_name(kind));
         base_.precision = std::string(to_string(precision));
         base_.stability = "refuse";
     }

@@ -130,7 +130,10 @@ Plot energy_plot(const EnergyStudy& study, Conserved what)
     for (const EnergyRun& run : study.runs)
     {
         const std::vector<double>& values = energy ? run.energy : run.momentum;
-        PlotSeries series{settings_text(run.settings), {}};
+        PlotSeries series{settings_text(run.settings), {}, false, "", method_style(run.settings.type)};
+        series.variant = static_cast<int>(
+            std::count_if(plot.series.begin(), plot.series.end(),
+                          [&](const PlotSeries& other) { return other.style == series.style; }));
         for (std::size_t f = 1; f < values.size(); ++f)
             if (values[f] != 0)
                 series.points.push_back(
@@ -143,7 +146,7 @@ Plot energy_plot(const EnergyStudy& study, Conserved what)
     if (energy)
         plot.caption.push_back("E_ref = " + number(study.reference_energy) +
                                " J, the largest kinetic energy of all runs.");
-    plot.caption.push_back(
+    plot.caption.emplace_back(
         "No reference: both are kept by the model itself (class R1). Zeros are not drawn.");
     return plot;
 }

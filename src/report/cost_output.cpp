@@ -57,6 +57,9 @@ Json point_json(const CostStudy& study, const CostPoint& point)
     json["ms_least"] = gap ? Json(nullptr) : Json(point.ms_least);
     json["cpu_ms_per_simulated_second"] = gap ? Json(nullptr) : maybe(point.cpu_ms);
     json["repetitions"] = point.repetitions;
+    json["ms_quartiles"] = gap ? Json(nullptr) : Json({point.ms_low, point.ms_high});
+    json["cpu_ms_quartiles"] = gap || !point.cpu_ms ? Json(nullptr) : Json({point.cpu_low, point.cpu_high});
+    json["floor"] = point.floor;
     json["sweeps"] = point.sweeps;
     json["simulated_seconds"] = point.simulated_seconds;
     json["pareto"] = point.pareto;
@@ -130,7 +133,13 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
                                  std::string(to_string(point.status)),
                                  csv_cell(point.reason),
                                  csv_cell(settings_details(point.settings)),
-                                 point.refused};
+                                 point.refused,
+                                 timed(point.ms_low),
+                                 timed(point.ms_high),
+                                 point.cpu_ms ? timed(point.cpu_low) : "",
+                                 point.cpu_ms ? timed(point.cpu_high) : "",
+                                 std::to_string(point.repetitions),
+                                 point.floor};
     std::string row;
     for (const std::string& cell : cells)
         row += (row.empty() ? "" : ",") + cell;
@@ -154,6 +163,10 @@ std::string cost_json(const CostStudy& study)
     json["status"] = to_string(study.interrupted ? Status::interrupted : Status::completed);
     json["reference"] = reference_json(study.reference);
     json["basis"] = basis_word(study);
+    json["rest_tolerance"] = study.kind == CostKind::at_rest ? Json(study.rest_tolerance) : Json(nullptr);
+    json["floors"] = Json::array();
+    for (const CostFloor& floor : cost_floors(study))
+        json["floors"].push_back({{"what", floor.word}, {"error", floor.error}});
     json["points"] = Json::array();
     for (const CostPoint& point : study.points)
         json["points"].push_back(point_json(study, point));
@@ -168,7 +181,8 @@ std::string cost_csv(const CostStudy& study)
     std::string out =
         "scene,executor,method,substeps,iterations,precision,error,error_metric,reference,"
         "reference_error,error_l,error_smoothed,ms_per_simulated_second,ms_least,"
-        "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason,details,refused\n";
+        "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason,details,refused,"
+        "ms_quartile_1,ms_quartile_3,cpu_ms_quartile_1,cpu_ms_quartile_3,repetitions,floor\n";
     for (const CostPoint& point : study.points)
         out += csv_row(study, point);
     return out;

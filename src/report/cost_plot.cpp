@@ -56,6 +56,12 @@ PlotPoint plot_point(const CostStudy& study, const CostPoint& point, CostAxis ax
     }
     out.x = axis == CostAxis::sweeps ? point.sweeps : price(point, time_basis(study));
     out.y = *point.error;
+    if (axis == CostAxis::time && point.repetitions > 1)
+    {
+        const bool cpu = time_basis(study) == CostBasis::cpu && point.cpu_ms;
+        out.x_low = cpu ? point.cpu_low : point.ms_low;
+        out.x_high = cpu ? point.cpu_high : point.ms_high;
+    }
     return out;
 }
 
@@ -78,8 +84,10 @@ std::vector<std::string> captions(const CostStudy& study, CostAxis axis)
                                   : "Lines join settings of more and more substeps") +
                   "; labels are substeps x iterations.");
     if (axis == CostAxis::time)
-        out.push_back(std::string(time_basis(study) == CostBasis::cpu ? "CPU time" : "Wall time") +
-                      " of step and wait, median of repetitions after warm-up.");
+        out.push_back(
+            std::string(time_basis(study) == CostBasis::cpu ? "CPU time" : "Wall time") +
+            " of step and wait, median of repetitions in turns with all other settings, after warm-up; bars "
+            "from the first to the third quartile.");
     return out;
 }
 
@@ -133,10 +141,11 @@ Plot cost_plot(const CostStudy& study, CostAxis axis)
         if (several(study) && !point.error)
             continue; // listed in groups
         if (plot.series.empty() || plot.series.back().name != name)
-            plot.series.push_back({name, {}, several(study)});
+            plot.series.push_back({name, {}, several(study), "", several(study) ? method_style(name) : -1});
         plot.series.back().points.push_back(plot_point(study, point, axis));
     }
     plot.y_most = off_the_top(plot.series, 1); // errors of more than 100 % are of no use to anybody
+    plot.floors = plot_floors(study);
     plot.caption = captions(study, axis);
     if (several(study))
         plot.gaps = grouped_gaps(study);

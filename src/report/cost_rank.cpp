@@ -88,6 +88,45 @@ std::string result_text(const CostStudy& study, const CostPoint& point)
 
 } // namespace
 
+std::vector<CostFloor> cost_floors(const CostStudy& study, const CostPoint* point)
+{
+    std::vector<CostFloor> out;
+    const auto any = [&](auto has) {
+        return point ? has(*point) : std::any_of(study.points.begin(), study.points.end(), has);
+    };
+    const auto add = [&](const char* word, double error, const std::string& words) {
+        const bool there =
+            std::any_of(out.begin(), out.end(), [&](const CostFloor& f) { return f.error == error; });
+        if (error > 0 && !there)
+            out.push_back({word, error, words + ", " + number(error)});
+    };
+    add("reference", 10 * study.reference.error.value_or(0), "10 x the reference's own error");
+    if (study.kind == CostKind::at_rest)
+        add("rest", study.rest_tolerance, "rest test");
+    for (const CostPoint& other : study.points)
+    {
+        const MethodKind method = method_named(other.method);
+        const bool solves = method == MethodKind::implicit_euler || method == MethodKind::acad ||
+                            method == MethodKind::implicit_constraints;
+        if (solves && (!point || point == &other))
+            add("linear_tolerance", other.settings.linear_tolerance, "linear_tolerance");
+    }
+    for (const Precision precision : {Precision::float32, Precision::float64})
+        if (any([&](const CostPoint& p) { return p.precision == precision; }))
+            add(precision == Precision::float32 ? "float" : "double",
+                precision == Precision::float32 ? 0x1p-24 : 0x1p-53,
+                precision == Precision::float32 ? "one rounding of float" : "one rounding of double");
+    return out;
+}
+
+std::vector<PlotFloor> plot_floors(const CostStudy& study)
+{
+    std::vector<PlotFloor> out;
+    for (const CostFloor& floor : cost_floors(study))
+        out.push_back({floor.error, floor.words, floor.word == "reference" || floor.word == "rest"});
+    return out;
+}
+
 double price(const CostPoint& point, CostBasis basis)
 {
     if (basis == CostBasis::sweeps)
@@ -102,6 +141,10 @@ void rank(CostStudy& study)
     for (CostPoint& point : study.points)
     {
         point.at_floor = point.error && *point.error < floor;
+        point.floor.clear();
+        for (const CostFloor& one : cost_floors(study, &point))
+            if (point.error && *point.error < one.error)
+                point.floor += (point.floor.empty() ? "" : " ") + one.word;
         point.pareto = point.error &&
                        std::none_of(study.points.begin(), study.points.end(), [&](const CostPoint& other) {
                            return other.error && beats(other, point, floor, study.basis);

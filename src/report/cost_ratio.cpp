@@ -178,7 +178,10 @@ Plot ratio_plot(const RatioStudy& study)
     plot.front = false;
     for (const Row& row : rows_of(study))
     {
-        PlotSeries series{row.name, {}};
+        PlotSeries series{row.name, {}, false, "", method_style(row.method)};
+        series.variant = static_cast<int>(
+            std::count_if(plot.series.begin(), plot.series.end(),
+                          [&](const PlotSeries& other) { return other.style == series.style; }));
         std::string gaps;
         for (std::size_t i = 0; i < row.points.size(); ++i)
             if (row.points[i]->error)

@@ -117,12 +117,16 @@ DynamicReference small_steps(const Question& q, std::size_t frames, std::string&
             best = std::move(next);
         if (!best.verified)
             stop = "from there on step sizes disagree, the motion is chaotic";
-        if (!best.verified || window == most)
+        if (best.verified && window < most && enough(q))
+            stop = "the time for the reference ends there";
+        if (!best.verified || window == most || enough(q))
             return best;
     }
 }
 
 } // namespace
+
+bool enough(const Question& q) { return q.options.enough && q.options.enough(1); }
 
 std::size_t wanted_frames(const Scene& scene, const CostOptions& options)
 {
@@ -154,7 +158,14 @@ CostReference reference_of_motion(const Question& q)
     if (found.verified_frames == 0 || found.verified_frames < std::min(frames, kFewest))
         return self_motion(q, frames, {"R3: " + found.reason});
     found.frames.resize(found.verified_frames + 1);
-    CostReference out{"R3", "", {}, true, found.error, found.largest_error, std::move(found.frames)};
+    CostReference out;
+    out.name = "R3";
+    out.verified = true;
+    out.error = found.error;
+    out.error_l = found.largest_error;
+    out.errors = std::move(found.errors);
+    out.errors.resize(found.verified_frames + 1);
+    out.frames = std::move(found.frames);
     out.text = "Explicit small steps in fp64 (" + number(found.step) + " s), own error " +
                number(found.error) + " by halving, over " +
                frames_text(found.verified_frames, q.model.timestep);

@@ -20,6 +20,9 @@ CostReference reference_at_rest(const Question& question);
 /// R3, else R4, over as many frames as are verified.
 CostReference reference_of_motion(const Question& question);
 
+/// Whether no more time is to be spent on references.
+bool enough(const Question& question);
+
 /// Frames that a moving study wants.
 std::size_t wanted_frames(const Scene& scene, const CostOptions& options);
 
@@ -30,6 +33,7 @@ struct Refinement
     double order = 0;       ///< observed
     double error = 0;       ///< of the finest, estimated, as e_traj
     double error_l = 0;     ///< the same as e_L at the last of these frames
+    std::vector<double> errors; ///< `error` of the frames up to each
 };
 /// Coarse, half the step, a quarter of it. Converges: observed order 0.7 to 2.3, last difference below 5 %.
 Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -34,8 +35,7 @@ CostReference none(std::vector<std::string> passed)
 
 MethodSettings fine_settings(const Question& q, MethodKind method, std::uint32_t substeps)
 {
-    MethodSettings out = q.scene.method;
-    out.type = std::string(method_name(method));
+    MethodSettings out = settings_for(method, q.scene.method);
     out.substeps = substeps;
     out.iterations = 1;
     out.precision = "double";
@@ -56,6 +56,8 @@ struct Refined
 /// those that only approach the stiffness by sweeps.
 std::vector<MethodKind> candidates(const Question& q)
 {
+    if (!q.options.refined.empty())
+        return q.options.refined;
     if (q.options.methods.size() == 1)
         return q.options.methods;
     return {MethodKind::implicit_euler, MethodKind::mass_spring, MethodKind::implicit_constraints,
@@ -67,12 +69,23 @@ template <class Refine>
 std::vector<Refined> refined(const Question& q, Refine refine_one, std::vector<std::string>& passed)
 {
     std::vector<Refined> out;
-    for (const MethodKind method : candidates(q))
+    const std::vector<MethodKind> methods = candidates(q);
+    for (std::size_t m = 0; m < methods.size(); ++m)
     {
+        const MethodKind method = methods[m];
+        CostOptions options = q.options;
+        if (q.options.enough) // each has its share of the time, and what those before it left
+            options.enough = [&](double part) {
+                return q.options.enough((static_cast<double>(m) + part) /
+                                        static_cast<double>(methods.size()));
+            };
+        const Question mine{q.scene, q.model, q.weights, options, q.device};
         std::string reason;
         try
         {
-            Refined next = refine_one(q, method);
+            if (enough(mine))
+                throw Error(ErrorCode::limit, "the time for the reference was up");
+            Refined next = refine_one(mine, method);
             reason = next.reason;
             if (reason.empty())
                 out.push_back(std::move(next));
@@ -87,19 +100,23 @@ std::vector<Refined> refined(const Question& q, Refine refine_one, std::vector<s
     return out;
 }
 
-/// How far two finest runs lie apart, as e_traj and e_L, over the frames that both have.
-std::pair<double, double> apart(const Question& q, const Refined& a, const Refined& b)
+/// How far two finest runs lie apart, as e_traj and e_L, over the frames that both have. `errors`, of the
+/// frames up to each, are raised to it.
+std::pair<double, double> apart(const Question& q, const Refined& a, const Refined& b,
+                                std::vector<double>& errors)
 {
     const std::size_t frames = std::min(a.found.frames, b.found.frames);
-    double off = 0, moved = 0;
+    errors.resize(frames + 1, 0);
+    double off = 0, moved = 0, error = 0;
     for (std::size_t f = 1; f <= frames; ++f)
     {
         off += std::pow(distance_by_mass(q.weights, a.finest[f], b.finest[f]), 2);
         moved += std::pow(distance_by_mass(q.weights, a.finest[f], a.finest[0]), 2);
+        error = moved > 0 ? std::sqrt(off / moved) : 0;
+        errors[f] = std::max(errors[f], error);
     }
     const bool sized = q.weights.diameter > 0;
-    const double far = sized ? largest_error(q.weights, a.finest[frames], b.finest[frames]) : 0;
-    return {moved > 0 ? std::sqrt(off / moved) : 0, far};
+    return {error, sized ? largest_error(q.weights, a.finest[frames], b.finest[frames]) : 0};
 }
 
 /// The one with the longest good stretch, then the smallest error of its own, and how far the next one is
@@ -120,15 +137,18 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, std::vector<
     out.error = best.found.error;
     out.error_l = best.found.error_l;
     const bool alone = q.options.methods.size() == 1;
+    out.errors = best.found.errors;
+    out.methods = {best.method};
     out.name = alone ? kSelf : "R4 (self-convergence of " + name + ")";
     out.text = name + (alone ? " itself" : "") + " in double with " + std::to_string(kFine[2]) +
                " substeps x 1 iteration, halved twice, observed order " + number(best.found.order);
     if (runs.size() > 1)
     {
-        const auto [error, far] = apart(q, best, runs[1]);
+        const auto [error, far] = apart(q, best, runs[1], out.errors);
         out.error = std::max(*out.error, error);
         out.error_l = std::max(*out.error_l, far);
         best.found.frames = std::min(best.found.frames, runs[1].found.frames);
+        out.methods.push_back(runs[1].method);
         out.text += "; the finest run of " + std::string(method_name(runs[1].method)) + " differs by " +
                     number(error) + ", which counts as its error";
     }
@@ -178,7 +198,7 @@ public:
             std::size_t least = window;
             for (std::size_t l = 0; l < 3; ++l)
             {
-                trials_[l].extend(motion_[l], window);
+                trials_[l].extend(motion_[l], window, [this] { return enough(q_); });
                 least = std::min(least, motion_[l].frames.size() - 1);
             }
             const auto level = [&](std::size_t l) {
@@ -186,7 +206,7 @@ public:
                 return Frames(first, first + static_cast<std::ptrdiff_t>(least) + 1);
             };
             const Refinement found = refine(q_.weights, level(0), level(1), level(2));
-            if (found.frames < window || window == frames)
+            if (found.frames < window || window == frames || enough(q_))
                 return found;
         }
     }
@@ -218,11 +238,13 @@ std::string frames_text(std::size_t frames, double timestep)
 Motion settled_run(const Question& q, MethodKind method, std::uint32_t substeps)
 {
     Trial trial(q.scene, double_device(q), fine_settings(q, method, substeps));
-    return trial.settle({q.weights, nullptr, q.options.rest_seconds});
+    return trial.settle({q.weights, nullptr, q.options.rest_seconds, false, [&q] { return enough(q); }});
 }
 
 CostReference self_at_rest(const Question& q, std::vector<std::string> passed)
 {
+    if (!q.options.self_reference)
+        return none(std::move(passed));
     std::vector<Refined> runs = refined(q, refined_at_rest, passed);
     CostReference out = best_of(q, std::move(runs), std::move(passed));
     if (out.verified)
@@ -232,6 +254,8 @@ CostReference self_at_rest(const Question& q, std::vector<std::string> passed)
 
 CostReference self_motion(const Question& q, std::size_t frames, std::vector<std::string> passed)
 {
+    if (!q.options.self_reference)
+        return none(std::move(passed));
     const auto one = [frames](const Question& question, MethodKind method) {
         SelfConvergence runs(question, method);
         Refined out{method, runs.run(frames), std::move(runs.finest()), ""};
@@ -252,6 +276,7 @@ Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frame
 {
     double first = 0, last = 0, moved = 0; // sums of squares
     Refinement out;
+    std::vector<double> errors(1, 0);
     const auto squared = [&](const auto& a, const auto& b) {
         const double d = distance_by_mass(weights, a, b);
         return d * d;
@@ -265,14 +290,17 @@ Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frame
         const double difference = moved > 0 ? std::sqrt(last / moved) : 0;
         const bool exact = !(difference > 1e-12);
         const bool good = exact || (order >= 0.7 && order <= 2.3 && difference < 0.05);
+        const double share = exact ? 1 : 1 / (std::exp2(order) - 1);
+        errors.push_back(good ? difference * share : std::numeric_limits<double>::infinity());
         if (!good && out.frames > 0)
             break;
         if (!good)
             continue;
-        const double share = exact ? 1 : 1 / (std::exp2(order) - 1);
-        out = {f, exact ? 0 : order, difference * share, 0};
+        out = {f, exact ? 0 : order, difference * share, 0, {}};
         out.error_l = weights.diameter > 0 ? share * largest_error(weights, half[f], quarter[f]) : 0;
     }
+    errors.resize(out.frames + 1);
+    out.errors = std::move(errors);
     return out;
 }
 

@@ -42,11 +42,12 @@ double process_ms()
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-double median(std::vector<double> values)
+/// The value that this share of them does not pass.
+double quantile(std::vector<double> values, double share)
 {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
 }
 
 } // namespace
@@ -84,11 +85,11 @@ bool Trial::advance(Motion& motion)
     return motion.reason.empty();
 }
 
-void Trial::extend(Motion& motion, std::size_t frames)
+void Trial::extend(Motion& motion, std::size_t frames, const std::function<bool()>& enough)
 {
     if (motion.frames.empty())
         motion.frames.push_back(x_);
-    while (motion.steps < frames && motion.reason.empty() && advance(motion))
+    while (motion.steps < frames && motion.reason.empty() && !(enough && enough()) && advance(motion))
         motion.frames.push_back(x_);
     judge_end(motion);
 }
@@ -123,16 +124,18 @@ Motion Trial::settle(const RestRule& rule)
     const double most = std::ceil(rule.seconds / timestep);
     std::deque<std::vector<glm::dvec3>> window{x_};
     double wandered = 0, bound = 0;
-    while (!out.rests && static_cast<double>(out.steps) < most)
+    bool out_of_time = false;
+    while (!out.rests && !out_of_time && static_cast<double>(out.steps) < most)
     {
         if (!advance(out))
             return out;
+        out_of_time = rule.enough && rule.enough();
         window.push_back(x_);
         if (window.size() > second + 1)
             window.pop_front();
         if (window.size() <= second || out.steps % 4 != 0)
             continue;
-        bound = 1e-5 * distance_by_mass(rule.weights, x_, out.frames[0]);
+        bound = rule.tolerance * distance_by_mass(rule.weights, x_, out.frames[0]);
         if (rule.reference)
             bound = std::max(bound, 0.1 * distance_by_mass(rule.weights, x_, *rule.reference));
         wandered = 0;
@@ -148,45 +151,69 @@ Motion Trial::settle(const RestRule& rule)
         out.wander = wandered;
     }
     if (!out.rests)
-        out.reason =
-            "not at rest after " + std::to_string(static_cast<int>(rule.seconds)) + " simulated seconds";
+        out.reason = "not at rest after " +
+                     std::to_string(static_cast<int>(static_cast<double>(out.steps) * timestep + 0.5)) +
+                     " simulated seconds" + (out_of_time ? ", when the time was up" : "");
     judge_end(out);
+    return out;
+}
+
+void Trial::run(std::size_t frames)
+{
+    for (std::size_t f = 0; f < frames; ++f)
+    {
+        world_.step();
+        world_.device().wait();
+    }
+}
+
+void Trial::warm_up(std::size_t frames)
+{
+    for (int time = 0; time < 3; ++time)
+    {
+        world_.restore(start_);
+        run(std::min<std::size_t>(frames, 3));
+    }
+}
+
+void Trial::repeat(std::size_t frames, Stopwatch& watch)
+{
+    world_.restore(start_);
+    const double cpu_before = process_ms();
+    const auto before = std::chrono::steady_clock::now();
+    run(frames);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
+    const double simulated = static_cast<double>(frames) * world_.plan().timestep;
+    watch.spent += took.count();
+    watch.wall.push_back(took.count() / simulated);
+    watch.cpu.push_back((process_ms() - cpu_before) / simulated);
+}
+
+Timing Stopwatch::timing() const
+{
+    Timing out;
+    out.median = quantile(wall, 0.5);
+    out.least = *std::min_element(wall.begin(), wall.end());
+    out.cpu = quantile(cpu, 0.5);
+    out.repetitions = wall.size();
+    out.low = quantile(wall, 0.25);
+    out.high = quantile(wall, 0.75);
+    out.cpu_low = quantile(cpu, 0.25);
+    out.cpu_high = quantile(cpu, 0.75);
     return out;
 }
 
 Timing Trial::time(std::size_t frames, double seconds)
 {
-    const auto run = [&](std::size_t count) {
-        for (std::size_t f = 0; f < count; ++f)
-        {
-            world_.step();
-            world_.device().wait();
-        }
-    };
-    for (int warm_up = 0; warm_up < 3; ++warm_up)
-    {
-        world_.restore(start_);
-        run(std::min<std::size_t>(frames, 3));
-    }
-    std::vector<double> wall, cpu;
-    double spent = 0; // ms
+    warm_up(frames);
+    Stopwatch watch;
     const auto enough = [&] {
-        const bool many = wall.size() >= 20 || (wall.size() >= 5 && spent > 250);
-        return !wall.empty() && (many || spent > 1e3 * seconds);
+        const bool many = watch.wall.size() >= 20 || (watch.wall.size() >= 5 && watch.spent > 250);
+        return !watch.wall.empty() && (many || watch.spent > 1e3 * seconds);
     };
-    const double simulated = static_cast<double>(frames) * world_.plan().timestep;
     while (!enough())
-    {
-        world_.restore(start_);
-        const double cpu_before = process_ms();
-        const auto before = std::chrono::steady_clock::now();
-        run(frames);
-        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
-        spent += took.count();
-        wall.push_back(took.count() / simulated);
-        cpu.push_back((process_ms() - cpu_before) / simulated);
-    }
-    return {median(wall), *std::min_element(wall.begin(), wall.end()), median(cpu), wall.size()};
+        repeat(frames, watch);
+    return watch.timing();
 }
 
 } // namespace taut::cost

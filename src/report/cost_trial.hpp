@@ -24,10 +24,19 @@ struct Timing
     double median = 0, least = 0; ///< wall ms per simulated second
     double cpu = 0;               ///< process ms per simulated second, median
     std::size_t repetitions = 0;
+    double low = 0, high = 0, cpu_low = 0, cpu_high = 0; ///< first and third quartile of wall and process
+};
+
+/// Repetitions of a timed run.
+struct Stopwatch
+{
+    std::vector<double> wall, cpu; ///< ms per simulated second
+    double spent = 0;              ///< wall ms
+    Timing timing() const;         ///< at least one repetition
 };
 
 /// When a scene counts as at rest: over the last simulated second every frame lay within
-/// max(1e-5 |x - x_0|, 0.1 |x - x*|) of the last, mass-weighted.
+/// max(tolerance |x - x_0|, 0.1 |x - x*|) of the last, mass-weighted.
 struct RestRule
 {
     ErrorWeights weights;
@@ -35,6 +44,8 @@ struct RestRule
     double seconds = 30;                                ///< simulated, at most
     /// At the end of that time kLooseRest will do: float shakes in place where displacements are small.
     bool loose = false;
+    std::function<bool()> enough = {}; ///< true ends the run, unrested
+    double tolerance = kRestTolerance;
 };
 
 class Trial
@@ -48,15 +59,21 @@ public:
     double sweeps() const;
 
     Motion trajectory(std::size_t frames);
-    /// Goes on from where the motion of this trial stands until it has that many frames after the start.
-    void extend(Motion& motion, std::size_t frames);
+    /// Goes on from where the motion of this trial stands until it has that many frames after the start, or
+    /// until `enough`.
+    void extend(Motion& motion, std::size_t frames, const std::function<bool()>& enough = {});
     Motion settle(const RestRule& rule);
+    /// Three short runs from the start: caches and pipelines.
+    void warm_up(std::size_t frames);
+    /// One timed run of `frames` from the start.
+    void repeat(std::size_t frames, Stopwatch& watch);
     /// Runs `frames` from the start again and again: 3 short runs to warm up, then at least 5 repetitions
     /// (fewer when `seconds` of wall time are over), more while they are short.
     Timing time(std::size_t frames, double seconds);
 
 private:
     bool advance(Motion& motion);
+    void run(std::size_t frames);
     /// Gives a motion that came to its end the status of the state there.
     void judge_end(Motion& motion);
 

@@ -100,6 +100,22 @@ MethodKind method_named(std::string_view name)
 
 std::string_view method_name(MethodKind kind) { return kMethodNames[static_cast<std::size_t>(kind)]; }
 
+int method_style(std::string_view name) { return static_cast<int>(method_named(name)); }
+
+MethodSettings settings_for(MethodKind kind, const MethodSettings& base)
+{
+    MethodSettings out = base;
+    out.type = std::string(method_name(kind));
+    if (out.type == base.type)
+        return out;
+    const MethodSettings usual;
+    out.integrator = usual.integrator;
+    out.scheme = usual.scheme;
+    out.relaxation = usual.relaxation;
+    out.spectral_radius = usual.spectral_radius;
+    return out;
+}
+
 std::vector<MethodKind> methods_listed(const std::vector<std::string>& names)
 {
     MethodSet set = 0;

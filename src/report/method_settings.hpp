@@ -13,6 +13,13 @@ namespace taut {
 MethodKind method_named(std::string_view name);
 std::string_view method_name(MethodKind kind);
 
+/// These settings for that method. What methods read differently is as by default where the method is another
+/// one: the scheme, the integrator, relaxation and spectral_radius.
+MethodSettings settings_for(MethodKind kind, const MethodSettings& base);
+
+/// Of figures: colour and marker of a method (PlotSeries::style), its place in kMethodNames.
+int method_style(std::string_view name);
+
 /// "xpbd,vbd" or "all", in the order of kMethodNames and each once. Throws Error{bad_input}.
 std::vector<MethodKind> methods_listed(const std::vector<std::string>& names);
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <thread>
 
@@ -275,6 +276,9 @@ void judge(const PhysicalModel& model, std::vector<Frames>& levels, DynamicRefer
         out.orders.push_back(all.observed(l, judged));
     const double fraction = 1 / (std::exp2(out.order) - 1);
     out.error = all.difference(last, judged) * fraction;
+    for (std::size_t f = 0; f <= out.verified_frames; ++f)
+        out.errors.push_back(f == 0 || all.verified(f) ? all.difference(last, f) * fraction
+                                                       : std::numeric_limits<double>::infinity());
     if (weights.diameter > 0) // a lone particle has no size
         for (std::size_t f = 0; f <= judged; ++f)
             out.largest_error = std::max(out.largest_error, fraction * largest_error(weights, levels[last][f],

@@ -40,6 +40,7 @@ struct DynamicReference
     // The next three are of the verified frames; of all frames if there are none.
     std::vector<double> orders;    ///< observed, log2 of successive differences, coarse to fine
     double error = 0;              ///< estimate of e_traj
+    std::vector<double> errors;    ///< the same of the frames up to each; inf where those are not verified
     double largest_error = 0;      ///< estimate of e_L, the largest of all frames; 0 if the scene has no size
     double element_steps = 0;      ///< what it cost or would have cost
 };

@@ -3,6 +3,7 @@
 #include "taut/report/svg_plot.hpp"
 
 #include "taut/report/svg_axis.hpp"
+#include "taut/report/svg_labels.hpp"
 #include "taut/report/svg_text.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -19,6 +20,7 @@ namespace {
 using namespace svg_text;
 
 constexpr double kLeft = 84, kTop = 56, kWide = 560, kHigh = 400; // the plot area, pixels
+constexpr AreaBox kBox{kLeft, kTop, kLeft + kWide, kTop + kHigh};
 constexpr double kLegend = kLeft + kWide + 24, kPage = 920;
 constexpr std::size_t kLegendChars = 30, kLineChars = 128;
 constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -26,10 +28,33 @@ constexpr std::array<const char*, 7> kColours = {"#0072b2", "#d55e00", "#009e73"
 
 constexpr std::size_t kMostMarkers = 100;
 
-bool drawable(const PlotPoint& p, bool x_linear = false)
+/// How a series looks: the same in its line, its markers and the legend.
+struct Look
 {
-    return std::isfinite(p.x) && std::isfinite(p.y) && (x_linear || p.x > 0) && p.y > 0;
-}
+    Look(const PlotSeries& series, std::size_t index)
+        : shape(series.style < 0 ? index : static_cast<std::size_t>(series.style)),
+          colour(kColours[shape % kColours.size()]),
+          variant(series.style < 0 ? static_cast<int>(index / kColours.size()) : series.variant)
+    {}
+
+    /// Attributes of its line.
+    std::string dashes() const
+    {
+        constexpr std::array<const char*, 6> kDashes{"", "7 3", "2 2", "9 3 2 3", "4 4", "12 3 2 3 2 3"};
+        const char* dash = kDashes[static_cast<std::size_t>(variant) % kDashes.size()];
+        return *dash == 0 ? "" : " stroke-dasharray=\"" + std::string(dash) + "\"";
+    }
+    std::string mark(double x, double y, double size) const
+    {
+        constexpr std::array<Filling, 3> kFillings{Filling::full, Filling::hollow, Filling::dotted};
+        return marker(x, y, shape, colour, size,
+                      kFillings[static_cast<std::size_t>(variant) % kFillings.size()]);
+    }
+
+    std::size_t shape;
+    std::string colour;
+    int variant;
+};
 
 /// Both axes of a plot.
 struct Area
@@ -47,6 +72,9 @@ struct Area
                         low[k] = std::min(low[k], k == 0 ? p.x : p.y);
                         high[k] = std::max(high[k], k == 0 ? p.x : p.y);
                     }
+        for (const PlotFloor& floor : plot.floors)
+            if (floor.y > 0 && floor.y < low[1] && floor.y > 1e-2 * low[1]) // far below it would only squeeze
+                low[1] = floor.y;
         x = axis_of(low[0], high[0], linear, kLeft, kLeft + kWide);
         y = axis_of(low[1], high[1], false, kTop + kHigh, kTop);
     }
@@ -97,21 +125,25 @@ std::string pixels(const PlotPoint& p, const Area& area)
     return fixed(area.x.at(p.x)) + "," + fixed(area.y.at(p.y));
 }
 
-/// One mark with its name; above the area an arrow at its upper edge, with the number.
-std::string mark(const PlotSeries& series, const PlotPoint& p, std::size_t index, const Area& area,
+/// One mark with its name and spread; above the area an arrow at its upper edge, with the number.
+std::string mark(const PlotSeries& series, const PlotPoint& p, const Look& look, const Area& area,
                  double size, const char* opacity = nullptr)
 {
-    const std::string colour = kColours[index % kColours.size()];
     std::string name = series.name + (p.label.empty() ? "" : ", " + p.label);
-    std::string shape = marker(area.x.at(p.x), area.y.at(p.y), index, colour, size);
+    std::string shape = look.mark(area.x.at(p.x), area.y.at(p.y), size);
     if (area.above(p))
     {
         const double x = area.x.at(p.x), y = kTop + 1;
         name += ": off the top, " + shown(p.y, 2);
         const std::string low = fixed(y + 9);
         shape = "<polygon points=\"" + fixed(x) + "," + fixed(y) + " " + fixed(x + 5) + "," + low + " " +
-                fixed(x - 5) + "," + low + "\" fill=\"#fff\" stroke=\"" + colour +
+                fixed(x - 5) + "," + low + "\" fill=\"#fff\" stroke=\"" + look.colour +
                 "\" stroke-width=\"1.40\"/>\n";
+    }
+    else if (0 < p.x_low && p.x_low < p.x_high)
+    {
+        const auto inside = [&](double x) { return std::clamp(area.x.at(x), kLeft, kLeft + kWide); };
+        shape += line(inside(p.x_low), area.y.at(p.y), inside(p.x_high), area.y.at(p.y), look.colour, 1.2);
     }
     const std::string faint =
         opacity == nullptr ? "" : " fill-opacity=\"" + std::string(opacity) + "\"";
@@ -119,9 +151,8 @@ std::string mark(const PlotSeries& series, const PlotPoint& p, std::size_t index
 }
 
 /// All points small, those of its own front large and joined.
-std::string draw_own_front(const PlotSeries& series, std::size_t index, const Area& area)
+std::string draw_own_front(const PlotSeries& series, const Look& look, const Area& area)
 {
-    const std::string colour = kColours[index % kColours.size()];
     std::vector<bool> front(series.points.size(), false);
     std::string points, markers;
     for (const FrontPoint& at : pareto_front({series}))
@@ -132,23 +163,23 @@ std::string draw_own_front(const PlotSeries& series, std::size_t index, const Ar
         }
     for (std::size_t i = 0; i < series.points.size(); ++i)
         if (drawable(series.points[i], area.linear))
-            markers += mark(series, series.points[i], index, area, front[i] ? 9 : 5, front[i] ? "1" : "0.45");
-    return polyline(points, "stroke=\"" + colour + "\" stroke-width=\"2.60\"") + markers;
+            markers += mark(series, series.points[i], look, area, front[i] ? 9 : 5, front[i] ? "1" : "0.45");
+    return polyline(points, "stroke=\"" + look.colour + "\" stroke-width=\"2.60\"" + look.dashes()) + markers;
 }
 
 std::string draw_series(const PlotSeries& series, std::size_t index, const Area& area)
 {
+    const Look look(series, index);
     if (series.own_front)
-        return draw_own_front(series, index, area);
-    const std::string colour = kColours[index % kColours.size()];
+        return draw_own_front(series, look, area);
     const bool many = series.points.size() > kMostMarkers;
-    const std::string style = "stroke=\"" + colour + "\" stroke-width=\"1.20\" stroke-opacity=\"" +
-                              (many ? "0.90" : "0.60") + "\"";
+    const std::string style = "stroke=\"" + look.colour + "\" stroke-width=\"1.20\" stroke-opacity=\"" +
+                              (many ? "0.90" : "0.60") + "\"" + look.dashes();
     std::string lines, markers, points;
     for (const PlotPoint& p : series.points)
     {
         if (drawable(p, area.linear) && (!many || area.above(p)))
-            markers += mark(series, p, index, area, 8);
+            markers += mark(series, p, look, area, 8);
         if (!area.holds(p)) // a gap in the line, never a made-up point
         {
             lines += polyline(points, style);
@@ -159,47 +190,6 @@ std::string draw_series(const PlotSeries& series, std::size_t index, const Area&
     }
     return lines + polyline(points, style) + markers;
 }
-
-/// Writes labels beside points where none stands yet.
-class Labels
-{
-public:
-    /// Tries right, left, below on the right and on the left, in that order (or left first); gives up else.
-    void add(double x, double y, const std::string& words, const char* fill)
-    {
-        constexpr double kChar = 5.4, kHeight = 11; // of text of size 10
-        const double width = kChar * static_cast<double>(words.size());
-        const bool right_first = x < kLeft + 0.8 * kWide;
-        for (const double dy : {-8.0, 16.0})
-            for (const bool right : {right_first, !right_first})
-            {
-                const double left = right ? x + 9 : x - 9 - width, base = y + dy;
-                const Box box{left, base - kHeight, left + width, base};
-                const bool inside = box.left > kLeft && box.right < kLeft + kWide && box.top > kTop &&
-                                    box.bottom < kTop + kHigh;
-                if (!inside || std::any_of(taken_.begin(), taken_.end(),
-                                           [&](const Box& other) { return other.meets(box); }))
-                    continue;
-                taken_.push_back(box);
-                text_ += text(right ? x + 9 : x - 9, base, words,
-                              {.size = 10, .anchor = right ? "start" : "end", .fill = fill});
-                return;
-            }
-    }
-    const std::string& svg() const { return text_; }
-
-private:
-    struct Box
-    {
-        double left, top, right, bottom;
-        bool meets(const Box& o) const
-        {
-            return left < o.right && o.left < right && top < o.bottom && o.top < bottom;
-        }
-    };
-    std::vector<Box> taken_;
-    std::string text_;
-};
 
 std::string draw_front(const Plot& plot, const Area& area, Labels& labels)
 {
@@ -230,17 +220,40 @@ void add_notes(const Plot& plot, const Area& area, Labels& labels)
                 lowest = &p;
         if (lowest != nullptr && !plot.series[i].note.empty())
             labels.add(area.x.at(lowest->x), area.y.at(lowest->y) + 20, plot.series[i].note,
-                       kColours[i % kColours.size()]);
+                       Look(plot.series[i], i).colour.c_str());
     }
 }
 
-std::string legend(const Plot& plot)
+/// Shaded below each floor; its line has its words at the right edge.
+std::string draw_floors(const Plot& plot, const Area& area, Labels& labels)
 {
     std::string out;
-    double y = kTop + 10;
+    for (const PlotFloor& floor : plot.floors)
+    {
+        const double y = floor.y > 0 ? area.y.at(floor.y) : kTop + kHigh + 1;
+        if (!(y >= kTop && y <= kTop + kHigh))
+            continue;
+        if (floor.of_all)
+            out += "<rect x=\"" + fixed(kLeft) + "\" y=\"" + fixed(y) + "\" width=\"" + fixed(kWide) +
+                   "\" height=\"" + fixed(kTop + kHigh - y) + "\" fill=\"#888\" fill-opacity=\"0.12\"/>\n";
+        out += line(kLeft, y, kLeft + kWide, y, "#777", 1);
+        labels.add(kLeft + kWide + 5, y + 4, floor.words, "#555");
+    }
+    return out;
+}
+
+/// `y` is moved below it.
+std::string legend(const Plot& plot, double& y)
+{
+    std::string out;
+    y = kTop + 10;
     for (std::size_t i = 0; i < plot.series.size(); ++i)
     {
-        out += marker(kLegend + 6, y - 4, i, kColours[i % kColours.size()], 9);
+        const Look look(plot.series[i], i);
+        if (!look.dashes().empty())
+            out += "<path d=\"M" + fixed(kLegend - 8) + " " + fixed(y - 4) + "h28\" stroke=\"" + look.colour +
+                   "\"" + look.dashes() + "/>\n";
+        out += look.mark(kLegend + 6, y - 4, 9);
         for (const std::string& words : wrapped(plot.series[i].name, kLegendChars))
         {
             out += text(kLegend + 20, y, words);
@@ -253,18 +266,8 @@ std::string legend(const Plot& plot)
         out += "<circle cx=\"" + fixed(kLegend + 6) + "\" cy=\"" + fixed(y - 4) +
                "\" r=\"6.00\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.60\"/>\n";
         out += text(kLegend + 20, y, "front: nothing is better in both");
+        y += 20;
     }
-    return out;
-}
-
-std::vector<std::string> all_gaps(const Plot& plot)
-{
-    std::vector<std::string> out = plot.gaps;
-    for (const PlotSeries& series : plot.series)
-        for (const PlotPoint& p : series.points)
-            if (!drawable(p, plot.x_linear))
-                out.push_back(series.name + (p.label.empty() ? "" : ", " + p.label) +
-                              ": no finite positive value to draw");
     return out;
 }
 
@@ -285,7 +288,7 @@ std::vector<std::string> all_above(const Plot& plot, const Area& area)
     return out;
 }
 
-/// Caption and gaps; `y` is moved below them.
+/// Caption, and how much has no point; `y` is moved below them.
 std::string footer(const Plot& plot, const Area& area, double& y)
 {
     std::string out;
@@ -305,64 +308,38 @@ std::string footer(const Plot& plot, const Area& area, double& y)
         lines({"Off the top (above " + shown(plot.y_most, 2) + "):"}, "#222", 0);
         lines(above, "#555", 12);
     }
-    if (const std::vector<std::string> gaps = all_gaps(plot); !gaps.empty())
+    if (const std::size_t gaps = all_gaps(plot).size(); gaps > 0)
     {
         y += 6;
-        lines({"Without a point:"}, "#222", 0);
-        lines(gaps, "#a33", 12);
+        lines({"Without a point: " + std::to_string(gaps) + (gaps == 1 ? " entry" : " entries") +
+               " of the table beside this figure."},
+              "#a33", 0);
     }
     return out;
 }
 
 } // namespace
 
-std::vector<FrontPoint> pareto_front(const std::vector<PlotSeries>& series)
-{
-    std::vector<FrontPoint> all;
-    for (std::size_t s = 0; s < series.size(); ++s)
-        for (std::size_t p = 0; p < series[s].points.size(); ++p)
-            if (drawable(series[s].points[p]))
-                all.push_back({s, p});
-    const auto at = [&](const FrontPoint& f)
-    {
-        const PlotPoint& p = series[f.series].points[f.point];
-        return std::pair(p.x, std::max(p.y, p.floor));
-    };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const FrontPoint& a, const FrontPoint& b) { return at(a) < at(b); });
-    std::vector<FrontPoint> out;
-    for (const FrontPoint& f : all)
-        if (out.empty() || at(f).second < at(out.back()).second || at(f) == at(out.back()))
-            out.push_back(f);
-    return out;
-}
-
-double off_the_top(const std::vector<PlotSeries>& series, double useful)
-{
-    constexpr double kTimes = 10;
-    double largest = 0;
-    for (const PlotSeries& one : series)
-        for (const PlotPoint& p : one.points)
-            if (drawable(p) && p.y <= useful)
-                largest = std::max(largest, p.y);
-    return largest > 0 ? kTimes * largest : std::numeric_limits<double>::infinity();
-}
-
 std::string svg(const Plot& plot)
 {
     const Area area(plot);
-    std::string body = grid(area) + frame(plot);
+    Labels labels(kBox);
+    std::string body = draw_floors(plot, area, labels) + grid(area) + frame(plot);
     for (std::size_t i = 0; i < plot.series.size(); ++i)
+    {
         body += draw_series(plot.series[i], i, area);
-    Labels labels;
+        for (const PlotPoint& p : plot.series[i].points)
+            if (area.holds(p) && plot.series[i].points.size() <= kMostMarkers)
+                labels.keep_off(area.x.at(p.x), area.y.at(p.y), 3);
+    }
     if (plot.front)
         body += draw_front(plot, area, labels);
     add_notes(plot, area, labels);
     body += labels.svg();
-    body += legend(plot);
+    double legend_end = 0;
+    body += legend(plot, legend_end);
     double bottom = kTop + kHigh + 74;
     body += footer(plot, area, bottom);
-    const double legend_end = kTop + 36.0 * static_cast<double>(plot.series.size() + 1);
     const std::string width = fixed(kPage), height = fixed(std::max(bottom + 6, legend_end));
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
            width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +

@@ -14,6 +14,7 @@ struct PlotPoint
     double x = 0, y = 0;  ///< in the units of the axes
     std::string label;    ///< what made it, e.g. "10 substeps x 1"; written at points of the front
     double floor = 0;     ///< values of y below it count as equal on the front
+    double x_low = 0, x_high = 0; ///< spread of x, drawn as a bar where 0 < low < high
 };
 
 struct PlotSeries
@@ -23,6 +24,17 @@ struct PlotSeries
                                    ///< line and joins the gaps
     bool own_front = false; ///< only those that no other of the series beats are joined, by a bold line
     std::string note = {};  ///< written below its lowest point
+    /// Colour and marker: 0 to 6, the same in every plot; < 0: by its place in this one.
+    int style = -1;
+    int variant = 0; ///< of those that share a style: dashes and the marker's filling tell them apart
+};
+
+/// Below it values of y say nothing: shaded, with a line and its words.
+struct PlotFloor
+{
+    double y = 0;
+    std::string words;
+    bool of_all = true; ///< shaded below; else of some points alone, a line
 };
 
 struct Plot
@@ -35,8 +47,17 @@ struct Plot
     /// Points above this in y do not stretch the axis: they stand at its upper edge and are listed by number.
     double y_most = std::numeric_limits<double>::infinity();
     std::vector<std::string> caption; ///< below the plot: reference class, machine, settings
-    std::vector<std::string> gaps;    ///< "name: reason" of what has no point, listed under the caption
+    std::vector<std::string> gaps;    ///< "name: reason" of what has no point: gap_table(), not drawn
+    std::vector<PlotFloor> floors = {};
 };
+
+/// Whether a point has a place on the axes.
+bool drawable(const PlotPoint& point, bool x_linear = false);
+
+/// The gaps, and points of series that are not drawable: "name: reason".
+std::vector<std::string> all_gaps(const Plot& plot);
+/// The same as a table of Markdown. Empty when there is none.
+std::string gap_table(const Plot& plot);
 
 /// Of all points of all series: series and point index of those that no other point beats (smaller or
 /// equal in both, smaller in one), by ascending x. Points that are not finite and positive never count.

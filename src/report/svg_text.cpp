@@ -77,15 +77,18 @@ std::string line(double x0, double y0, double x1, double y1, std::string_view st
 
 namespace {
 
+constexpr std::size_t kShapes = 7;
+
 /// Corners of the shapes beside the circle, in units of half the size.
 std::vector<std::pair<double, double>> shape_corners(std::size_t shape)
 {
-    switch (shape % 6)
+    switch (shape % kShapes)
     {
     case 1: return {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
     case 2: return {{0, -1.1}, {1.05, 0.8}, {-1.05, 0.8}};
     case 3: return {{0, -1.2}, {1.2, 0}, {0, 1.2}, {-1.2, 0}};
     case 4: return {{0, 1.1}, {1.05, -0.8}, {-1.05, -0.8}};
+    case 6: return {{-1.1, 0}, {-0.5, -1}, {0.5, -1}, {1.1, 0}, {0.5, 1}, {-0.5, 1}};
     default: return {{-0.4, -1.1}, {0.4, -1.1}, {0.4, -0.4}, {1.1, -0.4}, {1.1, 0.4}, {0.4, 0.4},
                      {0.4, 1.1}, {-0.4, 1.1}, {-0.4, 0.4}, {-1.1, 0.4}, {-1.1, -0.4}, {-0.4, -0.4}};
     }
@@ -93,18 +96,26 @@ std::vector<std::pair<double, double>> shape_corners(std::size_t shape)
 
 } // namespace
 
-std::string marker(double x, double y, std::size_t shape, std::string_view fill, double size)
+std::string marker(double x, double y, std::size_t shape, std::string_view colour, double size,
+                   Filling filling)
 {
-    const std::string colour =
-        "\" fill=\"" + std::string(fill) + "\" stroke=\"#fff\" stroke-width=\"0.80\"/>\n";
+    const bool full = filling == Filling::full;
+    const std::string own(colour);
+    const std::string style = "\" fill=\"" + (full ? own : "#fff") + "\" stroke=\"" + (full ? "#fff" : own) +
+                              "\" stroke-width=\"" + (full ? "0.80" : "1.40") + "\"/>\n";
     const double half = size / 2;
-    if (shape % 6 == 0)
-        return "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(half) + colour;
+    const auto circle = [&](double radius, const std::string& with) {
+        return "<circle cx=\"" + fixed(x) + "\" cy=\"" + fixed(y) + "\" r=\"" + fixed(radius) + with;
+    };
+    const std::string middle =
+        filling == Filling::dotted ? circle(size / 6, "\" fill=\"" + own + "\"/>\n") : "";
+    if (shape % kShapes == 0)
+        return circle(half, style) + middle;
     std::string points;
     for (const auto& [dx, dy] : shape_corners(shape))
         points += fixed(x + half * dx) + "," + fixed(y + half * dy) + " ";
     points.pop_back();
-    return "<polygon points=\"" + points + colour;
+    return "<polygon points=\"" + points + style + middle;
 }
 
 } // namespace taut::svg_text

@@ -31,7 +31,14 @@ std::string text(double x, double y, std::string_view words, const TextStyle& st
 /// 10 with an exponent.
 std::string power_of_ten(double x, double y, int exponent, const TextStyle& style);
 std::string line(double x0, double y0, double x1, double y1, std::string_view stroke, double width);
-/// A filled shape of about `size` pixels across; shapes repeat after six.
-std::string marker(double x, double y, std::size_t shape, std::string_view fill, double size);
+enum class Filling
+{
+    full,
+    hollow,
+    dotted ///< hollow with a point in its middle
+};
+/// A shape of about `size` pixels across; shapes repeat after seven.
+std::string marker(double x, double y, std::size_t shape, std::string_view colour, double size,
+                   Filling filling = Filling::full);
 
 } // namespace taut::svg_text

@@ -42,7 +42,7 @@ TEST_CASE("cost writes its files whole, and its three sentences for people")
     INFO(result.err);
     REQUIRE(result.status == 0);
     CHECK(folder.list("study") ==
-          std::vector<std::string>{"cost.csv", "cost.json", "cost.svg", "cost_work.svg"});
+          std::vector<std::string>{"cost.csv", "cost.json", "cost.svg", "cost_gaps.md", "cost_work.svg"});
     CHECK(program::read(folder / "study/cost.svg").find("Reference class R3") != std::string::npos);
     for (const char* sentence : {"\n10 %", "\n1 %", "\n0.1 %"})
         CHECK(result.out.find(sentence) != std::string::npos);
@@ -71,8 +71,8 @@ TEST_CASE("cost compares methods by one table, and what a method refuses stands 
     REQUIRE(result.status == 0);
     CHECK(result.out.find("cheapest by method") != std::string::npos);
     CHECK(folder.list("study") == std::vector<std::string>{"cost.csv", "cost.json", "cost.svg",
-                                                           "cost_iterations.svg", "cost_substeps.svg",
-                                                           "cost_work.svg"});
+                                                           "cost_gaps.md", "cost_iterations.svg",
+                                                           "cost_substeps.svg", "cost_work.svg"});
     const auto study = program::parse(program::read(folder / "study/cost.json"));
     REQUIRE(study["points"].size() == 4);
     CHECK(study["methods"].contains("pbd"));

@@ -190,6 +190,8 @@ TEST_CASE("one line a method, through its own front; gaps of one cause stand tog
     REQUIRE(plot.series.size() == 2);
     CHECK(plot.series[1].name == "xpbd");
     CHECK(plot.series[1].own_front);
+    CHECK(plot.series[0].style == method_style("pbd")); // whatever else is in the plot
+    CHECK(plot.series[1].style == method_style("xpbd"));
     CHECK(plot.series[1].points.size() == 3);
     REQUIRE(plot.gaps.size() == 1);
     CHECK(plot.gaps[0].find("mass_spring (R, unstable_timestep)") == 0);
@@ -217,7 +219,7 @@ TEST_CASE("a study of two methods measures both against the one reference", "[me
     CHECK(json["methods"]["xpbd"]["cheapest"].contains("0.01"));
     CHECK(json["points"][3]["settings"]["substeps"] == 20);
     CHECK(json["points"][3]["refused"].is_null());
-    CHECK(cost_csv(study).find(",details,refused\n") != std::string::npos);
+    CHECK(cost_csv(study).find(",details,refused,") != std::string::npos);
 }
 
 TEST_CASE("every method of a study has points or says why not", "[methods]")

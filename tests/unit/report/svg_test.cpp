@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 
 using namespace taut;
@@ -102,11 +103,18 @@ TEST_CASE("the front holds exactly the points that nothing beats in both", "[svg
     CHECK(pareto_front({}).empty());
 }
 
-TEST_CASE("what cannot be drawn is listed as a gap and breaks the line", "[svg]")
+TEST_CASE("what cannot be drawn breaks the line, is counted, and stands in the table beside", "[svg]")
 {
     const std::string text = svg(sample());
-    CHECK(count(text, "xpbd float, 4 iterations &amp; more, 16x4: no finite positive value") == 1);
-    CHECK(text.find("diverged at step 12 &lt;limit") != std::string::npos);
+    CHECK(text.find("Without a point: 2 entries") != std::string::npos);
+    CHECK(text.find("diverged") == std::string::npos);
+    const std::string table = gap_table(sample());
+    CHECK(table.find("| xpbd float, 4 iterations & more, 16x4 | no finite positive value") !=
+          std::string::npos);
+    CHECK(table.find("| xpbd float 256x1 | the run diverged at step 12 <limit 1e6 m/s> |") !=
+          std::string::npos);
+    CHECK(count(table, "\n") == 4);
+    CHECK(gap_table(Plot{}).empty());
     CHECK(text.find("nan") == std::string::npos);
     CHECK(text.find("inf") == std::string::npos);
     CHECK(count(text, "<title>") == 14);   // 15 points less one
@@ -169,7 +177,101 @@ TEST_CASE("labels do not stand on each other", "[svg]")
     const std::string text = svg(plot);
     CHECK(count(text, ">alone</text>") == 1);
     CHECK(count(text, ">label ") >= 2);  // on both sides
-    CHECK(count(text, ">label ") <= 4);  // above and below
+    CHECK(count(text, ">label ") <= 14); // as many places as are tried
+    std::vector<std::pair<double, double>> at; // left end and foot of each, of text 10 high
+    for (std::size_t from = 0; (from = text.find(">label ", from)) != std::string::npos; ++from)
+    {
+        const std::size_t tag = text.rfind("<text", from);
+        const auto value = [&](const char* key) {
+            return std::stod(text.substr(text.find(key, tag) + std::string(key).size()));
+        };
+        at.emplace_back(value("x=\""), value("y=\""));
+    }
+    for (std::size_t a = 0; a < at.size(); ++a)
+        for (std::size_t b = a + 1; b < at.size(); ++b)
+        {
+            INFO(at[a].first << "," << at[a].second << " and " << at[b].first << "," << at[b].second);
+            CHECK((std::abs(at[a].first - at[b].first) >= 30 || std::abs(at[a].second - at[b].second) >= 10));
+        }
+}
+
+TEST_CASE("labels keep off the marks of other series", "[svg]")
+{
+    Plot plot;
+    plot.front = false;
+    plot.series = {{"a", {{1, 1e-2, ""}, {100, 1e-4, ""}}, false, "a note"}};
+    const auto note = [&plot] {
+        const std::string text = svg(plot);
+        const std::size_t tag = text.rfind("<text", text.find(">a note<"));
+        return text.substr(tag, text.find('>', tag) - tag);
+    };
+    const std::string alone = note();
+    // A row of marks where the note stood.
+    for (double x = 20; x < 100; x *= 1.05)
+        plot.series.push_back({"b", {{x, 1.03e-4, ""}, {x, 1.2e-4, ""}}});
+    CHECK(note() != alone);
+}
+
+TEST_CASE("no two series look alike, and a style is the same in every plot", "[svg]")
+{
+    // What a legend shows of each of many series, without their places.
+    const auto looks = [](int styles) {
+        Plot plot;
+        plot.front = false;
+        for (int i = 0; i < 20; ++i)
+            plot.series.push_back(
+                {"s", {{1, 1, ""}}, false, "", styles ? i % styles : -1, styles ? i / styles : 0});
+        std::set<std::string> out;
+        for (std::size_t i = 0; i < plot.series.size(); ++i)
+        {
+            Plot one = plot;
+            for (std::size_t k = 0; k < plot.series.size(); ++k)
+                if (k != i)
+                    one.series[k].points.clear();
+            const std::string text = svg(one); // the only <title> is that of the point, on the same place
+            const std::size_t at = text.find("<title>");
+            out.insert(text.substr(at, text.find("</g>", at) - at));
+        }
+        return out;
+    };
+    CHECK(looks(0).size() == 20); // by their places
+    CHECK(looks(7).size() == 20); // variants of seven styles
+    Plot first, second;
+    first.series = {{"vbd", {{1, 1, ""}}, false, "", 6}};
+    second.series = {{"pbd", {{1, 1, ""}}, false, "", 4}, {"vbd", {{1, 1, ""}}, false, "", 6}};
+    const auto look = [](const Plot& plot) {
+        const std::string text = svg(plot);
+        const std::size_t at = text.find("<title>vbd");
+        return text.substr(at, text.find("</g>", at) - at);
+    };
+    CHECK(look(first) == look(second));
+}
+
+TEST_CASE("below a floor the plot is shaded, with a line and its words; far below the points it is not drawn",
+          "[svg]")
+{
+    Plot plot;
+    plot.series = {{"a", {{1, 1e-2, ""}, {10, 1e-4, ""}, {100, 2e-5, ""}}}};
+    plot.floors = {{1e-4, "rest test"}, {1e-16, "one rounding of double"}};
+    const std::string text = svg(plot);
+    CHECK(malformed(text) == "");
+    CHECK(count(text, "fill-opacity=\"0.12\"") == 1);
+    CHECK(count(text, ">rest test<") == 1);
+    plot.floors[0].of_all = false; // a line says it
+    const std::string some = svg(plot);
+    CHECK(count(some, "fill-opacity=\"0.12\"") == 0);
+    CHECK(count(some, ">rest test<") == 1);
+    CHECK(text.find("double") == std::string::npos);
+}
+
+TEST_CASE("a spread stands as a bar across its point", "[svg]")
+{
+    Plot plot;
+    plot.front = false;
+    plot.series = {{"a", {{1, 1e-2, ""}, {10, 1e-1, "", 0, 5, 20}, {100, 1, ""}}}};
+    // Two decades on 560 pixels from 84: 10 is at 364, 5 at 364 - 280 log10(2).
+    CHECK(svg(plot).find("<line x1=\"279.71\" y1=\"256.00\" x2=\"448.29\" y2=\"256.00\"") !=
+          std::string::npos);
 }
 
 TEST_CASE("the same plot is the same text in every locale", "[svg]")
