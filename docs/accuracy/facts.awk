@@ -59,6 +59,7 @@ FNR == 1 {
     cost[points] = cell[column["cpu_ms_per_simulated_second"]] + 0
     sweeps[points] = cell[column["sweeps"]]
     reason[points] = cell[column["reason"]]
+    floor[points] = column["floor"] ? cell[column["floor"]] : ""
     details[points] = cell[column["details"]]; refused[points] = cell[column["refused"]]
     if (column["ratio"]) ratio[points] = cell[column["ratio"]]
     if (!(method[points] in known)) { known[method[points]] = 1; methods[++method_count] = method[points] }
@@ -77,9 +78,18 @@ function table(tolerance,    i, m, line) {
     }
 }
 function is_problem(name) { return name !~ /^(precision|ratio_mass|ratio_stiffness)$/ }
-function say_cheapest(problem, tolerance,    p) {
+# The cheapest point of all methods, its error over the bound, and what the best other method costs.
+function say_cheapest(problem, tolerance,    p, q, m, other) {
     p = cheapest(problem, "", tolerance)
-    return p ? method[p] " (" setting(p) ", " short(cost[p]) " ms)" : "none"
+    if (!p) return "none"
+    other = 0
+    for (m = 1; m <= method_count; ++m) {
+        if (methods[m] == method[p]) continue
+        q = cheapest(problem, methods[m], tolerance)
+        if (q && (!other || cost[q] < cost[other])) other = q
+    }
+    return method[p] ", " setting(p) ", " short(cost[p]) " ms (" short(error[p] / tolerance) " of the bound; " \
+           (other ? method[other] " " short(cost[other] / cost[p]) " x" : "no other") ")"
 }
 # Where the explicit limit lies, and what it is worth to be below it.
 function say_explicit(problem,    p, least, most, one, other, m, q, why) {
@@ -103,6 +113,7 @@ function say_explicit(problem,    p, least, most, one, other, m, q, why) {
     if (one) return p "; for 1 % mass_spring costs " short(cost[one]) " ms, no other method gets there"
     return p "; within 1 % it is not"
 }
+function below(p) { return floor[p] == "" ? "" : " (below: " floor[p] ")" }
 # What the modes of precision differ by, for each method at its most substeps.
 function say_precision(name,    p, q, best) {
     best = 0
@@ -112,8 +123,9 @@ function say_precision(name,    p, q, best) {
                 substeps[p] == substeps[q] && error[p] != "" && error[q] != "" &&
                 (!best || substeps[p] + 0 > substeps[best] + 0)) { best = p; twin = q }
     if (!best) return "no setting that both have"
-    return "at " substeps[best] " substeps " short(100 * error[best]) " % in float, " short(100 * error[twin]) \
-           " % in double, which costs " short(cost[twin] / cost[best]) " times as much"
+    return "at " substeps[best] " substeps " short(100 * error[best]) " % in float" below(best) ", " \
+           short(100 * error[twin]) " % in double" below(twin) ", which costs " short(cost[twin] / cost[best]) \
+           " times as much"
 }
 # Up to which ratio a method's error stays within 10 %. What has no result is named and passed over.
 function say_ratio(problem, name,    p, held, above, gap, gaps, text) {
@@ -130,7 +142,9 @@ function say_ratio(problem, name,    p, held, above, gap, gaps, text) {
     return text
 }
 END {
-    print "### Which method is cheapest\n"
+    print "### Which method is cheapest: scene by bound\n"
+    print "The method, its setting, CPU ms per simulated second; in brackets its error over the bound, and how many times"
+    print "dearer the best other method is.\n"
     print "| problem | metric, reference | 10 % | 1 % | 0.1 % |\n|---|---|---|---|---|"
     for (i = 1; i <= problem_count; ++i) {
         p = problems[i]

@@ -14,6 +14,10 @@ written_by() # what wrote a page, and where
          "$(git describe --always --dirty=' with changes' 2>/dev/null || echo unknown)," \
          "on $1 of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)."
 }
+gaps() # FILE: the table of what has no point, if there is any
+{
+    [ ! -s "$1" ] || { echo; cat "$1"; }
+}
 quoted() { sed 's/^/    /' "$1"; }
 problem() # NAME TEXT
 {
@@ -30,6 +34,7 @@ problem() # NAME TEXT
     echo "![error against sweeps, $1]($1_cost_work.svg)"
     echo "![error against substeps, $1]($1_cost_substeps.svg)"
     echo "![error against iterations, $1]($1_cost_iterations.svg)"
+    gaps "$scratch/$1/cost_gaps.md"
     echo
     echo "All settings, refused ones with their reason: [CSV]($1_cost.csv)."
 }

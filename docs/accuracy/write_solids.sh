@@ -35,6 +35,7 @@ cp "$scratch/conserved_solids/momentum.svg" "$folder/conserved_solids_momentum.s
     quoted "$scratch/precision_solids/command"
     echo
     echo "![error against substeps in both precisions](precision_solids.svg)"
+    gaps "$scratch/precision_solids/cost_gaps.md"
     echo
     echo "## Ratio of mass"
     echo
@@ -43,6 +44,7 @@ cp "$scratch/conserved_solids/momentum.svg" "$folder/conserved_solids_momentum.s
     echo "The vertex that is made heavier is a corner of the beam's free end."
     echo
     echo "![error against the ratio of mass](ratio_mass_solids.svg)"
+    gaps "$scratch/ratio_mass_solids/ratio_mass_gaps.md"
     echo
     echo "There is no sweep over stiffness: a body of tetrahedra has one material, and \`--ratio stiffness\` refuses it."
     echo
