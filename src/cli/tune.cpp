@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 namespace taut::cli {
@@ -22,15 +23,20 @@ struct TuneCommand
     std::string by;
     double error = 0.01;
     StudyLimits limits;
+    std::optional<double> seconds;
     bool at_rest = false, moving = false, prior_only = false, json = false;
 };
+
+constexpr double kSeconds = 50; ///< of a search unless the command says more
 
 TuneOptions tune_options(const TuneCommand& command)
 {
     TuneOptions options;
     options.error = command.error;
     options.by = command.by == "volume" ? TuneCriterion::volume : TuneCriterion::motion;
-    if (!command.methods.empty())
+    const bool all =
+        std::find(command.methods.begin(), command.methods.end(), "all") != command.methods.end();
+    if (!command.methods.empty() && !all) // "all" names none: those of another material are left out
         options.methods = methods_listed(command.methods);
     if (!command.precisions.empty())
         options.precisions.clear();
@@ -44,6 +50,8 @@ TuneOptions tune_options(const TuneCommand& command)
     options.timing_seconds = command.limits.timing_seconds.value_or(options.timing_seconds);
     options.reference_steps = command.limits.reference_steps.value_or(options.reference_steps);
     options.prior_only = command.prior_only;
+    options.seconds =
+        command.seconds.value_or(command.prior_only ? std::numeric_limits<double>::infinity() : kSeconds);
     return options;
 }
 
@@ -77,11 +85,34 @@ std::string rejected_table(const TuneResult& result)
     return text;
 }
 
+/// A group of lines for each reason.
+std::string not_tried_table(const TuneResult& result)
+{
+    std::vector<std::pair<std::string, std::vector<MethodSettings>>> groups;
+    for (const TuneLeft& left : result.not_tried)
+    {
+        auto found = std::find_if(groups.begin(), groups.end(),
+                                  [&](const auto& group) { return group.first == left.reason; });
+        if (found == groups.end())
+            found = groups.insert(found, {left.reason, {}});
+        found->second.push_back(left.settings);
+    }
+    std::string text;
+    for (const auto& [reason, settings] : groups)
+    {
+        text += "not tried  " + std::to_string(settings.size()) + " settings: " + reason + "\n";
+        for (const std::string& line : listed_settings(settings))
+            text += "  " + line + "\n";
+    }
+    return text;
+}
+
 std::string found_text(const TuneResult& result)
 {
     std::string text = "\"method\": " + settings_block(result.settings) + "\n";
     text += "error      " + percent(result.confirmed_error) + " confirmed on " +
-            std::to_string(result.starts) + " starts, " + percent(result.predicted_error) + " predicted\n";
+            std::to_string(result.starts) + (result.starts == 1 ? " start, " : " starts, ") +
+            percent(result.predicted_error) + " predicted\n";
     text += "time       ";
     if (result.ms)
         text += number(*result.ms, 3) + " ms per simulated second";
@@ -95,25 +126,25 @@ std::string found_text(const TuneResult& result)
 
 std::string summary(const TuneResult& result)
 {
-    const std::string span =
-        result.kind == CostKind::at_rest ? "at rest" : "over " + std::to_string(result.frames) + " frames";
+    const std::string span = result.kind == CostKind::at_rest ? " at rest"
+                             : result.frames > 0 ? " over " + std::to_string(result.frames) + " frames"
+                                                 : ""; // without a reference there are none
     std::string text = "Cheapest setting of " + result.scene + " on " + result.device.name + " (" +
                        result.device.executor + ") with " + result.metric + " of at most " +
-                       percent(result.bound) + " " + span + "\n";
+                       percent(result.bound) + span + "\n";
     text += "reference  " + result.reference.name + ": " + result.reference.text + "\n";
     for (const std::string& passed : result.reference.passed)
         text += "           passed over: " + passed + "\n";
     if (result.interrupted)
         text += "Interrupted: settings that were not tried may be cheaper, or keep the error.\n";
-    text += result.found         ? found_text(result)
-            : result.interrupted ? "None of those tried keeps that error.\n"
-                                 : "No setting keeps that error.\n";
+    text += result.found ? found_text(result) : result.why + "\n";
     for (const std::string& note : result.notes)
         text += "note       " + note + "\n";
-    text += "rejected   " + std::to_string(result.rejected.size()) + " settings; " +
-            std::to_string(result.not_tried) + (result.interrupted ? "" : " dearer ones") +
-            " were not tried\n";
-    return text + rejected_table(result);
+    text += "tried      " + std::to_string(result.tried.size()) + " settings\n";
+    for (const std::string& line : listed_settings(result.tried))
+        text += "  " + line + "\n";
+    text += "rejected   " + std::to_string(result.rejected.size()) + " settings\n" + rejected_table(result);
+    return text + not_tried_table(result);
 }
 
 int tune_scene(const TuneCommand& command)
@@ -144,11 +175,19 @@ void add_tune(CLI::App& app, Command& chosen)
         ->check(number_between(0, 1, Ends::open, "; 0.01 is 1 %"));
     command->add_option("--by", options->by, "What the error is of (default: motion)")
         ->check(CLI::IsMember({"motion", "volume"}));
-    command->add_option("--methods", options->methods, "To try, or \"all\" (default: all)")->delimiter(',');
+    command
+        ->add_option("--methods", options->methods,
+                     "To try (default, and \"all\": all but those of another material)")
+        ->delimiter(',');
     add_precisions_option(*command, options->precisions);
     add_kind_options(*command, options->at_rest, options->moving, "Bound the error of");
     add_limit_options(*command, options->limits,
                       "Moving: frames compared at most (default: 120)");
+    command
+        ->add_option("--seconds", options->seconds,
+                     "Wall seconds of the search; what is not tried until then is named (default: 50, with "
+                     "--prior-only no limit)")
+        ->check(number_between(0, std::numeric_limits<double>::infinity(), Ends::closed));
     command->add_flag("--prior-only", options->prior_only,
                       "Go by predicted cost alone and time nothing: the same answer on every machine");
     command->add_flag("--json", options->json, "Print the result as one JSON object");

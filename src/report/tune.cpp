@@ -20,6 +20,8 @@ constexpr double kMargin = 0.8;     ///< of the bound, at the last rung
 constexpr double kHysteresis = 1.1; ///< the scene's own setting stays up to this price
 constexpr std::size_t kFinalists = 3;
 constexpr double kFarthest = 3; ///< finalists cost at most so many times the first
+// Parts of TuneOptions::seconds: what a reference may take, and when the race changes and ends.
+constexpr double kOwnReference = 0.35, kPerturbedReference = 0.1, kHalfRace = 0.6, kRace = 0.8;
 
 void check_input(const Scene& scene, const TuneOptions& options)
 {
@@ -29,6 +31,8 @@ void check_input(const Scene& scene, const TuneOptions& options)
         throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
     if (scene.bodies.empty())
         throw Error(ErrorCode::bad_input, "bodies is empty: there is nothing to tune; add a body.");
+    if (!(options.seconds >= 0))
+        throw Error(ErrorCode::bad_input, "the seconds of the search must be 0 or more.");
     if (options.by == TuneCriterion::volume && options.kind == CostKind::at_rest)
         throw Error(ErrorCode::bad_input,
                     "an error of volume is the worst of all frames; leave out that it is at rest.");
@@ -56,6 +60,7 @@ public:
     Tuner(const Scene& scene, std::shared_ptr<Device> device, const TuneOptions& options)
         : options_(options),
           device_(std::move(device)),
+          watch_(options),
           scene_(scene)
     {
         out_.scene = scene_.name;
@@ -72,34 +77,62 @@ public:
         references_.reference_steps = options.reference_steps;
         const std::size_t wanted = cost::wanted_frames(scene_, references_);
         references_.frames = std::min(options.frames, wanted > 0 ? wanted : options.frames);
+        if (out_.kind == CostKind::moving && options.kind == CostKind::automatic && held_still(scene_) &&
+            scene_.colliders.empty())
+            out_.notes.push_back("without damping the scene never rests: the error is that of its "
+                                 "trajectory; with damping above 0 it would be that at rest");
     }
 
     TuneResult run()
     {
-        starts_.push_back(start_of(scene_));
-        const Start& start = starts_[0];
-        out_.reference = start.reference;
-        out_.metric = start.metric;
-        if (!start.reference.verified)
-        {
-            out_.notes.push_back("without a reference no error can be bounded");
+        if (!begin())
             return std::move(out_);
-        }
-        if (out_.kind == CostKind::moving)
-            out_.frames = references_.frames = start.frames;
         race(priced());
         if (!finalists_.empty())
             choose();
+        else
+            say_none();
         return std::move(out_);
     }
 
 private:
     bool by_volume() const { return options_.by == TuneCriterion::volume; }
 
-    Start start_of(const Scene& scene)
+    /// The scene's own start. False: nothing can be tried, and the result says why.
+    bool begin()
     {
-        return by_volume() ? make_volume_start(scene, references_.frames)
-                           : make_start(scene, device_, out_.kind, references_);
+        starts_.push_back(start_of(scene_, kOwnReference));
+        Start& start = starts_[0];
+        const std::size_t verified = start.frames, wanted = references_.frames;
+        const bool fits = start.reference.verified && fit_reference(start, options_.error);
+        out_.reference = start.reference;
+        out_.metric = start.metric;
+        if (!fits)
+        {
+            out_.answer = start.reference.verified ? TuneAnswer::poor_reference : TuneAnswer::no_reference;
+            out_.why =
+                start.reference.verified ? poor_reference(out_, options_) : no_reference(out_, options_);
+            return false;
+        }
+        if (out_.kind == CostKind::at_rest)
+            return true;
+        out_.frames = references_.frames = start.frames;
+        if (start.frames < wanted)
+            out_.notes.push_back(frames_note(start.frames, verified, wanted));
+        return true;
+    }
+
+    /// `part` of the time is for its reference.
+    Start start_of(const Scene& scene, double part)
+    {
+        if (by_volume())
+            return make_volume_start(scene, references_.frames);
+        CostOptions options = references_;
+        const double begun = watch_.spent();
+        options.enough = [&, begun](double share) {
+            return watch_.spent() - begun >= share * part * options_.seconds;
+        };
+        return make_start(scene, device_, out_.kind, options);
     }
 
     void reject(const Candidate& candidate, const char* stage, std::string reason,
@@ -113,43 +146,95 @@ private:
     {
         const DeviceTraits traits =
             options_.prior_only ? limits_as_traits(*device_) : measure_traits(*device_);
-        const SceneFacts facts = scene_facts(starts_[0].model, starts_[0].reference);
+        facts_ = scene_facts(starts_[0].model, starts_[0].reference);
         std::vector<Candidate> all{{scene_.method, 0, true}}, out;
         for (const MethodKind kind : references_.methods)
             for (const Precision precision : options_.precisions)
                 for (MethodSettings& settings : method_design(kind, precision, scene_.method))
                     if (settings_block(settings) != settings_block(scene_.method))
                         all.push_back({std::move(settings), 0, false});
+        const bool chosen = by_volume() || !options_.methods.empty();
         for (Candidate& candidate : all)
         {
-            std::string reason = filtered(scene_, facts, traits, options_.error, candidate);
-            if (reason.empty())
-                out.push_back(std::move(candidate));
+            const std::string reason = filtered(scene_, facts_, traits, options_.error, candidate);
+            const std::string other = other_material(facts_, candidate.settings);
+            if (!reason.empty())
+                reject(candidate, "filter", reason);
+            else if (!other.empty() && !chosen && candidate.settings.type != scene_.method.type)
+                reject(candidate, "material", other + "; name it in --methods to try it");
             else
-                reject(candidate, "filter", std::move(reason));
+                out.push_back(std::move(candidate));
         }
         std::stable_sort(out.begin(), out.end(),
                          [](const Candidate& a, const Candidate& b) { return a.prior < b.prior; });
         return out;
     }
 
-    void race(const std::vector<Candidate>& candidates)
+    /// From the cheapest on. What fell in float is tried in double only when nothing else is found.
+    void race(std::vector<Candidate> all)
     {
-        const std::size_t wanted = options_.prior_only ? 1 : kFinalists;
-        for (std::size_t i = 0; i < candidates.size(); ++i)
+        std::vector<Candidate> twins;
+        total_ = all.size();
+        pass(std::move(all), &twins);
+        if (finalists_.empty())
+            return pass(std::move(twins), nullptr);
+        for (const Candidate& twin : twins)
+            out_.not_tried.push_back({twin.settings, "it fell in float"});
+    }
+
+    /// Halfway through its time without a find it goes for accuracy: most substeps first.
+    void pass(std::vector<Candidate> all, std::vector<Candidate>* twins)
+    {
+        bool hurried = false;
+        for (auto at = all.begin(); at != all.end(); ++at)
         {
-            const Candidate& candidate = candidates[i];
-            out_.interrupted =
-                out_.interrupted || (options_.progress && !options_.progress(i, candidates.size()));
-            const bool enough =
-                finalists_.size() >= wanted ||
-                (!finalists_.empty() && candidate.prior > kFarthest * finalists_[0].candidate.prior);
-            const double most = finalists_.empty() ? 0 : kFarthest * finalists_[0].candidate.prior;
-            if (out_.interrupted || (enough && !(candidate.own && candidate.prior <= most)))
-                ++out_.not_tried;
+            if (!hurried && finalists_.empty() && watch_.over(kHalfRace))
+            {
+                hurried = true;
+                std::stable_sort(at, all.end(), [](const Candidate& a, const Candidate& b) {
+                    return a.settings.substeps > b.settings.substeps;
+                });
+            }
+            if (twins && fell_in_float(at->settings))
+                twins->push_back(*at);
+            else if (const std::string reason = left_out(*at); !reason.empty())
+                out_.not_tried.push_back({at->settings, reason});
             else
-                try_candidate(candidate);
+                try_candidate(*at);
         }
+    }
+
+    /// Why a candidate is not tried; empty: it is.
+    std::string left_out(const Candidate& candidate)
+    {
+        const std::size_t done = out_.tried.size() + out_.not_tried.size();
+        out_.interrupted = out_.interrupted || (options_.progress && !options_.progress(done, total_));
+        if (out_.interrupted)
+            return "interrupted";
+        if (watch_.over(kRace))
+            return "the time was up";
+        if (finalists_.empty())
+            return {};
+        const double first = finalists_[0].candidate.prior;
+        if (candidate.prior > kFarthest * first)
+            return "dearer than what was found";
+        const std::size_t wanted = options_.prior_only ? 1 : kFinalists;
+        if (candidate.own || finalists_.size() < wanted)
+            return {};
+        return candidate.prior >= first ? "dearer than what was found" : "enough others were found before it";
+    }
+
+    static bool was_run(const TuneRejection& r) { return r.stage != "filter" && r.stage != "material"; }
+    /// A step that diverges in float does so in double too: it counts, though it has no error.
+    bool fell_in_float(const MethodSettings& settings) const
+    {
+        MethodSettings twin = settings;
+        twin.precision = "float";
+        const std::string block = settings_block(twin);
+        return settings.precision == "double" &&
+               std::any_of(out_.rejected.begin(), out_.rejected.end(), [&](const TuneRejection& r) {
+                   return was_run(r) && settings_block(r.settings) == block;
+               });
     }
 
     void try_candidate(const Candidate& candidate)
@@ -157,11 +242,13 @@ private:
         try
         {
             const Lap lap = on_start(0, candidate.settings);
+            if (lap.cut)
+                return out_.not_tried.push_back({candidate.settings, "the time was up"});
+            out_.tried.push_back(candidate.settings);
             if (!lap.reason.empty())
                 return reject(candidate, "race", lap.reason, lap.error);
-            for (const auto guard : {momentum_guard, rest_guard})
-                if (std::string reason = guard(scene_, device_, candidate.settings); !reason.empty())
-                    return reject(candidate, "guard", std::move(reason), lap.error);
+            if (std::string law = broken_law(scene_, device_, candidate.settings, out_.kind); !law.empty())
+                return reject(candidate, "guard", std::move(law), lap.error);
             confirm(candidate, *lap.error);
         }
         catch (const Error& error) // what the plan let pass and the device refuses
@@ -177,7 +264,8 @@ private:
     {
         const Start& start = starts_[which];
         const double bound = kMargin * options_.error - start.reference.error.value_or(0);
-        return run_lap(start, device_, settings, out_.kind, bound, options_.rest_seconds);
+        return run_lap(start, device_, settings, out_.kind, bound, options_.rest_seconds,
+                       [this] { return watch_.over(1); });
     }
 
     /// Two perturbed starts beside the scene's own; their references are made when first needed.
@@ -191,6 +279,8 @@ private:
             if (!starts_[which].reference.verified)
                 continue;
             const Lap lap = on_start(which, candidate.settings);
+            if (lap.cut)
+                continue;
             if (!lap.reason.empty())
                 return reject(candidate, "perturbed", "start " + std::to_string(which) + ": " + lap.reason,
                               lap.error);
@@ -200,12 +290,25 @@ private:
         finalists_.push_back(finalist);
     }
 
+    /// Of the class that the scene's own reference has: another one would bound another error. A start whose
+    /// reference is not good enough is left out.
     void add_perturbed(std::uint32_t which)
     {
-        starts_.push_back(start_of(perturbed(scene_, which)));
-        if (!starts_.back().reference.verified)
-            out_.notes.push_back("perturbed start " + std::to_string(which) +
-                                 " has no reference that can be trusted and is left out");
+        const std::vector<MethodKind>& methods = starts_[0].reference.methods;
+        references_.self_reference = !methods.empty();
+        references_.refined = methods;
+        starts_.push_back(start_of(perturbed(scene_, which), kPerturbedReference));
+        Start& start = starts_.back();
+        if (start.reference.verified && fit_reference(start, options_.error))
+            return;
+        out_.notes.push_back(perturbed_note(which, start.reference, options_.error));
+        start.reference.verified = false;
+    }
+
+    void say_none()
+    {
+        out_.answer = TuneAnswer::none_of_tried;
+        out_.why = none_of_tried(out_);
     }
 
     double price(const Finalist& finalist) const
@@ -222,7 +325,7 @@ private:
         for (Finalist& finalist : finalists_)
         {
             cost::Trial trial(scene_, device_, finalist.candidate.settings);
-            finalist.timing = trial.time(frames, options_.timing_seconds);
+            finalist.timing = trial.time(frames, std::min(options_.timing_seconds, 0.03 * options_.seconds));
         }
     }
 
@@ -243,6 +346,7 @@ private:
                                  : "a cheaper one keeps the bound",
                        finalist.confirmed);
         out_.found = true;
+        out_.answer = TuneAnswer::found;
         out_.settings = best.candidate.settings;
         out_.predicted_error = best.predicted;
         out_.confirmed_error = best.confirmed;
@@ -254,12 +358,20 @@ private:
             if (!device_->info().hardware_gpu)
                 out_.cpu_ms = best.timing->cpu;
         }
+        if (out_.starts == 1)
+            out_.notes.push_back(
+                "no perturbed start confirms the setting: it is confirmed on the scene's own");
+        if (const std::string other = other_material(facts_, out_.settings); !other.empty())
+            out_.notes.push_back("the setting is of another material: " + other);
     }
 
     const TuneOptions& options_;
     std::shared_ptr<Device> device_;
+    Watch watch_;
     Scene scene_;
+    SceneFacts facts_;
     CostOptions references_;
+    std::size_t total_ = 0;     ///< candidates that the filter let pass
     std::vector<Start> starts_; ///< the scene's own, then perturbed ones
     std::vector<Finalist> finalists_;
     TuneResult out_;

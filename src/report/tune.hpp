@@ -3,11 +3,12 @@
 
 #include "taut/report/cost.hpp"
 
-#include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace taut {
@@ -23,13 +24,18 @@ struct TuneOptions
 {
     double error = 0.01;             ///< bound on the error, (0, 1)
     TuneCriterion by = TuneCriterion::motion;
-    std::vector<MethodKind> methods; ///< empty: all
+    /// Empty: all but those of another material (other_material() in tune_parts.hpp).
+    std::vector<MethodKind> methods;
     std::vector<Precision> precisions{Precision::float32, Precision::float64};
     CostKind kind = CostKind::automatic;
     std::size_t frames = 120;       ///< moving: of the last rung, at most; a reference may verify fewer
     double rest_seconds = 30;       ///< at rest: simulated s at most until a setting must rest
     double timing_seconds = 2;      ///< wall s after which no further repetition starts
-    double reference_steps = 1.5e9; ///< element steps of R3 at most, for each of three references
+    double reference_steps = 6e8;   ///< element steps of R3 at most, for each of three references
+    /// Wall s for the whole search: what is not tried until then is named in the result. Infinite: the answer
+    /// does not depend on the machine's speed.
+    double seconds = std::numeric_limits<double>::infinity();
+    std::function<double()> clock; ///< s since some moment; empty: the machine's own
     /// Price is the prior alone, with the default costs of a device: nothing is timed, the same on every
     /// machine.
     bool prior_only = false;
@@ -37,13 +43,29 @@ struct TuneOptions
     std::function<bool(std::size_t done, std::size_t total)> progress;
 };
 
+enum class TuneAnswer
+{
+    found,
+    no_reference,   ///< none can be trusted
+    poor_reference, ///< its own error takes too much of the bound: nothing was tried
+    none_of_tried   ///< of `tried` none keeps the bound
+};
+std::string_view to_string(TuneAnswer answer); ///< "found", "no_reference", ...
+
 /// Where a candidate fell.
 struct TuneRejection
 {
     MethodSettings settings;
-    std::string stage; ///< "filter", "race", "guard", "perturbed", "price"
+    std::string stage; ///< "filter", "material", "race", "guard", "perturbed", "price"
     std::string reason;
     std::optional<double> error; ///< at the rung where it fell
+};
+
+/// What was left, and why.
+struct TuneLeft
+{
+    MethodSettings settings;
+    std::string reason;
 };
 
 struct TuneResult
@@ -55,6 +77,8 @@ struct TuneResult
     std::size_t frames = 0; ///< moving: of the last rung
     double bound = 0;
     CostReference reference;
+    TuneAnswer answer = TuneAnswer::none_of_tried;
+    std::string why; ///< where nothing is found: a sentence with what would help; else empty
     bool found = false, interrupted = false;
     bool kept = false; ///< the scene's own setting holds the bound and nothing is 10 % cheaper
     MethodSettings settings;
@@ -64,9 +88,14 @@ struct TuneResult
     double predicted_ms = 0;          ///< per simulated second, by the prior
     std::optional<double> ms, cpu_ms; ///< timed, wall and process; empty with prior_only
     std::vector<TuneRejection> rejected;
-    std::size_t not_tried = 0; ///< dearer ones
+    std::vector<MethodSettings> tried; ///< simulated, in that order
+    std::vector<TuneLeft> not_tried;
     std::vector<std::string> notes;
 };
+
+/// "xpbd in float: 1, 2, 4 substeps x 1 iteration; 1, 4 substeps x 4 iterations": a line for each method,
+/// precision and choice of its own.
+std::vector<std::string> listed_settings(const std::vector<MethodSettings>& settings);
 
 /// Static filter, prices, race over rungs of 18, 48 and 120 frames with slack 3, 2, 1, guards, two perturbed
 /// starts, a margin of 0.8 and hysteresis of 10 %. Throws Error{bad_input} for impossible options, among them

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace taut::tuning {
@@ -42,9 +43,52 @@ double prior_ms(const Plan& plan, const DeviceTraits& traits)
     return 1e-6 * ns / plan.timestep;
 }
 
+namespace {
+
+void add_strains(const PhysicalModel& model, const std::vector<glm::dvec3>& x, SceneFacts& out)
+{
+    for (const StretchElement& spring : model.springs)
+    {
+        if (!(spring.rest_length > 0))
+            continue;
+        const double strain = glm::distance(x[spring.a], x[spring.b]) / spring.rest_length - 1;
+        out.strain = std::max(out.strain, strain);
+        if (spring.kind == SpringKind::structural)
+            out.structural_strain = std::max(out.structural_strain, strain);
+    }
+}
+
+template <class Elements>
+bool any_stiff(const Elements& elements)
+{
+    return std::any_of(elements.begin(), elements.end(),
+                       [](const auto& e) { return e.compliance > 0 && std::isfinite(e.compliance); });
+}
+
+} // namespace
+
+std::string other_material(const SceneFacts& facts, const MethodSettings& settings)
+{
+    if (settings.type == "pbd" && facts.stiff)
+        return "pbd does not have the material's stiffness: its own has no unit and lies in [0, 1]";
+    const double strain = settings.constrained == "structural" ? facts.structural_strain : facts.strain;
+    if (settings.type == "acad" && strain > settings.activate_strain)
+        return "acad holds a spring at a strain of " + number(settings.activate_strain) +
+               ", the reference stretches one by " + number(strain);
+    if ((settings.type == "acad" || settings.type == "implicit_constraints") && facts.stiff &&
+        settings.constraint_compliance >= 0)
+        return settings.type + " gives every constraint a compliance of " +
+               number(settings.constraint_compliance) + " m/N in place of the material's";
+    return {};
+}
+
 SceneFacts scene_facts(const PhysicalModel& model, const CostReference& reference)
 {
     SceneFacts out;
+    out.stiff = any_stiff(model.springs) || any_stiff(model.hinges) || any_stiff(model.volumes) ||
+                any_stiff(model.surfaces) || !model.solids.empty();
+    for (std::size_t f = 1; f < reference.frames.size(); ++f) // the start is left whatever the method
+        add_strains(model, reference.frames[f], out);
     for (std::size_t f = 1; f < reference.frames.size() && reference.frames.size() > 2; ++f)
         for (std::size_t i = 0; i < model.mass.size(); ++i)
         {

@@ -112,6 +112,14 @@ std::string rest_guard(const Scene& resolved, const std::shared_ptr<Device>& dev
     return moved <= kRest ? "" : "rest: a vertex wandered " + number(moved) + " of the diagonal";
 }
 
+std::string broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
+                       const MethodSettings& settings, CostKind kind)
+{
+    const bool falls = kind != CostKind::at_rest || !held_still(resolved);
+    std::string out = falls ? momentum_guard(resolved, device, settings) : "";
+    return out.empty() ? rest_guard(resolved, device, settings) : out;
+}
+
 Scene perturbed(const Scene& resolved, std::uint32_t number)
 {
     Scene out = resolved;

@@ -23,6 +23,22 @@ Json rejections(const TuneResult& result)
     return out;
 }
 
+Json blocks(const std::vector<MethodSettings>& settings)
+{
+    Json out = Json::array();
+    for (const MethodSettings& one : settings)
+        out.push_back(Json::parse(settings_block(one)));
+    return out;
+}
+
+Json left(const TuneResult& result)
+{
+    Json out = Json::array();
+    for (const TuneLeft& one : result.not_tried)
+        out.push_back({{"method", Json::parse(settings_block(one.settings))}, {"reason", one.reason}});
+    return out;
+}
+
 } // namespace
 
 std::string tune_json(const TuneResult& result)
@@ -33,6 +49,8 @@ std::string tune_json(const TuneResult& result)
     json["executor"] = result.device.executor;
     json["driver"] = result.device.driver;
     json["found"] = result.found;
+    json["answer"] = to_string(result.answer);
+    json["why"] = result.why.empty() ? Json(nullptr) : Json(result.why);
     json["error_bound"] = result.bound;
     json["error_metric"] = result.metric;
     json["kind"] = result.kind == CostKind::at_rest ? "static" : "moving";
@@ -50,7 +68,8 @@ std::string tune_json(const TuneResult& result)
     json["cpu_ms_per_simulated_second"] = maybe(result.cpu_ms);
     json["kept"] = result.kept;
     json["rejected"] = rejections(result);
-    json["not_tried"] = result.not_tried;
+    json["tried"] = blocks(result.tried);
+    json["not_tried"] = left(result);
     json["notes"] = result.notes;
     json["status"] = to_string(result.interrupted ? Status::interrupted : Status::completed);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

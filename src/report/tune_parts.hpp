@@ -32,12 +32,20 @@ struct SceneFacts
     double shortest = 0;      ///< m, spring above zero length
     double mass_ratio = 1;    ///< between vertices that a spring joins and that move
     std::size_t free_coordinates = 0, springs = 0, rigid = 0;
+    bool stiff = false; ///< an element has a stiffness that is neither 0 nor infinite
+    /// (l - L)/L at most in the reference, of all springs and of structural ones; 0 where it has no frames.
+    double strain = 0, structural_strain = 0;
 };
 SceneFacts scene_facts(const PhysicalModel& model, const CostReference& reference);
 
 /// Why a setting need not be simulated; empty: it must be. Sets the prior.
 std::string filtered(const Scene& resolved, const SceneFacts& facts, const DeviceTraits& traits, double bound,
                      Candidate& candidate);
+
+/// What of the scene's material a method replaces by one of its own: empty, or a sentence. pbd has a
+/// stiffness without a unit, acad holds springs at a strain, implicit_constraints may be given one compliance
+/// for all.
+std::string other_material(const SceneFacts& facts, const MethodSettings& settings);
 
 /// Free fall without pins, colliders, damping and wind: empty when the whole keeps its momentum, else why
 /// not.
@@ -47,6 +55,11 @@ std::string momentum_guard(const Scene& resolved, const std::shared_ptr<Device>&
 /// pulls by itself (a stretched net).
 std::string rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
                        const MethodSettings& settings);
+
+/// Which of both laws a setting breaks; empty: none. Free fall tells nothing of the rest of what pins hold
+/// up.
+std::string broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
+                       const MethodSettings& settings, CostKind kind);
 
 /// Free vertices displaced by at most 1e-3 of the diagonal along a long wave that dies out towards the pins;
 /// `number` picks the wave.
@@ -62,11 +75,40 @@ struct Start
     std::string metric;     ///< "e_traj", "e_disp", "e_L" or "e_V"
     std::size_t frames = 0; ///< moving: of the last rung
 };
+
+/// A reference's own error takes at most so much of the bound.
+inline constexpr double kReferenceShare = 0.4;
+/// Cuts a moving start to the frames whose reference is good enough for the bound. False, and the start
+/// stays as it is, when even the first frames are not, or the rest is not.
+bool fit_reference(Start& start, double bound);
+
 /// Reference and metric of a scene. Without a reference `reference.verified` is false.
 Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, CostKind kind,
                  const CostOptions& options);
 /// e_V over so many frames: the reference is the volume at rest and has no frames.
 Start make_volume_start(const Scene& resolved, std::size_t frames);
+
+/// What is gone of TuneOptions::seconds.
+class Watch
+{
+public:
+    explicit Watch(const TuneOptions& options); ///< starts; the options must outlive it
+    double spent() const;                       ///< s
+    bool over(double part) const { return spent() >= part * options_.seconds; }
+
+private:
+    double now() const;
+    const TuneOptions& options_;
+    double begun_;
+};
+
+// What a result says in words, with what would help (tune_words.cpp).
+std::string no_reference(const TuneResult& result, const TuneOptions& options);
+std::string poor_reference(const TuneResult& result, const TuneOptions& options);
+std::string none_of_tried(const TuneResult& result);
+/// Of the frames that a scene wants: so many have a reference, and so many of those one that is good enough.
+std::string frames_note(std::size_t good, std::size_t verified, std::size_t wanted);
+std::string perturbed_note(std::uint32_t which, const CostReference& reference, double bound);
 
 /// A candidate on one start, rung by rung.
 struct Lap
@@ -74,9 +116,10 @@ struct Lap
     std::optional<double> error; ///< at the last rung that it reached
     std::size_t frames = 0;      ///< of that rung; 0 = at rest
     std::string reason;          ///< why it fell; empty: it passed the last rung
+    bool cut = false;            ///< the time was up: it neither fell nor passed
 };
 /// `bound` holds at the last rung; earlier ones have slack.
 Lap run_lap(const Start& start, const std::shared_ptr<Device>& device, const MethodSettings& settings,
-            CostKind kind, double bound, double rest_seconds);
+            CostKind kind, double bound, double rest_seconds, const std::function<bool()>& enough = {});
 
 } // namespace taut::tuning

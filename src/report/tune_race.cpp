@@ -2,6 +2,7 @@
 // Based on: Jamieson, Talwalkar, Non-stochastic Best Arm Identification and Hyperparameter Optimization,
 //   2016 (successive halving: short runs sort out most).
 // Departures: candidates come in the order of their price, and the first that passes ends the race.
+#include "taut/report/cost_self.hpp"
 #include "taut/report/tune_parts.hpp"
 #include "taut/report/volume.hpp"
 
@@ -95,6 +96,26 @@ Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, C
     return out;
 }
 
+bool fit_reference(Start& start, double bound)
+{
+    CostReference& reference = start.reference;
+    const double most = kReferenceShare * bound;
+    if (reference.error.value_or(0) <= most)
+        return true;
+    if (start.frames == 0 || start.metric == "e_L" || reference.errors.size() != reference.frames.size())
+        return false;
+    std::size_t good = start.frames;
+    while (good > 0 && !(reference.errors[good] <= most))
+        --good;
+    if (good < std::min(start.frames, cost::kFewest))
+        return false;
+    reference.error = reference.errors[good];
+    reference.frames.resize(good + 1);
+    reference.errors.resize(good + 1);
+    start.frames = good;
+    return true;
+}
+
 Start make_volume_start(const Scene& resolved, std::size_t frames)
 {
     Start out{resolved, make_model(resolved), {}, {}, "e_V", frames};
@@ -107,13 +128,15 @@ Start make_volume_start(const Scene& resolved, std::size_t frames)
 }
 
 Lap run_lap(const Start& start, const std::shared_ptr<Device>& device, const MethodSettings& settings,
-            CostKind kind, double bound, double rest_seconds)
+            CostKind kind, double bound, double rest_seconds, const std::function<bool()>& enough)
 {
     Lap out;
     cost::Trial trial(start.scene, device, settings);
     if (kind == CostKind::at_rest)
     {
-        const Motion motion = trial.settle({start.weights, &start.reference.frames.back(), rest_seconds});
+        const Motion motion =
+            trial.settle({start.weights, &start.reference.frames.back(), rest_seconds, false, enough});
+        out.cut = !motion.rests && enough && enough();
         passes(start, motion, bound, out);
         return out;
     }
@@ -124,7 +147,10 @@ Lap run_lap(const Start& start, const std::shared_ptr<Device>& device, const Met
         // The worst of all frames only grows: it needs no slack.
         const double slack = start.metric == "e_V" ? 1 : kSlack[all.size() - 1 - r];
         out.frames = all[r];
-        trial.extend(motion, all[r]);
+        trial.extend(motion, all[r], enough);
+        out.cut = motion.reason.empty() && motion.steps < all[r];
+        if (out.cut)
+            break;
         if (!passes(start, motion, slack * bound, out))
             break;
     }

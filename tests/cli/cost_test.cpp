@@ -103,7 +103,16 @@ TEST_CASE("tune prints a method block that a scene takes, or says that nothing k
     const Result none = with_bound("1e-12");
     CHECK(none.status == 1);
     CHECK(program::parse(none.out)["method"].is_null());
+    CHECK(program::parse(none.out)["answer"] == "poor_reference");
     CHECK(with_bound("2").status == 2);
+    std::vector<std::string> no_time = common;
+    no_time.insert(no_time.end(), {"0.3", "--seconds", "0"});
+    const Result late = folder.taut(no_time);
+    CHECK(late.status == 1);
+    CHECK(program::parse(late.out)["tried"].empty());
+    CHECK_FALSE(program::parse(late.out)["not_tried"].empty());
+    no_time.erase(std::find(no_time.begin(), no_time.end(), "--json"));
+    CHECK(folder.taut(no_time).out.find("No setting was tried: the time was up.\n") != std::string::npos);
 }
 
 TEST_CASE("tune by volume bounds e_V of a scene of cloth and a solid, and asks for a body that has a volume")
