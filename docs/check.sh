@@ -8,7 +8,8 @@ cd "$(dirname "$0")"
 for page in "$@"; do
     case $page in
         accuracy) sh accuracy/check.sh ;;
-        cloth) awk -f claims.awk -f cloth/claims.awk cloth.md cloth/*.csv ../tests/bench/results/bullet.csv ;;
+        cloth) awk -f claims.awk -f cloth/claims.awk cloth.md cloth/*.csv \
+            ../tests/bench/results/bullet.csv ../tests/bench/results/size.csv ;;
         hybrid) awk -f claims.awk -f hybrid/claims.awk hybrid.md ../tests/bench/results/split.csv ;;
         *) awk -f claims.awk -f "$page/claims.awk" "$page.md" "$page"/*.csv ;;
     esac

@@ -7,8 +7,8 @@
 # truth, formed from the tables, must hold. No digit of the paragraphs may be left outside a text: a number that
 # nothing is held against cannot be written. name(TEXT) is for digits that are none, as in a citation.
 #
-#   v(TABLE, ROW, COLUMN)   a number; the row by its first field, or by the first two with a blank between. The
-#                           table is the file's name without .csv
+#   v(TABLE, ROW, COLUMN)   a number; the row by its first field, or by the first two or three with blanks between.
+#                           The table is the file's name without .csv
 #   text_of(...)            the same as text
 #   about(A, B)             A is B but for the last digit that is given of B as text: about(3.46, "3.5")
 #   among(X, LOW, HIGH)     LOW <= X <= HIGH
@@ -87,7 +87,8 @@ files == 1 { if (showing) shown = shown " " $0; next }
     n = cells($0)
     row_name[table, ++rows[table]] = cell[1]
     for (i = 1; i <= columns; ++i)
-        value[table, cell[1], head[i]] = value[table, cell[1] " " cell[2], head[i]] = i <= n ? cell[i] : ""
+        value[table, cell[1], head[i]] = value[table, cell[1] " " cell[2], head[i]] = \
+            value[table, cell[1] " " cell[2] " " cell[3], head[i]] = i <= n ? cell[i] : ""
 }
 END {
     claims()

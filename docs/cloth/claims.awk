@@ -101,7 +101,32 @@ function claims()
           && all_are("opencloth", "status", "unconverged"))
     claim("Executors agree bit for bit.", apart("opencloth", "native on all cores") + apart("opencloth", "Vulkan") \
               + apart("opencloth", "OpenGL") == 0)
+    claims_of_size()
     claims_of_bullet()
+}
+
+function at(side, method, executor, column) { return v("size", method " " side * side " " executor, column) }
+function step(side, method) { return at(side, method, "cpu:serial", "median_ms") }
+function far(side, method) { return at(side, method, "cpu:serial", "worst_stretch") * 100 }
+
+function claims_of_size()
+{
+    claim("From 16² to 64² vertices a step on one core becomes 51 times as dear for mass-spring",
+          about(step(64, "mass_spring") / step(16, "mass_spring"), "51"))
+    claim("40 times for enforcement and 18 times for position-based dynamics.",
+          about(step(64, "implicit_constraints") / step(16, "implicit_constraints"), "40") \
+          && about(step(64, "pbd") / step(16, "pbd"), "18"))
+    claim("At 64² the latter costs a thirtieth of mass-spring and stretches by 863 %, 75 times as far",
+          among(step(64, "mass_spring") / step(64, "pbd"), 27, 33) && about(far(64, "pbd"), "863") \
+          && about(far(64, "pbd") / far(64, "mass_spring"), "75"))
+    name("20 iterations do not reach across so many vertices")
+    claim("Enforcement stretches by 0.7 % at most, for two to three and a half times the price of mass-spring.",
+          about(far(64, "implicit_constraints"), "0.7") \
+          && among(step(64, "implicit_constraints") / step(64, "mass_spring"), 2, 3.6) \
+          && among(step(16, "implicit_constraints") / step(16, "mass_spring"), 2, 3.6))
+    claim("Software drivers take 3 to 82 times the native time, the less the larger the cloth.",
+          at(64, "mass_spring", "vulkan", "to_serial") > 3 && at(16, "implicit_constraints", "vulkan", "to_serial") <= 82 \
+          && at(64, "pbd", "vulkan", "to_serial") < at(16, "pbd", "vulkan", "to_serial"))
 }
 
 # SIDE ENGINE COLUMN of bullet.csv.
