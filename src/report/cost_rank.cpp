@@ -2,20 +2,14 @@
 #include "taut/report/cost.hpp"
 
 #include "taut/report/method_settings.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace taut {
 namespace {
 
-/// Three digits, whatever the locale.
-std::string number(double value)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
-    return std::string(text, end);
-}
+std::string number(double value) { return shown(value, 3); }
 
 /// What counts for ranking: nothing is told apart below ten times the reference's own error.
 double ranked_error(const CostPoint& point, double floor) { return std::max(*point.error, floor); }

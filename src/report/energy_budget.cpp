@@ -1,6 +1,7 @@
 #include "taut/report/energy_budget.hpp"
 
 #include "taut/report/contact.hpp"
+#include "taut/scene/extent.hpp"
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
@@ -33,32 +34,17 @@ struct Mover
     bool holds = false;
 };
 
-struct Box
-{
-    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
-
-    void take(const glm::dvec3& p)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-};
-
 std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
 {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
     std::vector<Mover> out;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
         for (const Pin& pin : scene.bodies[b].pins)
         {
-            glm::dvec3 low(kFar), high(-kFar);
+            Extent held;
             for (const std::uint32_t v : pin.vertices)
-            {
-                low = glm::min(low, model.start[model.body_start[b] + v]);
-                high = glm::max(high, model.start[model.body_start[b] + v]);
-            }
-            if (!pin.motion.empty() && low.x <= high.x)
-                out.push_back({pin.motion, box_corners(low, high), true});
+                held.take(model.start[model.body_start[b] + v]);
+            if (!pin.motion.empty() && held.low.x <= held.high.x)
+                out.push_back({pin.motion, box_corners(held.low, held.high), true});
         }
     for (const Collider& c : scene.colliders)
     {
@@ -125,10 +111,10 @@ std::vector<MoverPath> paths_of(const std::vector<Mover>& movers)
 
 /// Where the body of the vertices from `first` to before `last` can have been: a box around its start and
 /// now, as much larger on every side as it was itself and as its speed at the start took it.
-Box room_of(const PhysicalModel& model, std::span<const glm::dvec3> x, std::uint32_t first,
-            std::uint32_t last, double time)
+Extent room_of(const PhysicalModel& model, std::span<const glm::dvec3> x, std::uint32_t first,
+               std::uint32_t last, double time)
 {
-    Box start, all;
+    Extent start, all;
     double speed = 0;
     for (std::uint32_t i = first; i < last; ++i)
     {
@@ -137,7 +123,7 @@ Box room_of(const PhysicalModel& model, std::span<const glm::dvec3> x, std::uint
         all.take(x[i]);
         speed = std::max(speed, glm::length(model.velocity[i]));
     }
-    const double more = glm::distance(start.low, start.high) + speed * time;
+    const double more = start.size() + speed * time;
     return {all.low - more, all.high + more};
 }
 
@@ -193,14 +179,10 @@ double least_distance(const Pin& a, const Pin& b, std::span<const glm::dvec3> x)
 /// body itself.
 double drawn_length(const Body& body, std::span<const glm::dvec3> x)
 {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    glm::dvec3 low(kFar), high(-kFar);
+    Extent all;
     for (const glm::dvec3& p : x)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    double out = x.empty() ? 0 : glm::distance(low, high);
+        all.take(p);
+    double out = all.size();
     for (std::size_t a = 0; a < body.pins.size(); ++a)
         for (std::size_t b = a + 1; b < body.pins.size(); ++b)
             if (!body.pins[a].motion.empty() || !body.pins[b].motion.empty())
@@ -290,7 +272,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved)
 MoverReach EnergyBudget::reach_at(double time, std::span<const glm::dvec3> x) const
 {
     MoverReach out;
-    std::vector<Box> rooms;
+    std::vector<Extent> rooms;
     for (std::size_t b = 0; !paths_.empty() && b + 1 < model_.body_start.size(); ++b)
         rooms.push_back(room_of(model_, x, model_.body_start[b], model_.body_start[b + 1], time));
     for (const MoverPath& path : paths_)
@@ -299,7 +281,7 @@ MoverReach EnergyBudget::reach_at(double time, std::span<const glm::dvec3> x) co
         const auto end = std::lower_bound(path.reach.begin(), path.reach.end(), time,
                                           [](const MoverReach& r, double t) { return r.time < t; });
         const MoverReach& reach = end == path.reach.end() ? path.reach.back() : *end;
-        const bool meets = path.holds || std::any_of(rooms.begin(), rooms.end(), [&](const Box& room) {
+        const bool meets = path.holds || std::any_of(rooms.begin(), rooms.end(), [&](const Extent& room) {
                                return glm::all(glm::lessThanEqual(reach.low, room.high)) &&
                                       glm::all(glm::lessThanEqual(room.low, reach.high));
                            });

@@ -12,6 +12,7 @@
 #include "taut/report/load_residual.hpp"
 
 #include "taut/report/static_energy.hpp"
+#include "taut/scene/extent.hpp"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
@@ -92,17 +93,6 @@ Steps newton_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, co
     return out;
 }
 
-double diagonal_of(std::span<const glm::dvec3> x)
-{
-    glm::dvec3 low = x.front(), high = x.front();
-    for (const glm::dvec3& p : x)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    return glm::distance(low, high);
-}
-
 /// Of the vertices from `first` to before `last`.
 LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3> x, const Steps& step,
                          const Leftover& left, std::uint32_t first, std::uint32_t last)
@@ -111,6 +101,9 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
     const bool touches = std::find(begin + first, begin + last, true) != begin + last;
     const glm::dvec3 down = glm::normalize(model.gravity);
     double moved = 0, loads = 0, mass = 0;
+    Extent body;
+    for (const glm::dvec3& p : x.subspan(first, last - first))
+        body.take(p);
     for (std::uint32_t i = first; i < last; ++i)
         if (!model.pinned[i])
         {
@@ -122,7 +115,7 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
         }
     if (!(loads > 0))
         return {};
-    const double share = moved / loads, way = moved / (mass * diagonal_of(x.subspan(first, last - first)));
+    const double share = moved / loads, way = moved / (mass * body.size());
     return {std::isfinite(share) ? share : HUGE_VAL, std::isfinite(way) ? way : HUGE_VAL};
 }
 

@@ -1,20 +1,15 @@
 // What a search says in words: why nothing was found and what would help, and lists of settings.
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 
 namespace taut {
 namespace {
 
-std::string number(double value)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
-    return std::string(text, end);
-}
+std::string number(double value) { return shown(value, 3); }
 std::string percent(double value) { return number(100 * value) + " %"; }
 
 /// Settings that differ in substeps and iterations alone.

@@ -13,6 +13,8 @@
 
 #include "taut/scene/substeps.hpp"
 
+#include "taut/scene/extent.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -108,17 +110,6 @@ double hanging_vertices(const Body& body, const Neighbours& around, const std::v
     return edges > 0 ? total / carriers : 0;
 }
 
-struct Extent
-{
-    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL};
-
-    void take(const glm::dvec3& p)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-};
-
 glm::dvec3 centre_of_mass(const Body& body)
 {
     double mass = 0;
@@ -181,10 +172,10 @@ bool is_spanned(const Body& body, const glm::dvec3& gravity)
         }
     if (!(highest <= lowest))
         return false;
-    const double size = glm::distance(all.low, all.high);
+    const double size = all.size();
     const glm::dvec3 off = centre_of_mass(body) - 0.5 * (pins.low + pins.high);
     const double below = glm::dot(off, down);
-    return lowest - highest <= kBelow * size && glm::distance(pins.low, pins.high) >= kSpan * size &&
+    return lowest - highest <= kBelow * size && pins.size() >= kSpan * size &&
            std::abs(below) <= kBelow * size && glm::length(off - below * down) <= kBeside * size;
 }
 

@@ -1,6 +1,7 @@
 #include "taut/world/sleep.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/extent.hpp"
 #include "taut/world/carry.hpp"
 
 #include <glm/common.hpp>
@@ -13,19 +14,6 @@
 
 namespace taut {
 namespace {
-
-struct Box
-{
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    void add(const glm::dvec3& x)
-    {
-        low = glm::min(low, x);
-        high = glm::max(high, x);
-    }
-    double size() const { return low.x <= high.x ? glm::length(high - low) : 0; }
-};
 
 /// A ball round a collider that has one.
 double reach(const Collider& c)
@@ -41,7 +29,7 @@ double reach(const Collider& c)
 }
 
 /// Whether a collider that moves between two times can come within `margin` of a box.
-bool comes_near(const Collider& c, double from, double to, const Box& box, double margin)
+bool comes_near(const Collider& c, double from, double to, const Extent& box, double margin)
 {
     const glm::dvec3 before = pose(c.motion, from, c.point), after = pose(c.motion, to, c.point);
     // A turn moves the far ends of three arms as long as the collider; no turn leaves all of them.
@@ -90,7 +78,7 @@ struct SleepWorld::Impl
     Carried carried;                  ///< of those that sleep, as they fell asleep
     std::vector<glm::dvec3> resting;  ///< m, where they lie; scene-wide
     std::vector<glm::dvec3> seen;     ///< m, at the last look
-    std::vector<Box> box;             ///< of those that sleep
+    std::vector<Extent> box;          ///< of those that sleep
     std::vector<Collider> moving;     ///< colliders with a motion
     std::vector<std::uint32_t> led;   ///< bodies with a pin that has one
     std::unique_ptr<World> world;
@@ -115,9 +103,9 @@ void SleepWorld::Impl::plan_anew(const std::vector<bool>& now)
     for (std::uint32_t b = 0; b < sleeping.size(); ++b)
     {
         quiet[b] = sleeping[b] ? quiet[b] : 0;
-        box[b] = Box();
+        box[b] = Extent();
         for (std::uint32_t v = first[b]; v < first[b + 1] && sleeping[b]; ++v)
-            box[b].add(resting[v]);
+            box[b].take(resting[v]);
         if (!sleeping[b])
             awake.push_back(b);
     }
@@ -204,9 +192,9 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
         if (body.material.tear_strain > 0)
             throw Error(ErrorCode::unsupported, "cloth that can tear cannot sleep; leave tear_strain out");
         my.first.push_back(my.first.back() + static_cast<std::uint32_t>(body.mesh.positions.size()));
-        Box rest;
+        Extent rest;
         for (const glm::dvec3& x : body.mesh.positions)
-            rest.add(x);
+            rest.take(x);
         const bool windy =
             my.scene.wind.density > 0 && (body.material.drag > 0 || body.material.friction_drag > 0);
         my.threshold.push_back(windy ? 0 : options.quiet_speed * std::sqrt(gravity * rest.size()));

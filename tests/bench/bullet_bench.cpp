@@ -268,22 +268,6 @@ std::vector<std::string> cells(const Result& r)
             shown(percent * r.drift, 2)};
 }
 
-std::vector<std::uint32_t> sides(int argc, char** argv)
-{
-    std::vector<std::uint32_t> out;
-    for (int k = 2; k < argc; ++k)
-    {
-        std::uint32_t n = 0;
-        const char* end = argv[k] + std::strlen(argv[k]);
-        const auto [stop, code] = std::from_chars(argv[k], end, n);
-        if (code != std::errc() || stop != end || n < 2 || n > 512)
-            throw std::runtime_error("\"" + std::string(argv[k]) +
-                                     "\" is no number of vertices a side; write 2 to 512");
-        out.push_back(n);
-    }
-    return out.empty() ? std::vector<std::uint32_t>{20, 32, 64, 128} : out;
-}
-
 } // namespace
 
 int main(int argc, char** argv)
@@ -307,7 +291,7 @@ try
     };
     add(head);
     text += "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
-    for (const std::uint32_t n : sides(argc, argv))
+    for (const std::uint32_t n : bench::sides(argc, argv, 2, {20, 32, 64, 128}))
         for (const Result& result : results_of(n))
             add(cells(result));
     std::fputs(text.c_str(), stdout);

@@ -149,22 +149,6 @@ Plot diagram(const std::string& method, const std::vector<Result>& results)
     return plot;
 }
 
-std::vector<std::uint32_t> sides(int argc, char** argv)
-{
-    std::vector<std::uint32_t> out;
-    for (int k = 3; k < argc; ++k)
-    {
-        std::uint32_t n = 0;
-        const char* end = argv[k] + std::strlen(argv[k]);
-        const auto [stop, code] = std::from_chars(argv[k], end, n);
-        if (code != std::errc() || stop != end || n < 2 || n > 512)
-            throw std::runtime_error("\"" + std::string(argv[k]) +
-                                     "\" is no number of vertices a side; write 2 to 512");
-        out.push_back(n);
-    }
-    return out.empty() ? std::vector<std::uint32_t>{16, 32, 64} : out;
-}
-
 } // namespace
 
 int main(int argc, char** argv)
@@ -173,7 +157,7 @@ try
     if (argc == 2)
         throw std::runtime_error("the folder for the diagrams is missing; write FILE.csv FOLDER");
     std::vector<Result> results;
-    const std::vector<std::uint32_t> all_sides = sides(argc, argv);
+    const std::vector<std::uint32_t> all_sides = bench::sides(argc, argv, 3, {16, 32, 64});
     for (const char* method : kMethods)
         for (const std::uint32_t n : all_sides)
             for (Result& result : results_of(method, n))
