@@ -1,5 +1,5 @@
 // Which springs are constraints in this substep, and how many of each group of them: the first pass of the
-// prefix sum. One that was none starts from the multiplier 0.
+// prefix sum. One that was none, or was one of the other side, starts from the multiplier 0.
 //
 // Based on: docs/methods/acad.md; shared/acad.glsl.
 // Departures: none.
@@ -17,6 +17,7 @@ PARAMS
     float activate_low;
     float release_high;
     float release_low;
+    uint compress; // 1: compressed springs become constraints, too
 };
 
 READ(0, Spring, spring);  // kind: 1 where it may become a constraint
@@ -35,17 +36,16 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     PHASE_END
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);
-    real activate = acad_stretch(activate_high, activate_low);
-    real release = acad_stretch(release_high, release_low);
+    AcadLimits at = acad_limits(activate_high, activate_low, release_high, release_low, compress);
     EACH_BEGIN(begin, end)
     Spring s = spring[i];
     rvec3 d = rvec3(position[s.a] - position[s.b]) + rvec3(low[s.a] - low[s.b]);
     uint before = flags[i];
-    uint now = acad_next(before, s.kind != 0u, d, s.rest_length, activate, release);
+    uint now = acad_next(before, s.kind != 0u, d, s.rest_length, at);
     flags[i] = now;
-    if (!(before == TAUT_ACAD_ROW && now == TAUT_ACAD_ROW))
+    if (!(before == now && TAUT_ACAD_IS_ROW(now)))
         multiplier[i] = real(0);
-    sum[lane] += now == TAUT_ACAD_ROW ? 1u : 0u;
+    sum[lane] += TAUT_ACAD_IS_ROW(now) ? 1u : 0u;
     EACH_END
     for (uint width = uint(TAUT_LINEAR_GROUP) / 2u; width > 0u; width /= 2u)
     {

@@ -21,6 +21,7 @@ PARAMS
     float activate_low;
     float release_high;
     float release_low;
+    uint compress; // 1: compressed springs become constraints, too
 };
 
 READ(0, uint, start);     // count + 1: the ends at vertex i are end[start[i]] .. end[start[i + 1] - 1]
@@ -42,8 +43,7 @@ KERNEL(count)
     rvec4 v = velocity[i];
 #endif
     bool awake = flags[springs] != 0u;
-    real activate = acad_stretch(activate_high, activate_low);
-    real release = acad_stretch(release_high, release_low);
+    AcadLimits at = acad_limits(activate_high, activate_low, release_high, release_low, compress);
     rvec3 sum = rvec3(real(0));
     for (uint k = start[i]; k < start[i + 1u]; ++k)
     {
@@ -57,7 +57,8 @@ KERNEL(count)
 #endif
         uint before = awake ? flags[s.kind >> 1u] : TAUT_ACAD_SPRING;
         bool may = (s.kind & 1u) != 0u;
-        bool row = acad_next(before, may, d, s.rest_length, activate, release) == TAUT_ACAD_ROW;
+        uint now = acad_next(before, may, d, s.rest_length, at);
+        bool row = TAUT_ACAD_IS_ROW(now);
         rvec3 f = spring_force(s.rest_length, s.stiffness, s.damping, d, speed);
         sum += row ? rvec3(real(0)) : f;
         // Each spring is met at both ends; the lower one counts it.

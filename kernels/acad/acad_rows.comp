@@ -4,6 +4,7 @@
 //   2015 (the force of a constraint across its direction is explicit, and unstable from a size on).
 // Departures: rows far beyond what they aim at are softened until that force is small enough, never below the
 //   spring itself, and come back no faster than the spring would pull; Tournier adds the stiffness across.
+//   What is small enough goes by the shorter of length and aim: force over length is what acts across.
 // Bytes per row (float): 88 read, 32 written.
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
@@ -15,9 +16,10 @@ PARAMS
     uint further; // 1: not the first solve of the substep, so it starts from 0
 };
 
-READ(0, uint, row_list); // how many, then the springs
-// Two a spring: the constraint (rest_length: what it aims at; stiffness 0: rigid), and the spring, with the
-// inverse of the constraint's diagonal [kg] as damping and the most springs at one of its ends as kind.
+READ(0, uint, row_list); // how many, then 2 * spring, and 1 more for a compressed one
+// Two a spring: the constraint (rest_length: what it aims at when stretched, and as far below the length at
+// rest when compressed; stiffness 0: rigid), and the spring, with the inverse of the constraint's diagonal
+// [kg] as damping and the most springs at one of its ends as kind.
 READ(1, Spring, candidate);
 READ(2, real, multiplier); // kg m, a spring
 WRITE(3, Spring, row);
@@ -34,7 +36,9 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     real rate = step_values[0].inverse_substep;
     real rates = rate * rate;
     EACH_BEGIN(begin, end)
-    uint s = row_list[i + 1u];
+    uint entry = row_list[i + 1u];
+    uint s = entry >> 1u;
+    bool pressed = (entry & 1u) != 0u;
     Spring r = candidate[2u * s];
     Spring own = candidate[2u * s + 1u];
     real found = own.damping;
@@ -42,7 +46,10 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     rvec4 b = position[r.b];
     real weight = a.w + b.w;
     real len = length(rvec3(a) - rvec3(b));
-    real over = len / r.rest_length - real(1);
+    PRECISE real mirrored = own.rest_length - (r.rest_length - own.rest_length);
+    r.rest_length = pressed ? mirrored : r.rest_length;
+    real nearest = max(len, REAL(1e-6) * r.rest_length);
+    real over = (pressed ? r.rest_length / nearest : len / r.rest_length) - real(1);
     if (over > REAL(0.02) && weight > real(0))
     {
         // Of the way back, in a substep.

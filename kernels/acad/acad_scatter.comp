@@ -1,5 +1,5 @@
-// The last pass of the prefix sum: the elements that carry the flag TAUT_ACAD_ROW, side by side in their own
-// order, and with PLACE for each element where it stands in that list.
+// The last pass of the prefix sum: the elements whose flag is that of a row, side by side in their own order.
+// With PLACE the list says 2 * element, and 1 more for a compressed row, and each element where it stands.
 //
 // Based on: docs/methods/acad.md; shared/scan.glsl.
 // Departures: none.
@@ -37,16 +37,22 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     {
         PHASE_BEGIN
         uint element = min(window + lane, count - 1u);
-        bool has = window + lane < end && flags[element] == TAUT_ACAD_ROW;
+        bool has = window + lane < end && TAUT_ACAD_IS_ROW(flags[element]);
         before[lane] = has ? 1u : 0u;
         PHASE_END
         SCAN_LANES(before, other)
         uint last = min(window + uint(TAUT_LINEAR_GROUP), end);
         EACH_BEGIN(window, last)
-        bool has = flags[i] == TAUT_ACAD_ROW;
+        uint flag = flags[i];
+        bool has = TAUT_ACAD_IS_ROW(flag);
         uint to = at + before[lane] - 1u;
+#if PLACE
+        uint entry = 2u * uint(i) + (flag == TAUT_ACAD_PRESSED ? 1u : 0u);
+#else
+        uint entry = uint(i);
+#endif
         if (has)
-            list[to + 1u] = uint(i);
+            list[to + 1u] = entry;
 #if PLACE
         place[i] = has ? to : TAUT_NO_ROW;
 #endif

@@ -19,11 +19,11 @@ PARAMS
     uint release; // 1: multipliers decide
 };
 
-READ(0, uint, row_list);
+READ(0, uint, row_list); // how many, then 2 * spring, and 1 more for a compressed one
 UPDATE(1, real, x);
 UPDATE(2, real, multiplier); // kg m, a spring: of all solves of the substep before; 0: it was no constraint
 UPDATE(3, uint, flags);
-READ(4, real, hold); // N, a spring: its own force at the length that the constraint aims at
+READ(4, real, hold); // N, a spring: how strong it is at the length that the constraint aims at
 READ_ONE(5, CgState, state);
 READ_ONE(6, StepValues, step_values);
 #if TOTAL
@@ -39,7 +39,8 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     // Without a right-hand side the answer is 0, whatever the solve was started from.
     bool solved = state[0].status != uint(TAUT_CG_ZERO_RIGHT_HAND_SIDE);
     EACH_BEGIN(begin, end)
-    uint s = row_list[i + 1u];
+    uint entry = row_list[i + 1u];
+    uint s = entry >> 1u;
     real found = solved ? x[i] : real(0);
     real sum = found;
     x[i] = found;
@@ -51,7 +52,9 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     {
         real before = multiplier[s];
         multiplier[s] = sum;
-        if (release != 0u && before != real(0) && sum + before < real(2) * (hold[s] * (h * h)))
+        real both = sum + before;
+        real carried = (entry & 1u) != 0u ? -both : both; // a compressed row pushes
+        if (release != 0u && before != real(0) && carried < real(2) * (hold[s] * (h * h)))
             flags[s] = TAUT_ACAD_RELEASED;
     }
     EACH_END

@@ -33,7 +33,7 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     uint any = TAUT_ACAD_SPRING;
     uint last = start[i + 1u];
     for (uint k = start[i]; k < last; ++k)
-        any = flags[incident[k] >> 1u] == TAUT_ACAD_ROW ? TAUT_ACAD_ROW : any;
+        any = TAUT_ACAD_IS_ROW(flags[incident[k] >> 1u]) ? TAUT_ACAD_ROW : any;
     touched[i] = any;
     sum[lane] += any == TAUT_ACAD_ROW ? 1u : 0u;
     EACH_END

@@ -6,11 +6,13 @@
 /// 0: all of them do.
 #define TAUT_CONTROL_GROUPS 3
 
-/// Of springs that may become constraints (acad): a spring; a constraint; a spring that was a constraint in
-/// the substep before.
+/// Of springs that may become constraints (acad): a spring; a constraint, stretched; a spring that was a
+/// constraint in the substep before; a constraint, compressed. Constraints are the odd ones.
 #define TAUT_ACAD_SPRING 0u
 #define TAUT_ACAD_ROW 1u
 #define TAUT_ACAD_RELEASED 2u
+#define TAUT_ACAD_PRESSED 3u
+#define TAUT_ACAD_IS_ROW(flag) (((flag) & 1u) != 0u)
 
 /// Words of acad's control buffer: group counts of the passes that choose rows, of the pass that scans, of
 /// the passes over rows, and of what runs once a solve; then how many rows and vertices of rows there are.

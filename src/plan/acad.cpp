@@ -5,7 +5,8 @@
 //   Sciences 11(17), 2021, and the same authors 2022 (adaptive constraint activation and deactivation).
 // Departures: the rule that a spring goes back when its multiplier, the mean of two substeps, is less than
 //   the spring's own force, and the target L (1 + strain), which injects no speed, are ours to choose
-//   (docs/methods/acad.md); compressed springs stay springs; rows far beyond their length are softened.
+//   (docs/methods/acad.md); compressed springs stay springs unless the scene asks (`compress`); rows far
+//   beyond their length are softened.
 
 #include "taut/plan/acad.hpp"
 
@@ -45,7 +46,7 @@ struct Strain
     float high, low;
 };
 
-/// Lengths below which a row is released by strain; none where multipliers decide.
+/// Strain below which a row is released; -1 where multipliers decide.
 double release_strain(const Scene& scene)
 {
     return scene.method.release == "strain" ? scene.method.release_strain : -1;
@@ -156,7 +157,8 @@ void record_choice(PlanBuilder& b, Acad& a)
     const Use flag[] = {{a.springs}, {b.plan.position, 2}, {b.plan.low, 2},
                         {a.flags},   {a.multiplier},       {a.sums}};
     gated(b, a, "acad_flag", "", flag,
-          kernels::acad_flag::Params{springs, a.chunk, a.groups, on.high, on.low, off.high, off.low},
+          kernels::acad_flag::Params{springs, a.chunk, a.groups, on.high, on.low, off.high, off.low,
+                                     b.scene.method.compress},
           a.groups, TAUT_ACAD_CHOOSE);
     const Use touch[] = {{a.rows.start}, {a.rows.incident}, {a.flags}, {a.touched}, {a.sums}};
     gated(b, a, "acad_touch", "", touch, kernels::acad_touch::Params{n, vertex_chunk(b, a), a.groups},
@@ -230,7 +232,7 @@ void record_acad_forces(PlanBuilder& b, const Moment& moment)
         uses.push_back({b.plan.velocity, 1 + each});
     b.dispatch(kEffect, "acad_force", a.damped ? "damped" : "", uses,
                kernels::acad_force::Params{n, moment.substep + 1 == b.plan.substeps, size_of(a), on.high,
-                                           on.low, off.high, off.low},
+                                           on.low, off.high, off.low, b.scene.method.compress},
                n);
     record_choice(b, a);
 }

@@ -55,6 +55,7 @@ constexpr Setting kSettings[] = {
      [](const MethodSettings& m) { return Json(m.release_strain); }},
     {"release", only(MethodKind::acad), [](const MethodSettings& m) { return Json(m.release); }},
     {"target", only(MethodKind::acad), [](const MethodSettings& m) { return Json(m.target); }},
+    {"compress", only(MethodKind::acad), [](const MethodSettings& m) { return Json(m.compress); }},
     {"start", only(MethodKind::vbd), [](const MethodSettings& m) { return Json(m.start); }},
     {"spectral_radius", only(MethodKind::vbd) | only(MethodKind::pbd),
      [](const MethodSettings& m) { return Json(m.spectral_radius); }},

@@ -57,6 +57,10 @@ void check_implicit(const MethodSettings& method, const Checker& out)
     if (!(method.constraint_compliance < 0))
         out.not_negative("constraint_compliance", method.constraint_compliance, "m/N");
     out.positive("activate_strain", method.activate_strain, "");
+    if (method.compress && !(method.activate_strain < 1))
+        out.error("activate_strain",
+                  "is " + shown(method.activate_strain) +
+                      "; with compress it must be below 1: no spring is shorter than nothing");
     if (!(method.release_strain >= 0 && method.release_strain <= method.activate_strain))
         out.error("release_strain", "is " + shown(method.release_strain) +
                                         "; it must be 0 or more and at most activate_strain");

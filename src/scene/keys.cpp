@@ -32,6 +32,7 @@ KeySet method_keys()
              "release_strain",
              "release",
              "target",
+             "compress",
              "start",
              "spectral_radius"}};
 }

@@ -50,6 +50,7 @@ void read_method(Field field, MethodSettings& method)
     field.read("release_strain", method.release_strain);
     field.read("release", method.release);
     field.read("target", method.target);
+    field.read("compress", method.compress);
     field.read("start", method.start);
     field.read("spectral_radius", method.spectral_radius);
 }

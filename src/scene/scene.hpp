@@ -240,10 +240,11 @@ struct MethodSettings
 
     std::string constrained = "all";    ///< implicit_constraints, acad: or "structural"; others stay springs
     double constraint_compliance = -1;  ///< m/N, >= 0; < 0: each spring's own ("material")
-    double activate_strain = 0.05;      ///< acad: |l - L|/L beyond which a spring becomes a constraint, > 0
+    double activate_strain = 0.05;      ///< acad: (l - L)/L beyond which a spring becomes a constraint, > 0
     double release_strain = 0.05;       ///< acad: below which it is a spring again, at most activate_strain
     std::string release = "multiplier"; ///< acad: by the multiplier's sign, or by "strain"
     std::string target = "threshold";   ///< acad: length L(1 + activate_strain), or "rest": L
+    bool compress = false; ///< acad: likewise below L(1 - activate_strain); then activate_strain < 1
 
     std::string start = "adaptive"; ///< vbd: or "inertial", "previous"
     double spectral_radius = 0;     ///< vbd, pbd (Jacobi): Chebyshev acceleration, [0, 1); 0 = none

@@ -11,13 +11,13 @@ TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and 
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(2u, 63u, 64u, 65u, 1000u);
-    const bool damped = GENERATE(false, true);
+    const bool damped = GENERATE(false, true), compress = GENERATE(false, true);
     const std::uint32_t awake = GENERATE(0u, 1u);
-    CAPTURE(count, damped, awake);
+    CAPTURE(count, damped, compress, awake);
     Random random(150 + count);
     auto net = spring_net<Real>(random, count, 3 * count, damped); // every vertex runs
     const auto springs = static_cast<std::uint32_t>(net.spring.size());
-    std::vector<std::uint32_t> flags = random_flags(random, springs, 0.4), start, incident;
+    std::vector<std::uint32_t> flags = random_flags(random, springs, 0.4, compress), start, incident;
     flags.push_back(awake);
     std::vector<bool> row(springs);
     Case c;
@@ -26,10 +26,11 @@ TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and 
         auto& s = net.spring[k];
         const double length = glm::length(glm::dvec3(net.position[s.a]) - glm::dvec3(net.position[s.b]));
         if (length > 0.01 && s.rest_length > 0)
-            s.rest_length = static_cast<Real>(length / (1 + random.uniform(-0.02, 0.1)));
+            s.rest_length = static_cast<Real>(length / (1 + random.uniform(compress ? -0.1 : -0.02, 0.1)));
         const double stretch = length / static_cast<double>(s.rest_length) - 1;
         const std::uint32_t before = awake != 0 ? flags[k] : TAUT_ACAD_SPRING;
-        row[k] = before == TAUT_ACAD_ROW || (k % 5 != 0 && s.rest_length > 0 && stretch > 0.05);
+        const bool far = stretch > 0.05 || (compress && stretch < -0.05);
+        row[k] = before % 2 == 1 || (k % 5 != 0 && s.rest_length > 0 && far);
     }
     net.incidence(count, start, incident);
     auto ends = net.ends(incident);
@@ -45,11 +46,11 @@ TEMPLATE_TEST_CASE("acad_force leaves out the springs that are constraints, and 
             {"low", bytes_of(net.low)}, {"velocity", bytes_of(net.velocity)}, {"flags", bytes_of(flags)},
             {"force", bytes_of(std::vector<glm::vec<4, Real>>(net.position.size(), glm::vec<4, Real>(7)))},
             {"events", bytes_of(events)}};
-    c.launches = {
-        make_launch(kernels::acad_force::info(damped ? "damped" : "", c.precision),
-                    kernels::acad_force::Params{count, 0, springs, 0.05f,
-                                                static_cast<float>(0.05 - double(0.05f)), -1.f, 0.f},
-                    count)};
+    c.launches = {make_launch(kernels::acad_force::info(damped ? "damped" : "", c.precision),
+                              kernels::acad_force::Params{count, 0, springs, 0.05f,
+                                                          static_cast<float>(0.05 - double(0.05f)), -1.f, 0.f,
+                                                          compress},
+                              count)};
     for (std::uint32_t k = 0; k < springs; ++k)
         if (row[k]) // no force: neither spring nor damper
             net.spring[k].stiffness = net.spring[k].damping = 0;

@@ -17,13 +17,15 @@ struct Wanted
 };
 
 template <typename Real>
-Wanted wanted(const layout::Spring<Real>& r, const layout::Spring<Real>& own, const RowNet<Real>& net)
+Wanted wanted(const layout::Spring<Real>& r, const layout::Spring<Real>& own, bool pressed,
+              const RowNet<Real>& net)
 {
-    const double aim = double(r.rest_length), rate = double(net.step.inverse_substep),
+    const double rest = double(own.rest_length), above = double(r.rest_length);
+    const double aim = pressed ? 2 * rest - above : above, rate = double(net.step.inverse_substep),
                  k = double(own.stiffness);
     const double weight = double(net.position[r.a].w) + double(net.position[r.b].w);
     const double length = glm::distance(wide3(net.position[r.a]), wide3(net.position[r.b]));
-    const double over = length / aim - 1;
+    const double over = (pressed ? aim / std::max(length, 1e-6 * aim) : length / aim) - 1;
     if (over <= kFar || weight == 0)
         return {aim, double(r.stiffness), double(own.damping)};
     const double share = std::min(std::sqrt(k * weight) / rate, 1.0);
@@ -32,9 +34,11 @@ Wanted wanted(const layout::Spring<Real>& r, const layout::Spring<Real>& own, co
     if (r.stiffness > 0)
         soft = std::max(soft, rate * rate / double(r.stiffness));
     const double compliance = soft / (rate * rate);
-    return {length - share * (length - aim) - k * (aim - double(own.rest_length)) * compliance,
-            1 / compliance, 1 / (weight + soft / (1 + double(r.damping) * rate * compliance)), false};
+    return {length - share * (length - aim) - k * (aim - rest) * compliance, 1 / compliance,
+            1 / (weight + soft / (1 + double(r.damping) * rate * compliance)), false};
 }
+
+bool is_pressed(std::uint32_t spring) { return spring % 2 == 1; }
 
 /// Pairs of records: near and far rows, none at the boundary between, where rounding would choose.
 template <typename Real>
@@ -46,8 +50,10 @@ std::vector<layout::Spring<Real>> candidates(Random& random, RowNet<Real>& net)
         layout::Spring<Real> row = net.row[s], own = row;
         const double length = glm::distance(wide3(net.position[row.a]), wide3(net.position[row.b]));
         constexpr double kOver[] = {-0.5, 0, 0.9 * kFar, 1.1 * kFar, 0.3, 2, 100};
-        row.rest_length = static_cast<Real>(std::max(length, 1e-3) / (1 + kOver[s % 7]));
-        own.rest_length = row.rest_length / Real(1.05);
+        const double far = 1 + kOver[s % 7], size = std::max(length, 1e-3);
+        const double rest = is_pressed(s) ? size * far / 0.95 : size / far / 1.05;
+        own.rest_length = static_cast<Real>(rest);
+        row.rest_length = static_cast<Real>(1.05 * rest);
         own.stiffness = static_cast<Real>(std::pow(10.0, random.uniform(-3, 6)));
         own.damping = random.uniform<Real>(1, 2);
         own.kind = 1 + random.below(14);
@@ -82,7 +88,7 @@ TEMPLATE_TEST_CASE("acad_rows sets the rows of a list side by side, softened whe
     const auto rows = static_cast<std::uint32_t>(share * dealt.count);
     std::vector<std::uint32_t> list = {rows};
     for (const std::uint32_t s : random.shuffled(dealt.count))
-        list.push_back(s);
+        list.push_back(2 * s + (is_pressed(s) ? 1 : 0));
     const auto other = spring_record<Real>(9, 9, 9, 9, 9, 9);
     Case c;
     c.precision = precision_of<Real>();
@@ -109,18 +115,20 @@ TEMPLATE_TEST_CASE("acad_rows sets the rows of a list side by side, softened whe
                            inverse[r] == 9);
                 continue;
             }
-            const std::uint32_t s = list[r + 1];
+            const std::uint32_t s = list[r + 1] / 2;
             const auto &from = pairs[2 * s], &own = pairs[2 * s + 1];
-            const Wanted w = wanted(from, own, net);
+            const Wanted w = wanted(from, own, is_pressed(s), net);
             const bool copied = row[r].a == from.a && row[r].b == from.b && row[r].damping == from.damping &&
                                 row[r].kind == from.kind && x[r] == (further != 0 ? Real(0) : multiplier[s]);
             const double length = double(from.rest_length) * 101 + 3,
                          pull = double(own.stiffness) / w.stiffness;
-            const bool right = w.same ? row[r].rest_length == from.rest_length &&
-                                            row[r].stiffness == from.stiffness && inverse[r] == own.damping
-                                      : close(row[r].rest_length, w.rest_length, length * (1 + pull)) &&
-                                            close(row[r].stiffness, w.stiffness, w.stiffness) &&
-                                            close(inverse[r], w.inverse, w.inverse);
+            const bool whole = is_pressed(s) ? close(row[r].rest_length, w.rest_length, w.rest_length)
+                                             : row[r].rest_length == from.rest_length;
+            const bool right = w.same
+                                   ? whole && row[r].stiffness == from.stiffness && inverse[r] == own.damping
+                                   : close(row[r].rest_length, w.rest_length, length * (1 + pull)) &&
+                                         close(row[r].stiffness, w.stiffness, w.stiffness) &&
+                                         close(inverse[r], w.inverse, w.inverse);
             wrong += !(copied && right);
         }
         CHECK(wrong == 0);

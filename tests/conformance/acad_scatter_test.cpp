@@ -12,7 +12,7 @@ TEST_CASE("acad_scatter puts what carries the flag side by side in its own order
     const double share = GENERATE(0.0, 0.3, 1.0);
     CAPTURE(dealt.count, dealt.groups, place, share);
     Random random(120 + dealt.count);
-    const std::vector<std::uint32_t> flags = random_flags(random, dealt.count + 3, share);
+    const std::vector<std::uint32_t> flags = random_flags(random, dealt.count + 3, share, true);
     std::vector<std::uint32_t> sums(2 * dealt.groups, 77), list(dealt.count + 1, 77);
     std::vector<std::uint32_t> places(dealt.count + 3, 77);
     const std::uint32_t first = place ? 0 : dealt.groups;
@@ -22,9 +22,10 @@ TEST_CASE("acad_scatter puts what carries the flag side by side in its own order
     {
         if (i % dealt.chunk() == 0)
             sums[first + i / dealt.chunk()] = at;
-        where[i] = flags[i] == TAUT_ACAD_ROW ? at : TAUT_NO_ROW;
-        if (flags[i] == TAUT_ACAD_ROW)
-            expected[1 + at++] = i;
+        const bool pressed = flags[i] == TAUT_ACAD_PRESSED, row = pressed || flags[i] == TAUT_ACAD_ROW;
+        where[i] = row ? at : TAUT_NO_ROW;
+        if (row)
+            expected[1 + at++] = place ? 2 * i + pressed : i;
     }
     Case c;
     c.in = {{"flags", bytes_of(flags)},

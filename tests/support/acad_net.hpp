@@ -7,14 +7,18 @@
 
 namespace taut::conformance {
 
-/// `count` elements of which about a share `on` carries TAUT_ACAD_ROW, others one of the other flags.
-inline std::vector<std::uint32_t> random_flags(Random& random, std::uint32_t count, double on)
+/// `count` elements of which about a share `on` carries the flag of a row, others one of the other flags;
+/// `compress`: every third row is a compressed one.
+inline std::vector<std::uint32_t> random_flags(Random& random, std::uint32_t count, double on,
+                                               bool compress = false)
 {
     std::vector<std::uint32_t> flags;
     for (std::uint32_t i = 0; i < count; ++i)
         flags.push_back(random.chance(on)    ? TAUT_ACAD_ROW
                         : random.chance(0.5) ? TAUT_ACAD_SPRING
                                              : TAUT_ACAD_RELEASED);
+    for (std::uint32_t i = 0; compress && i < count; i += 3)
+        flags[i] = flags[i] == TAUT_ACAD_ROW ? TAUT_ACAD_PRESSED : flags[i];
     return flags;
 }
 

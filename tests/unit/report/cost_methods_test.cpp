@@ -120,6 +120,11 @@ TEST_CASE("details name what a method reads and is not as usual, and nothing els
     CHECK(settings_text(settings) == "vbd, automatic substeps x 1 iteration in float, start inertial");
     settings.type = "mass_spring";
     CHECK(settings_text(settings) == "mass_spring, automatic substeps in float, integrator verlet");
+    settings.compress = true; // not mass_spring's
+    CHECK(settings_details(settings) == "integrator verlet");
+    settings.type = "acad";
+    CHECK(settings_details(settings) == "integrator verlet, compress true");
+    CHECK(parse_scene(R"({"taut": 1, "method": )" + settings_block(settings) + "}").method.compress);
 }
 
 TEST_CASE("methods are listed once, in one order; a wrong name says which there are", "[methods]")

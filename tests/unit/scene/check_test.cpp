@@ -69,6 +69,11 @@ const std::vector<Fault> kFaults = {
     {"method.volume", [](S s) { s.method.volume = -0.01; }},
     {"method.volume", [](S s) { s.method.volume = 1.01; }},
     {"method.volume", [](S s) { s.method.volume = kNan; }},
+    {"method.activate_strain",
+     [](S s) {
+         s.method.compress = true;
+         s.method.activate_strain = s.method.release_strain = 1;
+     }},
     {"bodies[0].grid.cells",
      [](S s) {
          s.bodies[0] = {};
@@ -228,6 +233,18 @@ TEST_CASE("an unknown method or word names the nearest known one")
     CHECK_THAT(issues[0].text, Contains("is \"xpdb\"; it must be") && Contains("did you mean \"xpbd\"?"));
     CHECK_THAT(issues[1].text, Contains("\"float\" or \"double\" (did you mean \"float\"?)"));
     CHECK_THAT(issues[2].text, Contains("did you mean \"top_left\"?"));
+}
+
+TEST_CASE("a spring that is to become a constraint when it is pressed has a length to be pressed to")
+{
+    Scene scene = good_scene();
+    scene.method.activate_strain = 1.5;
+    CHECK(check(scene).empty());
+    scene.method.compress = true;
+    const auto issues = check(scene);
+    REQUIRE(issues.size() == 1);
+    CHECK(issues[0].field == "method.activate_strain");
+    CHECK_THAT(issues[0].text, Contains("is 1.5; with compress it must be below 1"));
 }
 
 TEST_CASE("a wind that nothing catches is a warning")

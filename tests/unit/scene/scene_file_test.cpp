@@ -155,6 +155,8 @@ TEST_CASE("a wrong type is refused by file, field, what is there and what would 
     CHECK_THAT(refusal_of("\"method\": {\"substeps\": -1}"), Contains("is -1; it must be a whole number"));
     CHECK_THAT(refusal_of("\"method\": {\"substeps\": 4294967296}"), Contains("whole number"));
     CHECK_THAT(refusal_of("\"external_forces\": 1"), Contains("must be true or false"));
+    CHECK(refusal_of("\"method\": {\"compress\": 1}") ==
+          "my.json: method.compress is 1; it must be true or false");
     CHECK_THAT(refusal_of("\"name\": 1"), Contains("must be a text in quotes"));
     CHECK_THAT(refusal_of("\"bodies\": {}"), Contains("bodies is an object; it must be a list"));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"material\": {\"density\": []}"),
