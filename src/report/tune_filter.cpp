@@ -53,9 +53,25 @@ void add_strains(const PhysicalModel& model, const std::vector<glm::dvec3>& x, S
             continue;
         const double strain = glm::distance(x[spring.a], x[spring.b]) / spring.rest_length - 1;
         out.strain = std::max(out.strain, strain);
-        if (spring.kind == SpringKind::structural)
-            out.structural_strain = std::max(out.structural_strain, strain);
+        out.shortening = std::max(out.shortening, -strain);
+        if (spring.kind != SpringKind::structural)
+            continue;
+        out.structural_strain = std::max(out.structural_strain, strain);
+        out.structural_shortening = std::max(out.structural_shortening, -strain);
     }
+}
+
+/// What acad's constraints keep the springs from; empty: nothing.
+std::string held_by_acad(const SceneFacts& facts, const MethodSettings& settings)
+{
+    const bool structural = settings.constrained == "structural";
+    const double longer = structural ? facts.structural_strain : facts.strain;
+    const double shorter = structural ? facts.structural_shortening : facts.shortening;
+    const bool pressed = settings.compress && shorter > settings.activate_strain;
+    if (!pressed && !(longer > settings.activate_strain))
+        return {};
+    return "acad holds a spring at a strain of " + number(settings.activate_strain) + ", the reference " +
+           (pressed ? "presses one by " + number(shorter) : "stretches one by " + number(longer));
 }
 
 template <class Elements>
@@ -71,10 +87,8 @@ std::string other_material(const SceneFacts& facts, const MethodSettings& settin
 {
     if (settings.type == "pbd" && facts.stiff)
         return "pbd does not have the material's stiffness: its own has no unit and lies in [0, 1]";
-    const double strain = settings.constrained == "structural" ? facts.structural_strain : facts.strain;
-    if (settings.type == "acad" && strain > settings.activate_strain)
-        return "acad holds a spring at a strain of " + number(settings.activate_strain) +
-               ", the reference stretches one by " + number(strain);
+    if (const std::string held = held_by_acad(facts, settings); settings.type == "acad" && !held.empty())
+        return held;
     if ((settings.type == "acad" || settings.type == "implicit_constraints") && facts.stiff &&
         settings.constraint_compliance >= 0)
         return settings.type + " gives every constraint a compliance of " +

@@ -35,6 +35,7 @@ struct SceneFacts
     bool stiff = false; ///< an element has a stiffness that is neither 0 nor infinite
     /// (l - L)/L at most in the reference, of all springs and of structural ones; 0 where it has no frames.
     double strain = 0, structural_strain = 0;
+    double shortening = 0, structural_shortening = 0; ///< likewise of (L - l)/L
 };
 SceneFacts scene_facts(const PhysicalModel& model, const CostReference& reference);
 

@@ -190,6 +190,13 @@ TEST_CASE("acad is of another material beyond the strain that it holds springs a
     acad.constrained = "structural"; // the stretched ones are not held
     facts.structural_strain = 0.04;
     CHECK(tuning::other_material(facts, acad).empty());
+    facts.shortening = 0.5;
+    facts.structural_shortening = 0.07;
+    CHECK(tuning::other_material(facts, acad).empty()); // it stays a spring
+    acad.compress = true;
+    CHECK_THAT(tuning::other_material(facts, acad), Contains("presses one by 0.07"));
+    facts.structural_shortening = 0.04;
+    CHECK(tuning::other_material(facts, acad).empty());
     MethodSettings rows;
     rows.type = "implicit_constraints";
     CHECK(tuning::other_material(facts, rows).empty());
