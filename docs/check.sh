@@ -1,15 +1,17 @@
 #!/bin/sh
 # What the pages conclude is what their tables say: exit status 0 when all of it holds. In CI.
 #
-#   docs/check.sh [PAGE...]      cloth, solids, hybrid, accuracy; all without
+#   docs/check.sh [PAGE...]      cloth, solids, hybrid, acad, accuracy; all without
 set -eu
 cd "$(dirname "$0")"
-[ $# -gt 0 ] || set -- cloth solids hybrid accuracy
+[ $# -gt 0 ] || set -- cloth solids hybrid acad accuracy
 for page in "$@"; do
     case $page in
         accuracy) sh accuracy/check.sh ;;
         cloth) awk -f claims.awk -f cloth/claims.awk cloth.md cloth/*.csv \
             ../tests/bench/results/bullet.csv ../tests/bench/results/size.csv ;;
+        acad) awk -f claims.awk -f methods/acad/claims.awk methods/acad.md methods/acad/compress.csv \
+            ../tests/bench/results/acad.csv ;;
         hybrid) awk -f claims.awk -f hybrid/claims.awk hybrid.md ../tests/bench/results/split.csv ;;
         *) awk -f claims.awk -f "$page/claims.awk" "$page.md" "$page"/*.csv ;;
     esac
