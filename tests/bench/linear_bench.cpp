@@ -1,6 +1,6 @@
-// taut_linear_bench peers|thesis|precision|residuals: the tables and pictures of docs/linear.md.
-// Exit status 1 and one sentence when a rival computes something else or a file cannot be written; 2 for
-// wrong arguments.
+// taut_linear_bench peers|thesis|precision|residuals|condition|crossover|inventory: the tables and pictures
+// of docs/linear.md. Exit status 1 and one sentence when a rival computes something else or a file cannot be
+// written; 2 for wrong arguments.
 
 #include "linear_bench.hpp"
 
@@ -36,19 +36,26 @@ try
     command->add_option("--csv", thesis.csv, "file to write");
     command->callback([&] { bench::run_thesis(thesis, bench::conditions("taut_linear_bench", argc, argv)); });
 
-    const auto add_precision = [&](CLI::App* sub) {
-        sub->add_option("--device", precision.device);
-        sub->add_option("--csv", precision.csv, "file to write");
-        sub->add_option("--pictures", precision.pictures, "folder to write diagrams to");
+    struct Part
+    {
+        const char *name, *help;
+        void (*run)(const bench::PrecisionOptions&, const std::string&);
     };
-    command = app.add_subcommand("precision", "time against residual and error");
-    add_precision(command);
-    command->callback(
-        [&] { bench::run_precision(precision, bench::conditions("taut_linear_bench", argc, argv)); });
-    command = app.add_subcommand("residuals", "iterations of the recursive and of the true residual");
-    add_precision(command);
-    command->callback(
-        [&] { bench::run_residuals(precision, bench::conditions("taut_linear_bench", argc, argv)); });
+    for (const Part& part :
+         {Part{"precision", "time against residual and error", bench::run_precision},
+          Part{"residuals", "iterations of the recursive and of the true residual", bench::run_residuals},
+          Part{"condition", "error against iteration for prescribed condition numbers", bench::run_condition},
+          Part{"crossover", "which format is fastest on which matrix", bench::run_crossover},
+          Part{"inventory", "buffers and kernels of an iteration; times nothing", bench::run_inventory}})
+    {
+        command = app.add_subcommand(part.name, part.help);
+        command->add_option("--device", precision.device);
+        command->add_option("--csv", precision.csv, "file to write");
+        command->add_option("--pictures", precision.pictures, "folder to write diagrams to");
+        command->callback([&precision, run = part.run, argc, argv] {
+            run(precision, bench::conditions("taut_linear_bench", argc, argv));
+        });
+    }
     try
     {
         app.parse(argc, argv);

@@ -85,10 +85,16 @@ void run_precision(const PrecisionOptions& options, const std::string& condition
 /// Iterations of the recursive and of the true residual on the 5-point Poisson of 256 x 256.
 void run_residuals(const PrecisionOptions& options, const std::string& conditions);
 
+/// Error against iteration for prescribed condition numbers.
+void run_condition(const PrecisionOptions& options, const std::string& conditions);
+/// Which format is fastest on the matrices of linear_matrices.hpp.
+void run_crossover(const PrecisionOptions& options, const std::string& conditions);
+/// Buffers and kernels of one iteration in every format, as the recording has them. Times nothing.
+void run_inventory(const PrecisionOptions& options, const std::string& conditions);
+
 /// Folder of the real matrices: $TAUT_DATA/matrices, else ../shared/data/matrices beside the source tree.
 /// Empty, and a line on standard error, where there is none.
 std::filesystem::path matrix_folder();
-
 
 /// The upper one of two; at least one value.
 double median_of(std::vector<double> values);

@@ -99,18 +99,22 @@ bool DeviceSolver::product()
 std::vector<double> DeviceSolver::y() { return read_reals(*device_, y_, rows_, operator_->precision()); }
 
 std::unique_ptr<DeviceSolver> device_solver(const std::string& selector, const System& system, Format format,
-                                            SolvePrecision precision)
+                                            SolvePrecision precision, bool jacobi)
 {
     const std::shared_ptr<Device> device = Device::open(selector);
     const bool pairs = precision == SolvePrecision::mixed;
     const Precision real = precision == SolvePrecision::float64 ? Precision::float64 : Precision::float32;
     const std::shared_ptr<DeviceMatrix> matrix =
         DeviceMatrix::upload(device, system.a, {format, real, pairs, 0});
-    Preconditioning jacobi{Preconditioner::jacobi, nullptr, nullptr};
-    const std::vector<double> inverse = jacobi_inverse(system.a);
-    jacobi.inverse = device->make_buffer(inverse.size() * real_bytes(real), "bench inverse");
-    write_reals(*device, jacobi.inverse, inverse, real);
-    return std::make_unique<DeviceSolver>(device, matrix, jacobi, system, pairs);
+    Preconditioning preconditioning;
+    if (jacobi)
+    {
+        const std::vector<double> inverse = jacobi_inverse(system.a);
+        preconditioning.kind = Preconditioner::jacobi;
+        preconditioning.inverse = device->make_buffer(inverse.size() * real_bytes(real), "bench inverse");
+        write_reals(*device, preconditioning.inverse, inverse, real);
+    }
+    return std::make_unique<DeviceSolver>(device, matrix, preconditioning, system, pairs);
 }
 
 std::unique_ptr<DeviceSolver> matrix_free_solver(const std::string& selector, const System& system,

@@ -38,10 +38,11 @@ private:
     taut::linear::CgOutcome outcome_;
 };
 
-/// A matrix without scaling, Jacobi. Values of `system` must not need scaling.
+/// A matrix without scaling, with Jacobi or, where not `jacobi`, none. Values of `system` must not need
+/// scaling.
 std::unique_ptr<DeviceSolver> device_solver(const std::string& selector, const System& system,
                                             taut::linear::Format format,
-                                            taut::linear::SolvePrecision precision);
+                                            taut::linear::SolvePrecision precision, bool jacobi = true);
 
 /// The 7-point Laplacian of poisson3d(side) without a matrix, in double, without a preconditioner (its
 /// diagonal is constant: Jacobi would change no iterate).
