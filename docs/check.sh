@@ -1,10 +1,10 @@
 #!/bin/sh
 # What the pages conclude is what their tables say: exit status 0 when all of it holds. In CI.
 #
-#   docs/check.sh [PAGE...]      cloth, solids, hybrid, acad, accuracy; all without
+#   docs/check.sh [PAGE...]      cloth, solids, hybrid, linear, acad, accuracy; all without
 set -eu
 cd "$(dirname "$0")"
-[ $# -gt 0 ] || set -- cloth solids hybrid acad accuracy
+[ $# -gt 0 ] || set -- cloth solids hybrid linear acad accuracy
 for page in "$@"; do
     case $page in
         accuracy) sh accuracy/check.sh ;;
@@ -13,6 +13,7 @@ for page in "$@"; do
         acad) awk -f claims.awk -f methods/acad/claims.awk methods/acad.md methods/acad/compress.csv \
             ../tests/bench/results/acad.csv ;;
         hybrid) awk -f claims.awk -f hybrid/claims.awk hybrid.md ../tests/bench/results/split.csv ;;
+        linear) awk -f claims.awk -f linear/claims.awk linear.md ../tests/bench/results/linear_*.csv ;;
         *) awk -f claims.awk -f "$page/claims.awk" "$page.md" "$page"/*.csv ;;
     esac
 done

@@ -80,7 +80,7 @@ FNR == 1 {
 }
 files == 1 && /^\*\*What it shows\.\*\*/ { showing = 1 }
 files == 1 && /^$/ { showing = 0; }
-files == 1 { if (showing) shown = shown " " $0; next }
+files == 1 { sub(/^ *(- )?/, ""); if (showing) shown = shown " " $0; next } # lists too
 /^#/ { next }
 !(table in rows) { columns = cells($0); rows[table] = 0; for (i = 1; i <= columns; ++i) head[i] = cell[i]; next }
 {
