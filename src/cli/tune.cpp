@@ -21,7 +21,7 @@ struct TuneCommand
     std::string scene, device;
     std::vector<std::string> methods, precisions;
     std::string by;
-    double error = 0.01;
+    std::optional<double> error;
     StudyLimits limits;
     std::optional<double> seconds;
     bool at_rest = false, moving = false, prior_only = false, json = false;
@@ -32,7 +32,8 @@ constexpr double kSeconds = 50; ///< of a search unless the command says more
 TuneOptions tune_options(const TuneCommand& command)
 {
     TuneOptions options;
-    options.error = command.error;
+    options.error = command.error.value_or(options.error);
+    options.loosen = !command.error;
     options.by = command.by == "volume" ? TuneCriterion::volume : TuneCriterion::motion;
     const bool all =
         std::find(command.methods.begin(), command.methods.end(), "all") != command.methods.end();
@@ -171,7 +172,10 @@ void add_tune(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<TuneCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
-    command->add_option("--error", options->error, "Bound on the error, 0.01 is 1 % (default: 0.01)")
+    command
+        ->add_option("--error", options->error,
+                     "Bound on the error, 0.01 is 1 % (default: 0.01, or the first of 0.02, 0.05 and "
+                     "0.1 that has a setting)")
         ->check(number_between(0, 1, Ends::open, "; 0.01 is 1 %"));
     command->add_option("--by", options->by, "What the error is of (default: motion)")
         ->check(CLI::IsMember({"motion", "volume"}));

@@ -55,9 +55,13 @@ struct CostOptions
     double reference_steps = 1.5e9; ///< element steps of R3 at most; a core does about 1e8 a second
     bool self_reference = true;     ///< whether R4 may be taken where R2 and R3 refuse
     std::vector<MethodKind> refined; ///< for R4; empty: with one method under test that one, else the usual
-    /// Asked while a reference is computed whether that part of the time for it, (0, 1], is over: true ends
-    /// it, and what is verified until then is taken.
-    std::function<bool(double part)> enough;
+    /// R4 of a motion: its own error that will do, as e_traj: substeps are doubled until it is reached. 0: as
+    /// fine as 400 substeps.
+    double reference_error = 0;
+    std::uint32_t coarsest = 0; ///< R4 with a reference_error: substeps that it begins with at least
+    /// The part of the time for a reference that is gone: from 1 on it ends, and what is verified until then
+    /// is taken. Empty: there is no limit.
+    std::function<double()> spent;
     /// Called before each setting; false stops, and what is left is a gap.
     std::function<bool(std::size_t done, std::size_t total)> progress;
 };
@@ -74,6 +78,8 @@ struct CostReference
     std::optional<double> error_l;               ///< the same as e_L
     std::vector<double> errors;      ///< `error` of the frames up to each; empty where there is none
     std::vector<MethodKind> methods; ///< R4: what was taken, and what confirms it
+    std::uint32_t substeps = 0;      ///< R4: of its finest run
+    double times = 0; ///< none, for lack of time: so many times the time for it may have one; else 0
     std::vector<std::vector<glm::dvec3>> frames; ///< moving: start and every frame; at rest: start and rest
 };
 

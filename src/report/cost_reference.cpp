@@ -126,7 +126,7 @@ DynamicReference small_steps(const Question& q, std::size_t frames, std::string&
 
 } // namespace
 
-bool enough(const Question& q) { return q.options.enough && q.options.enough(1); }
+bool enough(const Question& q) { return q.options.spent && q.options.spent() >= 1; }
 
 std::size_t wanted_frames(const Scene& scene, const CostOptions& options)
 {

@@ -35,8 +35,18 @@ struct Refinement
     double error_l = 0;     ///< the same as e_L at the last of these frames
     std::vector<double> errors; ///< `error` of the frames up to each
 };
-/// Coarse, half the step, a quarter of it. Converges: observed order 0.7 to 2.3, last difference below 5 %.
+/// What counts as convergence.
+struct RefineRule
+{
+    double lowest = 0.7, highest = 2.3; ///< observed order
+    double share = 0;                   ///< of the last difference that the error is at least
+    /// Frames that do not converge may lie between, if three in a row do after them: a contact that begins
+    /// weighs much in what has hardly moved, and little later on.
+    bool rejoins = false;
+};
+/// Coarse, half the step, a quarter of it. Converges: an observed order by the rule, and a last difference
+/// below 5 % of the motion or of rounding (1e-14 of the size).
 Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half,
-                  const Frames& quarter);
+                  const Frames& quarter, const RefineRule& rule = {});
 
 } // namespace taut::cost

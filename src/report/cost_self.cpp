@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <numeric>
 #include <sstream>
 
 namespace taut::cost {
@@ -19,38 +20,13 @@ namespace {
 constexpr const char* kSelf = "R4 (self-convergence, same method)";
 constexpr std::array<std::uint32_t, 3> kFine{100, 200, 400}; // substeps
 
-/// The device itself, or the native CPU where that one has no double.
-std::shared_ptr<Device> double_device(const Question& q)
-{
-    return q.device->limits().float64 ? q.device : Device::open("cpu");
-}
-
-CostReference none(std::vector<std::string> passed)
+CostReference no_reference(std::vector<std::string> passed)
 {
     CostReference out;
     out.text = "There is no reference that can be trusted.";
     out.passed = std::move(passed);
     return out;
 }
-
-MethodSettings fine_settings(const Question& q, MethodKind method, std::uint32_t substeps)
-{
-    MethodSettings out = settings_for(method, q.scene.method);
-    out.substeps = substeps;
-    out.iterations = 1;
-    out.precision = "double";
-    out.stability = "refuse";
-    return out;
-}
-
-/// A method refined until it agrees with itself; `reason` says when it does not.
-struct Refined
-{
-    MethodKind method;
-    Refinement found;
-    Frames finest; ///< `found.frames` of them are good
-    std::string reason;
-};
 
 /// The methods that may serve as R4: with one under test that one, else implicit and explicit ones before
 /// those that only approach the stiffness by sweeps.
@@ -60,25 +36,40 @@ std::vector<MethodKind> candidates(const Question& q)
         return q.options.refined;
     if (q.options.methods.size() == 1)
         return q.options.methods;
+    if (q.options.reference_error > 0) // two will do: the cheapest steps first
+        return {MethodKind::xpbd, MethodKind::mass_spring, MethodKind::vbd, MethodKind::implicit_euler,
+                MethodKind::implicit_constraints};
     return {MethodKind::implicit_euler, MethodKind::mass_spring, MethodKind::implicit_constraints,
             MethodKind::vbd, MethodKind::xpbd};
 }
 
-/// Those that converge; the others are listed in `passed`.
+constexpr std::size_t kInARow = 3;   ///< frames that converge after some that did not
+constexpr double kFirstShare = 0.65; ///< of the time that is left, for one of two methods
+
+/// Options under which so large a share of the time that is left counts as all.
+CostOptions with_share(const CostOptions& options, double share)
+{
+    CostOptions out = options;
+    if (!options.spent)
+        return out;
+    const double begun = options.spent(), mine = share * (1 - begun);
+    out.spent = [spent = options.spent, begun, mine] { return mine > 0 ? (spent() - begun) / mine : 1; };
+    return out;
+}
+
+/// Those that converge; the others are listed in `passed`. Each has its share of the time, and what those
+/// before it left; of a reference that is no finer than it must be two are enough.
 template <class Refine>
-std::vector<Refined> refined(const Question& q, Refine refine_one, std::vector<std::string>& passed)
+std::vector<Refined> refined(const Question& q, Refine refine_one, CostReference& none)
 {
     std::vector<Refined> out;
     const std::vector<MethodKind> methods = candidates(q);
-    for (std::size_t m = 0; m < methods.size(); ++m)
+    const bool two = q.options.reference_error > 0;
+    for (std::size_t m = 0; m < methods.size() && !(two && out.size() == 2); ++m)
     {
         const MethodKind method = methods[m];
-        CostOptions options = q.options;
-        if (q.options.enough) // each has its share of the time, and what those before it left
-            options.enough = [&](double part) {
-                return q.options.enough((static_cast<double>(m) + part) /
-                                        static_cast<double>(methods.size()));
-            };
+        const double share = two ? kFirstShare : 1 / static_cast<double>(methods.size() - m);
+        const CostOptions options = with_share(q.options, share);
         const Question mine{q.scene, q.model, q.weights, options, q.device};
         std::string reason;
         try
@@ -87,6 +78,8 @@ std::vector<Refined> refined(const Question& q, Refine refine_one, std::vector<s
                 throw Error(ErrorCode::limit, "the time for the reference was up");
             Refined next = refine_one(mine, method);
             reason = next.reason;
+            if (next.times > 0)
+                none.times = none.times > 0 ? std::min(none.times, next.times) : next.times;
             if (reason.empty())
                 out.push_back(std::move(next));
         }
@@ -95,9 +88,16 @@ std::vector<Refined> refined(const Question& q, Refine refine_one, std::vector<s
             reason = error.what();
         }
         if (!reason.empty())
-            passed.push_back("R4 (" + std::string(method_name(method)) + "): " + reason);
+            none.passed.push_back("R4 (" + std::string(method_name(method)) + "): " + reason);
     }
     return out;
+}
+
+/// Of a frame, squared: what differs by less does not differ.
+double rounding_of(const ErrorWeights& weights)
+{
+    const double mass = std::accumulate(weights.mass.begin(), weights.mass.end(), 0.0);
+    return 1e-28 * mass * weights.diameter * weights.diameter;
 }
 
 /// How far two finest runs lie apart, as e_traj and e_L, over the frames that both have. `errors`, of the
@@ -107,12 +107,13 @@ std::pair<double, double> apart(const Question& q, const Refined& a, const Refin
 {
     const std::size_t frames = std::min(a.found.frames, b.found.frames);
     errors.resize(frames + 1, 0);
+    const double rounding = rounding_of(q.weights);
     double off = 0, moved = 0, error = 0;
     for (std::size_t f = 1; f <= frames; ++f)
     {
         off += std::pow(distance_by_mass(q.weights, a.finest[f], b.finest[f]), 2);
         moved += std::pow(distance_by_mass(q.weights, a.finest[f], a.finest[0]), 2);
-        error = moved > 0 ? std::sqrt(off / moved) : 0;
+        error = off > rounding * static_cast<double>(f) ? std::sqrt(off / moved) : 0;
         errors[f] = std::max(errors[f], error);
     }
     const bool sized = q.weights.diameter > 0;
@@ -121,26 +122,29 @@ std::pair<double, double> apart(const Question& q, const Refined& a, const Refin
 
 /// The one with the longest good stretch, then the smallest error of its own, and how far the next one is
 /// from it.
-CostReference best_of(const Question& q, std::vector<Refined> runs, std::vector<std::string> passed)
+CostReference best_of(const Question& q, std::vector<Refined> runs, CostReference none)
 {
     if (runs.empty())
-        return none(std::move(passed));
+        return none;
     std::stable_sort(runs.begin(), runs.end(), [](const Refined& a, const Refined& b) {
         return a.found.frames != b.found.frames ? a.found.frames > b.found.frames
                                                 : a.found.error < b.found.error;
     });
+    if (q.options.reference_error > 0 && runs.size() > 1 && 2 * runs[1].found.frames < runs[0].found.frames)
+        runs.erase(runs.begin() + 1, runs.end()); // half of the frames are worth more than a second opinion
     Refined& best = runs[0];
     const std::string name(method_name(best.method));
     CostReference out;
-    out.passed = std::move(passed);
+    out.passed = std::move(none.passed);
     out.verified = true;
+    out.substeps = best.substeps;
     out.error = best.found.error;
     out.error_l = best.found.error_l;
     const bool alone = q.options.methods.size() == 1;
     out.errors = best.found.errors;
     out.methods = {best.method};
     out.name = alone ? kSelf : "R4 (self-convergence of " + name + ")";
-    out.text = name + (alone ? " itself" : "") + " in double with " + std::to_string(kFine[2]) +
+    out.text = name + (alone ? " itself" : "") + " in double with " + std::to_string(best.substeps) +
                " substeps x 1 iteration, halved twice, observed order " + number(best.found.order);
     if (runs.size() > 1)
     {
@@ -162,7 +166,7 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, std::vector<
 
 Refined refined_at_rest(const Question& q, MethodKind method)
 {
-    Refined out{method, {}, {}, ""};
+    Refined out{method, {}, {}, "", kFine[2]};
     std::array<Frames, 3> level;
     for (std::size_t l = 0; l < 3; ++l)
     {
@@ -221,6 +225,21 @@ private:
 
 } // namespace
 
+std::shared_ptr<Device> double_device(const Question& q)
+{
+    return q.device->limits().float64 ? q.device : Device::open("cpu");
+}
+
+MethodSettings fine_settings(const Question& q, MethodKind method, std::uint32_t substeps)
+{
+    MethodSettings out = settings_for(method, q.scene.method);
+    out.substeps = substeps;
+    out.iterations = 1;
+    out.precision = "double";
+    out.stability = "refuse";
+    return out;
+}
+
 std::string number(double value)
 {
     std::ostringstream out;
@@ -243,10 +262,11 @@ Motion settled_run(const Question& q, MethodKind method, std::uint32_t substeps)
 
 CostReference self_at_rest(const Question& q, std::vector<std::string> passed)
 {
+    CostReference none = no_reference(std::move(passed));
     if (!q.options.self_reference)
-        return none(std::move(passed));
-    std::vector<Refined> runs = refined(q, refined_at_rest, passed);
-    CostReference out = best_of(q, std::move(runs), std::move(passed));
+        return none;
+    std::vector<Refined> runs = refined(q, refined_at_rest, none);
+    CostReference out = best_of(q, std::move(runs), std::move(none));
     if (out.verified)
         out.text += ".";
     return out;
@@ -254,27 +274,32 @@ CostReference self_at_rest(const Question& q, std::vector<std::string> passed)
 
 CostReference self_motion(const Question& q, std::size_t frames, std::vector<std::string> passed)
 {
+    CostReference none = no_reference(std::move(passed));
     if (!q.options.self_reference)
-        return none(std::move(passed));
+        return none;
     const auto one = [frames](const Question& question, MethodKind method) {
+        if (question.options.reference_error > 0)
+            return climb(question, method, frames);
         SelfConvergence runs(question, method);
-        Refined out{method, runs.run(frames), std::move(runs.finest()), ""};
+        Refined out{method, runs.run(frames), std::move(runs.finest()), "", kFine[2]};
         if (out.found.frames == 0 || out.found.frames < std::min(frames, kFewest))
             out.reason =
                 "halving the substep converges for " + std::to_string(out.found.frames) + " frames only";
         return out;
     };
-    std::vector<Refined> runs = refined(q, one, passed);
-    CostReference out = best_of(q, std::move(runs), std::move(passed));
+    std::vector<Refined> runs = refined(q, one, none);
+    CostReference out = best_of(q, std::move(runs), std::move(none));
     if (out.verified)
         out.text += "; over " + frames_text(out.frames.size() - 1, q.model.timestep) + ".";
     return out;
 }
 
 Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frames& half,
-                  const Frames& quarter)
+                  const Frames& quarter, const RefineRule& rule)
 {
+    const double rounding = rounding_of(weights);
     double first = 0, last = 0, moved = 0; // sums of squares
+    std::size_t in_a_row = 0;
     Refinement out;
     std::vector<double> errors(1, 0);
     const auto squared = [&](const auto& a, const auto& b) {
@@ -287,14 +312,16 @@ Refinement refine(const ErrorWeights& weights, const Frames& coarse, const Frame
         last += squared(half[f], quarter[f]);
         moved += squared(quarter[f], quarter[0]);
         const double order = 0.5 * std::log2(first / last);
-        const double difference = moved > 0 ? std::sqrt(last / moved) : 0;
+        const bool still = last <= rounding * static_cast<double>(f);
+        const double difference = moved > 0 && !still ? std::sqrt(last / moved) : 0;
         const bool exact = !(difference > 1e-12);
-        const bool good = exact || (order >= 0.7 && order <= 2.3 && difference < 0.05);
-        const double share = exact ? 1 : 1 / (std::exp2(order) - 1);
+        const bool good = exact || (order >= rule.lowest && order <= rule.highest && difference < 0.05);
+        const double share = exact ? 1 : std::max(rule.share, 1 / (std::exp2(order) - 1));
         errors.push_back(good ? difference * share : std::numeric_limits<double>::infinity());
-        if (!good && out.frames > 0)
+        if (!good && out.frames > 0 && !rule.rejoins)
             break;
-        if (!good)
+        in_a_row = good ? in_a_row + 1 : 0;
+        if (!good || (rule.rejoins && in_a_row < std::min(f, kInARow)))
             continue;
         out = {f, exact ? 0 : order, difference * share, 0, {}};
         out.error_l = weights.diameter > 0 ? share * largest_error(weights, half[f], quarter[f]) : 0;

@@ -1,12 +1,10 @@
 // Based on: cost-ascending racing over short runs (tune_race.cpp), guards by conservation laws.
-// Departures: perturbed starts are smooth waves, not noise: noise would shake the stiffest springs, which no
-//   frame rate shows (docs/tune.md).
+// Departures: perturbed starts are pushes, not displacements: those would strain the stiffest springs, which
+//   then shake faster than any frame rate shows (docs/tune.md).
 #include "taut/report/tune.hpp"
 
-#include "taut/report/cost_design.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
-#include "taut/report/volume.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,34 +14,15 @@ namespace {
 
 using namespace tuning;
 
+constexpr double kLooser[] = {0.02, 0.05, 0.1}; ///< bounds, where the one that is asked for has no answer
+constexpr double kFineEnough = 0.2; ///< of the bound: error of a reference by self-convergence that will do
 constexpr double kMargin = 0.8;     ///< of the bound, at the last rung
 constexpr double kHysteresis = 1.1; ///< the scene's own setting stays up to this price
 constexpr std::size_t kFinalists = 3;
 constexpr double kFarthest = 3; ///< finalists cost at most so many times the first
 // Parts of TuneOptions::seconds: what a reference may take, and when the race changes and ends.
-constexpr double kOwnReference = 0.35, kPerturbedReference = 0.1, kHalfRace = 0.6, kRace = 0.8;
-
-void check_input(const Scene& scene, const TuneOptions& options)
-{
-    if (!(options.error > 0 && options.error < 1))
-        throw Error(ErrorCode::bad_input, "the error to keep must be above 0 and below 1; 0.01 is 1 %.");
-    if (options.precisions.empty())
-        throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
-    if (scene.bodies.empty())
-        throw Error(ErrorCode::bad_input, "bodies is empty: there is nothing to tune; add a body.");
-    if (!(options.seconds >= 0))
-        throw Error(ErrorCode::bad_input, "the seconds of the search must be 0 or more.");
-    if (options.by == TuneCriterion::volume && options.kind == CostKind::at_rest)
-        throw Error(ErrorCode::bad_input,
-                    "an error of volume is the worst of all frames; leave out that it is at rest.");
-}
-
-void check_volumes(const Scene& resolved)
-{
-    if (!measure_volume(resolved, make_model(resolved).start).any)
-        throw Error(ErrorCode::bad_input, "no body has a volume: an error of volume is one of bodies of "
-                                          "tetrahedra, or of closed cloth that holds its volume.");
-}
+constexpr double kOwnReference = 0.5, kPerturbedReference = 0.1, kHalfRace = 0.55, kRace = 0.75,
+                 kRaceCut = 0.8;
 
 /// A candidate that passed everything.
 struct Finalist
@@ -69,18 +48,15 @@ public:
         out_.kind = by_volume()                           ? CostKind::moving
                     : options.kind == CostKind::automatic ? cost_kind(scene_)
                                                           : options.kind;
-        if (by_volume())
-            check_volumes(scene_);
         references_.methods = options.methods.empty() ? methods_listed({"all"}) : options.methods;
         references_.kind = out_.kind;
         references_.rest_seconds = options.rest_seconds;
         references_.reference_steps = options.reference_steps;
+        references_.reference_error = kFineEnough * options.error;
         const std::size_t wanted = cost::wanted_frames(scene_, references_);
         references_.frames = std::min(options.frames, wanted > 0 ? wanted : options.frames);
-        if (out_.kind == CostKind::moving && options.kind == CostKind::automatic && held_still(scene_) &&
-            scene_.colliders.empty())
-            out_.notes.push_back("without damping the scene never rests: the error is that of its "
-                                 "trajectory; with damping above 0 it would be that at rest");
+        if (out_.kind == CostKind::moving && options.kind == CostKind::automatic)
+            out_.notes = never_rests_note(scene_);
     }
 
     TuneResult run()
@@ -88,10 +64,14 @@ public:
         if (!begin())
             return std::move(out_);
         race(priced());
+        while (finalists_.empty() && !out_.interrupted && loosened())
+            race_again();
+        if (out_.bound != options_.error)
+            out_.notes.push_back(loosened_note(out_, options_));
         if (!finalists_.empty())
             choose();
         else
-            say_none();
+            out_.why = none_of_tried(out_);
         return std::move(out_);
     }
 
@@ -104,14 +84,15 @@ private:
         starts_.push_back(start_of(scene_, kOwnReference));
         Start& start = starts_[0];
         const std::size_t verified = start.frames, wanted = references_.frames;
-        const bool fits = start.reference.verified && fit_reference(start, options_.error);
+        bool fits = start.reference.verified && fit_reference(start, out_.bound);
+        while (!fits && start.reference.verified && loosened())
+            fits = fit_reference(start, out_.bound);
         out_.reference = start.reference;
         out_.metric = start.metric;
         if (!fits)
         {
             out_.answer = start.reference.verified ? TuneAnswer::poor_reference : TuneAnswer::no_reference;
-            out_.why =
-                start.reference.verified ? poor_reference(out_, options_) : no_reference(out_, options_);
+            out_.why = start.reference.verified ? poor_reference(out_) : no_reference(out_, options_);
             return false;
         }
         if (out_.kind == CostKind::at_rest)
@@ -122,6 +103,35 @@ private:
         return true;
     }
 
+    /// The next bound that is tried; false: there is none.
+    bool loosened()
+    {
+        const auto next = std::upper_bound(std::begin(kLooser), std::end(kLooser), out_.bound);
+        if (!options_.loosen || by_volume() || next == std::end(kLooser))
+            return false;
+        out_.bound = *next;
+        return true;
+    }
+
+    /// What fell by an error that the bound allows now, the cheapest first.
+    void race_again()
+    {
+        end_ = 1;
+        std::stable_sort(run_.begin(), run_.end(),
+                         [](const Candidate& a, const Candidate& b) { return a.prior < b.prior; });
+        for (const Candidate& candidate : std::vector<Candidate>(run_))
+        {
+            const auto fell = std::find_if(out_.rejected.begin(), out_.rejected.end(), [&](const auto& r) {
+                return settings_block(r.settings) == settings_block(candidate.settings);
+            });
+            const bool may = fell != out_.rejected.end() && fell->error.value_or(1) <= kMargin * out_.bound;
+            if (!may || !left_out(candidate, 1).empty())
+                continue;
+            out_.rejected.erase(fell);
+            try_candidate(candidate);
+        }
+    }
+
     /// `part` of the time is for its reference.
     Start start_of(const Scene& scene, double part)
     {
@@ -129,10 +139,12 @@ private:
             return make_volume_start(scene, references_.frames);
         CostOptions options = references_;
         const double begun = watch_.spent();
-        options.enough = [&, begun](double share) {
-            return watch_.spent() - begun >= share * part * options_.seconds;
+        options.spent = [this, begun, part] {
+            const double mine = part * options_.seconds;
+            return mine > 0 ? (watch_.spent() - begun) / mine : 1;
         };
-        return make_start(scene, device_, out_.kind, options);
+        return make_start(out_.kind == CostKind::at_rest ? damped_to_rest(scene) : scene, device_, out_.kind,
+                          options);
     }
 
     void reject(const Candidate& candidate, const char* stage, std::string reason,
@@ -147,16 +159,11 @@ private:
         const DeviceTraits traits =
             options_.prior_only ? limits_as_traits(*device_) : measure_traits(*device_);
         facts_ = scene_facts(starts_[0].model, starts_[0].reference);
-        std::vector<Candidate> all{{scene_.method, 0, true}}, out;
-        for (const MethodKind kind : references_.methods)
-            for (const Precision precision : options_.precisions)
-                for (MethodSettings& settings : method_design(kind, precision, scene_.method))
-                    if (settings_block(settings) != settings_block(scene_.method))
-                        all.push_back({std::move(settings), 0, false});
+        std::vector<Candidate> all = designed(scene_, references_.methods, options_.precisions), out;
         const bool chosen = by_volume() || !options_.methods.empty();
         for (Candidate& candidate : all)
         {
-            const std::string reason = filtered(scene_, facts_, traits, options_.error, candidate);
+            const std::string reason = filtered(scene_, facts_, traits, out_.bound, candidate);
             const std::string other = other_material(facts_, candidate.settings);
             if (!reason.empty())
                 reject(candidate, "filter", reason);
@@ -195,7 +202,7 @@ private:
                     return a.settings.substeps > b.settings.substeps;
                 });
             }
-            if (twins && fell_in_float(at->settings))
+            if (twins && fell_in_float(out_.rejected, at->settings))
                 twins->push_back(*at);
             else if (const std::string reason = left_out(*at); !reason.empty())
                 out_.not_tried.push_back({at->settings, reason});
@@ -204,37 +211,23 @@ private:
         }
     }
 
-    /// Why a candidate is not tried; empty: it is.
-    std::string left_out(const Candidate& candidate)
+    /// Why a candidate is not tried when the race ends at that part of the time; empty: it is.
+    std::string left_out(const Candidate& candidate, double end = kRace)
     {
         const std::size_t done = out_.tried.size() + out_.not_tried.size();
         out_.interrupted = out_.interrupted || (options_.progress && !options_.progress(done, total_));
         if (out_.interrupted)
             return "interrupted";
-        if (watch_.over(kRace))
+        if (watch_.over(end))
             return "the time was up";
         if (finalists_.empty())
             return {};
         const double first = finalists_[0].candidate.prior;
         if (candidate.prior > kFarthest * first)
             return "dearer than what was found";
-        const std::size_t wanted = options_.prior_only ? 1 : kFinalists;
-        if (candidate.own || finalists_.size() < wanted)
+        if (candidate.own || finalists_.size() < (options_.prior_only ? 1 : kFinalists))
             return {};
         return candidate.prior >= first ? "dearer than what was found" : "enough others were found before it";
-    }
-
-    static bool was_run(const TuneRejection& r) { return r.stage != "filter" && r.stage != "material"; }
-    /// A step that diverges in float does so in double too: it counts, though it has no error.
-    bool fell_in_float(const MethodSettings& settings) const
-    {
-        MethodSettings twin = settings;
-        twin.precision = "float";
-        const std::string block = settings_block(twin);
-        return settings.precision == "double" &&
-               std::any_of(out_.rejected.begin(), out_.rejected.end(), [&](const TuneRejection& r) {
-                   return was_run(r) && settings_block(r.settings) == block;
-               });
     }
 
     void try_candidate(const Candidate& candidate)
@@ -244,11 +237,15 @@ private:
             const Lap lap = on_start(0, candidate.settings);
             if (lap.cut)
                 return out_.not_tried.push_back({candidate.settings, "the time was up"});
-            out_.tried.push_back(candidate.settings);
+            note_run(candidate);
             if (!lap.reason.empty())
                 return reject(candidate, "race", lap.reason, lap.error);
-            if (std::string law = broken_law(scene_, device_, candidate.settings, out_.kind); !law.empty())
-                return reject(candidate, "guard", std::move(law), lap.error);
+            const Verdict law =
+                broken_law(scene_, device_, candidate.settings, out_.kind, [this] { return watch_.over(1); });
+            if (!law)
+                return out_.not_tried.push_back({candidate.settings, "the time was up"});
+            if (!law->empty())
+                return reject(candidate, "guard", *law, lap.error);
             confirm(candidate, *lap.error);
         }
         catch (const Error& error) // what the plan let pass and the device refuses
@@ -259,19 +256,31 @@ private:
         }
     }
 
+    void note_run(const Candidate& candidate)
+    {
+        const std::string block = settings_block(candidate.settings);
+        if (std::any_of(run_.begin(), run_.end(),
+                        [&](const Candidate& c) { return settings_block(c.settings) == block; }))
+            return; // again, with a looser bound
+        run_.push_back(candidate);
+        out_.tried.push_back(candidate.settings);
+    }
+
     /// The bound holds with the margin, and the reference's own error counts.
     Lap on_start(std::size_t which, const MethodSettings& settings)
     {
         const Start& start = starts_[which];
-        const double bound = kMargin * options_.error - start.reference.error.value_or(0);
+        const double bound = kMargin * out_.bound - start.reference.error.value_or(0);
         return run_lap(start, device_, settings, out_.kind, bound, options_.rest_seconds,
-                       [this] { return watch_.over(1); });
+                       [this] { return watch_.over(end_); });
     }
 
-    /// Two perturbed starts beside the scene's own; their references are made when first needed.
+    /// Two perturbed starts beside the scene's own; their references are made when first needed. What passed
+    /// on the scene's own start has all the time that is left.
     void confirm(const Candidate& candidate, double predicted)
     {
         Finalist finalist{candidate, predicted, predicted, 1, std::nullopt};
+        end_ = 1;
         for (std::size_t which = 1; which <= 2; ++which)
         {
             if (starts_.size() <= which)
@@ -290,25 +299,19 @@ private:
         finalists_.push_back(finalist);
     }
 
-    /// Of the class that the scene's own reference has: another one would bound another error. A start whose
+    /// Of R4 by the methods of the scene's own reference: others would bound another error. A start whose
     /// reference is not good enough is left out.
     void add_perturbed(std::uint32_t which)
     {
         const std::vector<MethodKind>& methods = starts_[0].reference.methods;
-        references_.self_reference = !methods.empty();
         references_.refined = methods;
+        references_.coarsest = starts_[0].reference.substeps / 4; // the three levels that were good enough
         starts_.push_back(start_of(perturbed(scene_, which), kPerturbedReference));
         Start& start = starts_.back();
-        if (start.reference.verified && fit_reference(start, options_.error))
+        if (start.reference.verified && fit_reference(start, out_.bound))
             return;
-        out_.notes.push_back(perturbed_note(which, start.reference, options_.error));
+        out_.notes.push_back(perturbed_note(which, start.reference, out_.bound));
         start.reference.verified = false;
-    }
-
-    void say_none()
-    {
-        out_.answer = TuneAnswer::none_of_tried;
-        out_.why = none_of_tried(out_);
     }
 
     double price(const Finalist& finalist) const
@@ -331,7 +334,7 @@ private:
 
     void choose()
     {
-        if (!options_.prior_only)
+        if (!options_.prior_only && !watch_.over(1))
             time_all();
         std::stable_sort(finalists_.begin(), finalists_.end(),
                          [&](const Finalist& a, const Finalist& b) { return price(a) < price(b); });
@@ -373,6 +376,8 @@ private:
     CostOptions references_;
     std::size_t total_ = 0;     ///< candidates that the filter let pass
     std::vector<Start> starts_; ///< the scene's own, then perturbed ones
+    std::vector<Candidate> run_; ///< simulated
+    double end_ = kRaceCut;      ///< the part of the time at which a candidate's run is cut off
     std::vector<Finalist> finalists_;
     TuneResult out_;
 };
@@ -384,7 +389,9 @@ TuneResult tune(const Scene& scene, std::shared_ptr<Device> device, const TuneOp
     check_input(scene, options);
     const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.mesh.positions.empty(); });
-    return Tuner(done ? scene : resolve(scene), std::move(device), options).run();
+    const Scene resolved = done ? scene : resolve(scene);
+    check_volumes(resolved, options);
+    return Tuner(resolved, std::move(device), options).run();
 }
 
 } // namespace taut

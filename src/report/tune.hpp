@@ -23,6 +23,9 @@ enum class TuneCriterion
 struct TuneOptions
 {
     double error = 0.01;             ///< bound on the error, (0, 1)
+    /// Where no reference is good enough for `error`, or nothing that was tried keeps it: the first of 2, 5
+    /// and 10 % that has a setting, if those are above it.
+    bool loosen = false;
     TuneCriterion by = TuneCriterion::motion;
     /// Empty: all but those of another material (other_material() in tune_parts.hpp).
     std::vector<MethodKind> methods;
@@ -75,7 +78,7 @@ struct TuneResult
     CostKind kind = CostKind::moving;
     std::string metric;
     std::size_t frames = 0; ///< moving: of the last rung
-    double bound = 0;
+    double bound = 0;       ///< that the answer is for: TuneOptions::error, or what that was loosened to
     CostReference reference;
     TuneAnswer answer = TuneAnswer::none_of_tried;
     std::string why; ///< where nothing is found: a sentence with what would help; else empty

@@ -1,6 +1,8 @@
 // What can be said of a setting without simulating: that it cannot work, and about what it costs.
+#include "taut/report/cost_design.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
+#include "taut/report/volume.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -23,6 +25,51 @@ std::string number(double value)
 }
 
 } // namespace
+
+void check_input(const Scene& scene, const TuneOptions& options)
+{
+    if (!(options.error > 0 && options.error < 1))
+        throw Error(ErrorCode::bad_input, "the error to keep must be above 0 and below 1; 0.01 is 1 %.");
+    if (options.precisions.empty())
+        throw Error(ErrorCode::bad_input, "precisions to try must name float, double or both.");
+    if (scene.bodies.empty())
+        throw Error(ErrorCode::bad_input, "bodies is empty: there is nothing to tune; add a body.");
+    if (!(options.seconds >= 0))
+        throw Error(ErrorCode::bad_input, "the seconds of the search must be 0 or more.");
+    if (options.by == TuneCriterion::volume && options.kind == CostKind::at_rest)
+        throw Error(ErrorCode::bad_input,
+                    "an error of volume is the worst of all frames; leave out that it is at rest.");
+}
+
+void check_volumes(const Scene& resolved, const TuneOptions& options)
+{
+    if (options.by == TuneCriterion::volume && !measure_volume(resolved, make_model(resolved).start).any)
+        throw Error(ErrorCode::bad_input, "no body has a volume: an error of volume is one of bodies of "
+                                          "tetrahedra, or of closed cloth that holds its volume.");
+}
+
+std::vector<Candidate> designed(const Scene& resolved, const std::vector<MethodKind>& methods,
+                                const std::vector<Precision>& precisions)
+{
+    std::vector<Candidate> out{{resolved.method, 0, true}};
+    for (const MethodKind kind : methods)
+        for (const Precision precision : precisions)
+            for (MethodSettings& settings : method_design(kind, precision, resolved.method))
+                if (settings_block(settings) != settings_block(resolved.method))
+                    out.push_back({std::move(settings), 0, false});
+    return out;
+}
+
+bool fell_in_float(const std::vector<TuneRejection>& rejected, const MethodSettings& settings)
+{
+    MethodSettings twin = settings;
+    twin.precision = "float";
+    const std::string block = settings_block(twin);
+    return settings.precision == "double" &&
+           std::any_of(rejected.begin(), rejected.end(), [&](const TuneRejection& r) {
+               return r.stage != "filter" && r.stage != "material" && settings_block(r.settings) == block;
+           });
+}
 
 Scene with_method(const Scene& resolved, const MethodSettings& settings)
 {

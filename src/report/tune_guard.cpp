@@ -15,6 +15,7 @@ namespace {
 constexpr int kFrames = 18;
 constexpr double kMomentum = 1e-3; ///< of M sqrt(g D)
 constexpr double kRest = 1e-5;     ///< of the diagonal
+constexpr double kPush = 1e-4;     ///< of the diagonal a frame
 
 std::string number(double value)
 {
@@ -52,6 +53,19 @@ double chance(std::uint32_t number, std::uint32_t which)
     return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
+/// False: the time was up before.
+bool steps(World& world, const std::function<bool()>& late)
+{
+    for (int f = 0; f < kFrames; ++f)
+    {
+        if (late && late())
+            return false;
+        world.step();
+        world.device().wait();
+    }
+    return true;
+}
+
 glm::dvec3 direction(std::uint32_t number, std::uint32_t which)
 {
     const double z = 2 * chance(number, which) - 1;
@@ -61,8 +75,8 @@ glm::dvec3 direction(std::uint32_t number, std::uint32_t which)
 
 } // namespace
 
-std::string momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                           const MethodSettings& settings)
+Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
+                       const MethodSettings& settings, const std::function<bool()>& late)
 {
     Scene scene = alone(resolved, settings);
     if (glm::length(scene.gravity) == 0)
@@ -72,8 +86,8 @@ std::string momentum_guard(const Scene& resolved, const std::shared_ptr<Device>&
     const PhysicalModel model = make_model(scene);
     const ErrorWeights weights = error_weights(model);
     World world(scene, device);
-    for (int f = 0; f < kFrames; ++f)
-        world.step();
+    if (!steps(world, late))
+        return std::nullopt;
     const std::vector<glm::dvec3> v = world.velocities();
     if (!finite(v))
         return "free fall: a velocity is not finite";
@@ -83,8 +97,8 @@ std::string momentum_guard(const Scene& resolved, const std::shared_ptr<Device>&
     return off <= kMomentum ? "" : "free fall: momentum is off by " + number(off) + " of M sqrt(g D)";
 }
 
-std::string rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                       const MethodSettings& settings)
+Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
+                   const MethodSettings& settings, const std::function<bool()>& late)
 {
     Scene scene = alone(resolved, settings);
     const double weight = std::max(1.0, glm::length(scene.gravity)); // what forces are compared with
@@ -100,10 +114,10 @@ std::string rest_guard(const Scene& resolved, const std::shared_ptr<Device>& dev
     add_forces(model, model.start, force);
     for (std::size_t i = 0; i < force.size(); ++i)
         if (!model.pinned[i] && glm::length(force[i]) > 1e-6 * weight * model.mass[i])
-            return {};
+            return "";
     World world(scene, device);
-    for (int f = 0; f < kFrames; ++f)
-        world.step();
+    if (!steps(world, late))
+        return std::nullopt;
     const std::vector<glm::dvec3> x = world.positions();
     if (!finite(x))
         return "rest: a position is not finite";
@@ -112,41 +126,21 @@ std::string rest_guard(const Scene& resolved, const std::shared_ptr<Device>& dev
     return moved <= kRest ? "" : "rest: a vertex wandered " + number(moved) + " of the diagonal";
 }
 
-std::string broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
-                       const MethodSettings& settings, CostKind kind)
+Verdict broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
+                   const MethodSettings& settings, CostKind kind, const std::function<bool()>& late)
 {
     const bool falls = kind != CostKind::at_rest || !held_still(resolved);
-    std::string out = falls ? momentum_guard(resolved, device, settings) : "";
-    return out.empty() ? rest_guard(resolved, device, settings) : out;
+    const Verdict fall = falls ? momentum_guard(resolved, device, settings, late) : "";
+    return fall && fall->empty() ? rest_guard(resolved, device, settings, late) : fall;
 }
 
 Scene perturbed(const Scene& resolved, std::uint32_t number)
 {
     Scene out = resolved;
-    const PhysicalModel model = make_model(resolved);
-    std::vector<glm::dvec3> held;
-    for (const ModelPin& pin : model.pins)
-        held.push_back(model.start[pin.vertex]);
-    const double size = model.diameter;
-    const glm::dvec3 along = direction(number, 0), push = direction(number, 2);
-    const double phase = 2 * std::numbers::pi * chance(number, 4);
-    std::size_t vertex = 0;
+    const double speed = kPush * make_model(resolved).diameter / resolved.timestep;
+    std::uint32_t body_number = 0;
     for (Body& body : out.bodies)
-    {
-        const std::size_t count = body.mesh.positions.size();
-        body.start_positions.assign(model.start.begin() + static_cast<std::ptrdiff_t>(vertex),
-                                    model.start.begin() + static_cast<std::ptrdiff_t>(vertex + count));
-        for (glm::dvec3& x : body.start_positions)
-        {
-            double share = 1; // 0 at pins, 1 from a quarter of the size on
-            for (const glm::dvec3& pin : held)
-                share = std::min(share, 4 * glm::distance(x, pin) / size);
-            if (size > 0)
-                x += 1e-3 * size * share * std::sin(std::numbers::pi * glm::dot(along, x) / size + phase) *
-                     push;
-        }
-        vertex += count;
-    }
+        body.velocity += speed * direction(number, 2 * body_number++);
     return out;
 }
 

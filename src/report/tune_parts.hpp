@@ -18,6 +18,18 @@ struct Candidate
     bool own = false; ///< the scene's
 };
 
+/// Throw Error{bad_input} for options that cannot be, the second for a bound on a volume that no body has.
+void check_input(const Scene& scene, const TuneOptions& options);
+void check_volumes(const Scene& resolved, const TuneOptions& options);
+
+/// The scene's own setting, and the designs of the methods without it.
+std::vector<Candidate> designed(const Scene& resolved, const std::vector<MethodKind>& methods,
+                                const std::vector<Precision>& precisions);
+
+/// Whether a setting in double was run in float and rejected. A step that diverges in float does so in double
+/// too: it counts, though it has no error.
+bool fell_in_float(const std::vector<TuneRejection>& rejected, const MethodSettings& settings);
+
 /// The scene with these settings.
 Scene with_method(const Scene& resolved, const MethodSettings& settings);
 
@@ -48,22 +60,20 @@ std::string filtered(const Scene& resolved, const SceneFacts& facts, const Devic
 /// for all.
 std::string other_material(const SceneFacts& facts, const MethodSettings& settings);
 
-/// Free fall without pins, colliders, damping and wind: empty when the whole keeps its momentum, else why
-/// not.
-std::string momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                           const MethodSettings& settings);
-/// The rest shape without gravity stays where it is: empty, or why not. Empty, too, where the rest shape
-/// pulls by itself (a stretched net).
-std::string rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                       const MethodSettings& settings);
+/// Why a law is broken, "" when it is kept, nothing when `late` ended the run before.
+using Verdict = std::optional<std::string>;
+/// Free fall without pins, colliders, damping and wind: the whole keeps its momentum.
+Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
+                       const MethodSettings& settings, const std::function<bool()>& late = {});
+/// The rest shape without gravity stays where it is. Kept, too, where the rest shape pulls by itself (a
+/// stretched net).
+Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
+                   const MethodSettings& settings, const std::function<bool()>& late = {});
+/// The first of both laws that a setting breaks. Free fall tells nothing of the rest of what pins hold up.
+Verdict broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
+                   const MethodSettings& settings, CostKind kind, const std::function<bool()>& late = {});
 
-/// Which of both laws a setting breaks; empty: none. Free fall tells nothing of the rest of what pins hold
-/// up.
-std::string broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
-                       const MethodSettings& settings, CostKind kind);
-
-/// Free vertices displaced by at most 1e-3 of the diagonal along a long wave that dies out towards the pins;
-/// `number` picks the wave.
+/// Every body is given a push of 1e-4 of the diagonal a frame; `number` picks the directions.
 Scene perturbed(const Scene& resolved, std::uint32_t number);
 
 /// A start with its reference.
@@ -76,6 +86,11 @@ struct Start
     std::string metric;     ///< "e_traj", "e_disp", "e_L" or "e_V"
     std::size_t frames = 0; ///< moving: of the last rung
 };
+
+/// The scene with at least the damping that brings a pendulum as long as it is to rest the fastest. Where
+/// bodies come to rest does not depend on it, unless they remember how they got there (contacts, plasticity,
+/// tearing): then the scene is as it was.
+Scene damped_to_rest(const Scene& resolved);
 
 /// A reference's own error takes at most so much of the bound.
 inline constexpr double kReferenceShare = 0.4;
@@ -105,10 +120,14 @@ private:
 
 // What a result says in words, with what would help (tune_words.cpp).
 std::string no_reference(const TuneResult& result, const TuneOptions& options);
-std::string poor_reference(const TuneResult& result, const TuneOptions& options);
+std::string poor_reference(const TuneResult& result);
 std::string none_of_tried(const TuneResult& result);
 /// Of the frames that a scene wants: so many have a reference, and so many of those one that is good enough.
 std::string frames_note(std::size_t good, std::size_t verified, std::size_t wanted);
+/// A note, or none: pins would hold the scene, but nothing damps it.
+std::vector<std::string> never_rests_note(const Scene& resolved);
+/// Where the bound is not the one that the options have.
+std::string loosened_note(const TuneResult& result, const TuneOptions& options);
 std::string perturbed_note(std::uint32_t which, const CostReference& reference, double bound);
 
 /// A candidate on one start, rung by rung.

@@ -6,6 +6,8 @@
 #include "taut/report/tune_parts.hpp"
 #include "taut/report/volume.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -93,6 +95,19 @@ Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, C
     });
     out.metric = !moves ? "e_L" : at_rest ? "e_disp" : "e_traj";
     out.frames = at_rest || frames.empty() ? 0 : frames.size() - 1;
+    return out;
+}
+
+Scene damped_to_rest(const Scene& resolved)
+{
+    Scene out = resolved;
+    const bool remembers = !resolved.colliders.empty() ||
+                           std::any_of(out.bodies.begin(), out.bodies.end(), [](const Body& body) {
+                               return body.material.tear_strain > 0 || body.material.plastic_yield > 0;
+                           });
+    const double size = make_model(resolved).diameter;
+    if (!remembers && size > 0)
+        out.damping = std::max(out.damping, 2 * std::sqrt(glm::length(out.gravity) / size));
     return out;
 }
 

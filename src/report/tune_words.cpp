@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace taut {
 namespace {
@@ -97,27 +98,29 @@ double Watch::now() const
 
 std::string no_reference(const TuneResult& result, const TuneOptions& options)
 {
-    const auto late = [](const std::string& passed) { return passed.find("the time") != std::string::npos; };
-    const bool cut = std::any_of(result.reference.passed.begin(), result.reference.passed.end(), late);
     std::string text = "Without a reference that can be trusted no error can be bounded.";
-    if (cut)
-        text += " Its share of the " + number(options.seconds) + " s was up: a longer --seconds may help.";
-    else if (result.kind == CostKind::moving)
-        text += " Fewer --frames may have one, or more --reference-steps.";
-    else
-        text += " Its trajectory may have one: --moving.";
-    return text;
+    const double seconds = result.reference.times * options.seconds;
+    if (seconds > 0 && std::isfinite(seconds))
+        return text + " The time for it was up: the shortest of them needs at least --seconds " +
+               number(seconds) + " (now " + number(options.seconds) +
+               "; see \"passed over\" for how far each came).";
+    if (result.kind == CostKind::at_rest)
+        return text + " Its trajectory may have one: --moving.";
+    return text +
+           " No method's substeps can be refined until they agree: see \"passed over\" for what halving "
+           "still changes. Such a motion is chaotic or has kinks; more damping, fewer --frames or more "
+           "--reference-steps may help.";
 }
 
-std::string poor_reference(const TuneResult& result, const TuneOptions& options)
+std::string poor_reference(const TuneResult& result)
 {
     const double own = result.reference.error.value_or(0);
     std::string text = "The reference is not good enough: its own error, " + percent(own) +
                        ", is more than " + number(kReferenceShare) + " of the bound of " +
-                       percent(options.error) + ", so nothing was tried.";
+                       percent(result.bound) + ", so nothing was tried.";
     text += " It is good enough for an --error of " + number(1.01 * own / kReferenceShare) + " or more";
     return text + (result.kind == CostKind::moving
-                       ? "; fewer --frames, or more --reference-steps, may have a better one."
+                       ? "; fewer --frames, more --seconds or more --reference-steps may have a better one."
                        : ".");
 }
 
@@ -142,6 +145,23 @@ std::string frames_note(std::size_t good, std::size_t verified, std::size_t want
     return text + (good < verified ? "from there on the reference's own error takes more than " +
                                          number(kReferenceShare) + " of the bound"
                                    : "no reference is verified beyond them");
+}
+
+std::vector<std::string> never_rests_note(const Scene& resolved)
+{
+    if (!held_still(resolved) || !resolved.colliders.empty())
+        return {};
+    return {
+        "without damping the scene never rests: the error is that of its trajectory; with damping above 0 it "
+        "would be that at rest"};
+}
+
+std::string loosened_note(const TuneResult& result, const TuneOptions& options)
+{
+    return "the bound is " + percent(result.bound) + ": none is asked for, and with less (from " +
+           percent(options.error) +
+           " on) no reference is good enough or none of those tried keeps it; --error " +
+           number(options.error) + " insists";
 }
 
 std::string perturbed_note(std::uint32_t which, const CostReference& reference, double bound)
