@@ -95,7 +95,8 @@ Scene damped_to_rest(const Scene& resolved);
 /// A reference's own error takes at most so much of the bound.
 inline constexpr double kReferenceShare = 0.4;
 /// Cuts a moving start to the frames whose reference is good enough for the bound. False, and the start
-/// stays as it is, when even the first frames are not, or the rest is not.
+/// stays as it is, when even the first frames are not, when in those nothing has moved yet, or when the rest
+/// is not.
 bool fit_reference(Start& start, double bound);
 
 /// Reference and metric of a scene. Without a reference `reference.verified` is false.

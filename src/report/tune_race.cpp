@@ -98,6 +98,17 @@ Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, C
     return out;
 }
 
+namespace {
+
+/// Nothing has moved by then but for rounding: no error can be told.
+bool still(const Start& start, std::size_t frame)
+{
+    const Frames& all = start.reference.frames;
+    return start.weights.diameter > 0 && largest_error(start.weights, all[frame], all[0]) < 1e-9;
+}
+
+} // namespace
+
 Scene damped_to_rest(const Scene& resolved)
 {
     Scene out = resolved;
@@ -122,7 +133,7 @@ bool fit_reference(Start& start, double bound)
     std::size_t good = start.frames;
     while (good > 0 && !(reference.errors[good] <= most))
         --good;
-    if (good < std::min(start.frames, cost::kFewest))
+    if (good < std::min(start.frames, cost::kFewest) || (still(start, good) && !still(start, start.frames)))
         return false;
     reference.error = reference.errors[good];
     reference.frames.resize(good + 1);

@@ -138,3 +138,20 @@ TEST_CASE("a guard that the time cuts off has no verdict", "[tune]")
     CHECK_FALSE(tuning::broken_law(sheet(4, 500), serial(), settings, CostKind::moving, late).has_value());
     CHECK(tuning::broken_law(sheet(4, 500), serial(), settings, CostKind::moving) == "");
 }
+
+TEST_CASE("a reference is not cut to frames in which nothing has moved yet", "[tune]")
+{
+    tuning::Start start{sheet(4, 200), {}, {}, {}, "e_traj", 20};
+    start.weights = {{1}, 1};
+    for (std::size_t f = 0; f <= 20; ++f)
+    {
+        const double moved = f > 12 ? static_cast<double>(f) : 0;
+        start.reference.frames.push_back({{moved, 0, 0}});
+        start.reference.errors.push_back(f > 12 ? 0.005 : 0);
+    }
+    start.reference.error = 0.005;
+    CHECK_FALSE(tuning::fit_reference(start, 0.01)); // 0.4 of it leaves the still ones
+    CHECK(start.frames == 20);
+    CHECK(tuning::fit_reference(start, 0.02));
+    CHECK(start.frames == 20);
+}
