@@ -1,8 +1,8 @@
 // Class R4 from coarse to fine: a method's substeps are doubled until its own error is small enough.
 // Based on: Roache, Verification and Validation, 1998 (observed order, Richardson estimate).
 // Departures: the level follows from the error that is asked for, so that a rough bound has a cheap
-// reference;
-//   frames are added while all of them are good, or while a finer level brings nothing; else levels.
+//   reference; frames are added while all of them are good, or while a finer level brings nothing; else
+//   levels are.
 #include "taut/report/cost_self.hpp"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace {
 
 using namespace tuning;
 
-constexpr double kLooser[] = {0.02, 0.05, 0.1}; ///< bounds, where the one that is asked for has no answer
+constexpr double kLooser[] = {0.02, 0.05, 0.1}; ///< bounds, where none is asked for and 1 % has no answer
 constexpr double kFineEnough = 0.2; ///< of the bound: error of a reference by self-convergence that will do
 constexpr double kMargin = 0.8;     ///< of the bound, at the last rung
 constexpr double kHysteresis = 1.1; ///< the scene's own setting stays up to this price
@@ -299,8 +299,8 @@ private:
         finalists_.push_back(finalist);
     }
 
-    /// Of R4 by the methods of the scene's own reference: others would bound another error. A start whose
-    /// reference is not good enough is left out.
+    /// A reference of the class of the scene's own, of R4 by its methods: others would bound another error.
+    /// A start whose reference is not good enough is left out.
     void add_perturbed(std::uint32_t which)
     {
         const std::vector<MethodKind>& methods = starts_[0].reference.methods;

@@ -101,7 +101,7 @@ std::string no_reference(const TuneResult& result, const TuneOptions& options)
     std::string text = "Without a reference that can be trusted no error can be bounded.";
     const double seconds = result.reference.times * options.seconds;
     if (seconds > 0 && std::isfinite(seconds))
-        return text + " The time for it was up: the shortest of them needs at least --seconds " +
+        return text + " The time for it was up: the method that comes next needs at least --seconds " +
                number(seconds) + " (now " + number(options.seconds) +
                "; see \"passed over\" for how far each came).";
     if (result.kind == CostKind::at_rest)
