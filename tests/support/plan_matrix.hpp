@@ -69,20 +69,31 @@ private:
     std::vector<double> inverse_mass_;
 };
 
+/// A matrix by rows or slices of them, as a product binds it.
+struct BoundRows
+{
+    std::vector<std::uint32_t> start, column;
+    std::vector<double> values;
+};
+
+inline BoundRows bound_rows(const PlanRun& run, const Dispatch& product, std::string_view start)
+{
+    return {run.bound<std::uint32_t>(product, start), run.bound<std::uint32_t>(product, "column"),
+            run.bound<double>(product, "values")};
+}
+
 /// Blocks of held vertices and those that fill a slice up are left out; zeros within the others are kept.
 inline std::vector<linear::Triplet> block_entries(const PlanRun& run, const Dispatch& product)
 {
-    const auto start = run.bound<std::uint32_t>(product, "slice_start");
-    const auto column = run.bound<std::uint32_t>(product, "column");
-    const auto values = run.bound<double>(product, "values");
+    const BoundRows m = bound_rows(run, product, "slice_start");
     std::vector<linear::Triplet> entries;
-    for (std::uint32_t slice = 0; slice + 1 < start.size(); ++slice)
-        for (std::uint32_t t = start[slice]; t < start[slice + 1]; ++t)
+    for (std::uint32_t slice = 0; slice + 1 < m.start.size(); ++slice)
+        for (std::uint32_t t = m.start[slice]; t < m.start[slice + 1]; ++t)
             for (std::uint32_t r = 0; r < TAUT_BCSR3_SLICE; ++r)
             {
-                const auto value = [&](std::uint32_t e) { return values[linear::bcsr3_value(t, e, r)]; };
+                const auto value = [&](std::uint32_t e) { return m.values[linear::bcsr3_value(t, e, r)]; };
                 const std::uint32_t row = TAUT_BCSR3_SLICE * slice + r;
-                const std::uint32_t other = column[linear::bcsr3_block(t, r)];
+                const std::uint32_t other = m.column[linear::bcsr3_block(t, r)];
                 bool stored = false;
                 for (std::uint32_t e = 0; e < 9; ++e)
                     stored = stored || value(e) != 0;
@@ -94,13 +105,11 @@ inline std::vector<linear::Triplet> block_entries(const PlanRun& run, const Disp
 
 inline std::vector<linear::Triplet> row_entries(const PlanRun& run, const Dispatch& product)
 {
-    const auto start = run.bound<std::uint32_t>(product, "row_start");
-    const auto column = run.bound<std::uint32_t>(product, "column");
-    const auto values = run.bound<double>(product, "values");
+    const BoundRows m = bound_rows(run, product, "row_start");
     std::vector<linear::Triplet> entries;
-    for (std::uint32_t row = 0; row + 1 < start.size(); ++row)
-        for (std::uint32_t k = start[row]; k < start[row + 1]; ++k)
-            entries.push_back({row, column[k], values[k]});
+    for (std::uint32_t row = 0; row + 1 < m.start.size(); ++row)
+        for (std::uint32_t k = m.start[row]; k < m.start[row + 1]; ++k)
+            entries.push_back({row, m.column[k], m.values[k]});
     return entries;
 }
 
