@@ -174,8 +174,8 @@ void add_tune(CLI::App& app, Command& chosen)
     add_device_option(*command, options->device);
     command
         ->add_option("--error", options->error,
-                     "Bound on the error, 0.01 is 1 % (default: 0.01, or the first of 0.02, 0.05 and "
-                     "0.1 that has a setting)")
+                     "Bound on the error, 0.01 is 1 % (default: 0.01, or the first looser one that has a "
+                     "setting)")
         ->check(number_between(0, 1, Ends::open, "; 0.01 is 1 %"));
     command->add_option("--by", options->by, "What the error is of (default: motion)")
         ->check(CLI::IsMember({"motion", "volume"}));

@@ -1,4 +1,5 @@
 // Class R4 from coarse to fine: a method's substeps are doubled until its own error is small enough.
+//
 // Based on: Roache, Verification and Validation, 1998 (observed order, Richardson estimate).
 // Departures: the level follows from the error that is asked for, so that a rough bound has a cheap
 //   reference; frames are added while all of them are good, or while a finer level brings nothing; else
@@ -15,7 +16,8 @@ namespace taut::cost {
 namespace {
 
 constexpr std::uint32_t kCoarsest = 15, kFinest = 960; // substeps
-constexpr double kFalls = 0.9, kStuck = 0.8;
+constexpr double kFalls = 0.9; ///< of the error at half of the frames: below it more frames lower it
+constexpr double kStuck = 0.8; ///< of the last difference: a finer level that leaves more brings too little
 /// Low orders come with a large estimate, and no estimate is below the last difference.
 constexpr RefineRule kRule{0.5, std::numeric_limits<double>::infinity(), 1, true};
 
