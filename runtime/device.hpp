@@ -59,8 +59,7 @@ struct DeviceCounters
     std::uint64_t dispatches = 0;
     std::uint64_t barriers = 0;
     std::uint64_t bytes_allocated = 0; ///< now, over all buffers
-    std::uint64_t bytes_reserved =
-        0; ///< now, asked of driver or system: buffers, free room in blocks, staging
+    std::uint64_t bytes_reserved = 0;  ///< now, asked of driver or system: buffers, free room, staging
     std::uint64_t memory_blocks = 0; ///< allocations made from the driver, now
     std::uint64_t validation_messages = 0;
 };

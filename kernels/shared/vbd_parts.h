@@ -1,10 +1,7 @@
-// How the rows of a body are dealt to the groups of vbd_rise and vbd_choose: kernels and host.
+// What the groups of vbd_rise and vbd_drift leave of their rows (body_parts.h): kernels and host.
 #ifndef TAUT_SHARED_VBD_PARTS_H
 #define TAUT_SHARED_VBD_PARTS_H
 
-/// Words of a group: a row of the body (every group of a body has the same), the first of the group's rows in
-/// the list, their end, the body's first group, the one behind its last, 1: something of the body is held.
-#define TAUT_VBD_PART 6u
 /// Reals that a group leaves, for vbd_choose: the rise but for what the mean does, inertia, inertia times
 /// displacement (3) and times guess (3), nothing (2), the displacement of the row that the body's groups
 /// share (3). For vbd_limit the rise is that of the elements and, of a body with something held, the work of

@@ -7,6 +7,7 @@
 // Bytes per row: 12 read; 32 more read and 16 written where the start is not taken (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
+#include "shared/body_parts.h"
 #include "shared/vbd_parts.h"
 
 PARAMS
@@ -27,8 +28,8 @@ SHARED(real, sum, 640);
 GROUP_KERNEL(64)
 {
     uint mine = min(group, groups - 1u); // folded dispatches may bring groups too many
-    uint own = table + TAUT_VBD_PART * mine;
-    uint rows = table + TAUT_VBD_PART * groups;
+    uint own = table + TAUT_BODY_PART * mine;
+    uint rows = table + TAUT_BODY_PART * groups;
     uint from = row[own + 3u];
     PHASE_BEGIN
     for (uint k = 0u; k < 10u; ++k)

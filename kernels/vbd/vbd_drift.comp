@@ -8,6 +8,7 @@
 // Bytes per row: 8 + 48 read (float); contact 16 more.
 //! variant contact CONTACT=1
 #include "shared/portable.glsl"
+#include "shared/body_parts.h"
 #include "shared/vbd_parts.h"
 
 PARAMS
@@ -31,8 +32,8 @@ SHARED(real, sum, 1216);
 GROUP_KERNEL(64)
 {
     uint mine = min(group, groups - 1u); // folded dispatches may bring groups too many
-    uint own = table + TAUT_VBD_PART * mine;
-    uint rows = table + TAUT_VBD_PART * groups;
+    uint own = table + TAUT_BODY_PART * mine;
+    uint rows = table + TAUT_BODY_PART * groups;
     uint last = row[own + 5u] != 0u ? 0u : row[own + 2u];
     uint base = row[words * row[own]];
     PHASE_BEGIN

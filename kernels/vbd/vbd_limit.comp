@@ -11,6 +11,7 @@
 //   element feels. Kinetic energy of what nothing holds is that about its mean, whose motion vbd_shift sets.
 // Bytes per row: 12 read; 32 more read and 16 written where it acts (float).
 #include "shared/portable.glsl"
+#include "shared/body_parts.h"
 #include "shared/vbd_parts.h"
 
 PARAMS
@@ -30,8 +31,8 @@ SHARED(real, sum, 640);
 GROUP_KERNEL(64)
 {
     uint mine = min(group, groups - 1u); // folded dispatches may bring groups too many
-    uint own = table + TAUT_VBD_PART * mine;
-    uint rows = table + TAUT_VBD_PART * groups;
+    uint own = table + TAUT_BODY_PART * mine;
+    uint rows = table + TAUT_BODY_PART * groups;
     uint from = row[own + 3u];
     PHASE_BEGIN
     for (uint k = 0u; k < 10u; ++k)

@@ -14,6 +14,7 @@
 //! variant elastic HINGES=1 ELASTIC=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
+#include "shared/body_parts.h"
 #include "shared/vbd_parts.h"
 #if HINGES
 #include "shared/hinge.glsl"
@@ -27,7 +28,7 @@ PARAMS
 {
     uint groups;
     uint ended; // 0: of the start, by the incremental potential; 1: after the sweeps, by kinetic energy
-    uint table; // where in `row` the groups stand: TAUT_VBD_PART words each, behind the last one their rows
+    uint table; // where in `row` the groups stand: TAUT_BODY_PART words each, behind the last one their rows
 };
 
 READ(0, uint, row);        // as in vbd_solve
@@ -206,8 +207,8 @@ void add_row(uint k, uint first, uint lane, bool held)
 GROUP_KERNEL(64)
 {
     uint mine = min(group, groups - 1u); // folded dispatches may bring groups too many
-    uint own = table + TAUT_VBD_PART * mine;
-    uint rows = table + TAUT_VBD_PART * groups;
+    uint own = table + TAUT_BODY_PART * mine;
+    uint rows = table + TAUT_BODY_PART * groups;
     uint first = row_word(row[own], 0u);
     PHASE_BEGIN
     for (uint k = 0u; k < 10u; ++k)

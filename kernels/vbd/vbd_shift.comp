@@ -13,6 +13,8 @@
 // Bytes per row: 8 + 32 read, 16 written (float).
 //! variant contact CONTACT=1
 #include "shared/portable.glsl"
+#include "shared/body_parts.h"
+#include "shared/rigid_turn.glsl"
 #include "shared/vbd_parts.h"
 
 PARAMS
@@ -35,8 +37,8 @@ SHARED(real, sum, 1216);
 GROUP_KERNEL(64)
 {
     uint mine = min(group, groups - 1u); // folded dispatches may bring groups too many
-    uint own = table + TAUT_VBD_PART * mine;
-    uint rows = table + TAUT_VBD_PART * groups;
+    uint own = table + TAUT_BODY_PART * mine;
+    uint rows = table + TAUT_BODY_PART * groups;
     uint from = row[own + 3u];
     PHASE_BEGIN
     for (uint k = 0u; k < TAUT_VBD_DRIFT; ++k)
@@ -55,25 +57,9 @@ GROUP_KERNEL(64)
     PRECISE rvec3 way = rvec3(sum[1], sum[2], sum[3]) / sum[0];
     PRECISE rvec3 centre = rvec3(sum[4], sum[5], sum[6]) / sum[0];
     PRECISE rvec3 turn = rvec3(sum[7], sum[8], sum[9]) / sum[0] - cross(centre, way);
-    PRECISE rvec3 square = rvec3(sum[10], sum[11], sum[12]) / sum[0] - centre * centre;
-    // Half the trace of the moments about the centre of mass; small beside the centre's own it is rounding.
-    PRECISE real trace = square.x + square.y + square.z;
-    bool wide = trace > REAL(1e-4) * dot(centre, centre);
-    PRECISE real scale = wide ? real(1) / trace : real(0); // torque and moments are taken in its unit
-    turn *= scale;
-    square *= scale;
-    PRECISE real yz = (sum[13] / sum[0] - centre.y * centre.z) * scale;
-    PRECISE real zx = (sum[14] / sum[0] - centre.z * centre.x) * scale;
-    PRECISE real xy = (sum[15] / sum[0] - centre.x * centre.y) * scale;
-    PRECISE real a = square.y + square.z, b = square.z + square.x, c = square.x + square.y;
-    // The adjugate of the tensor (a, -xy, -zx; -xy, b, -yz; -zx, -yz, c), which is symmetric.
-    PRECISE rvec3 first = rvec3(b * c - yz * yz, xy * c + yz * zx, xy * yz + b * zx);
-    PRECISE rvec3 second = rvec3(first.y, a * c - zx * zx, a * yz + xy * zx);
-    PRECISE rvec3 third = rvec3(first.z, second.z, a * b - xy * xy);
-    PRECISE real determinant = a * first.x - xy * first.y - zx * first.z;
-    bool solid = determinant > REAL(8e-6); // else rounding would turn it about its line
-    PRECISE rvec3 half_turn = rvec3(dot(first, turn), dot(second, turn), dot(third, turn)) *
-                      (solid ? real(0.5) / determinant : real(0));
+    PRECISE rvec3 square = rvec3(sum[10], sum[11], sum[12]) / sum[0];
+    PRECISE rvec3 mixed = rvec3(sum[13], sum[14], sum[15]) / sum[0];
+    PRECISE rvec3 half_turn = rigid_turn(turn, centre, square, mixed) * real(0.5);
     PRECISE real size = dot(half_turn, half_turn);
     half_turn *= size > REAL(0.0625) ? real(0.25) / sqrt(size) : real(1);
     PRECISE real factor = real(2) / (real(1) + dot(half_turn, half_turn));

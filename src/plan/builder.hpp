@@ -68,6 +68,7 @@ struct SurfaceBuffers
 };
 struct ForceBuffers;
 struct BlockBuffers;
+struct MomentumBuffers; // momentum.cpp
 
 struct Acad;
 struct Plasticity;
@@ -150,6 +151,7 @@ public:
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp
     std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
     std::shared_ptr<Plasticity> plasticity; ///< plasticity.hpp
+    std::shared_ptr<MomentumBuffers> momentum; ///< momentum.hpp
 
     // Of effects that have more than one pass of an account: wind, limits, tearing.
     std::uint32_t wind_triangles = kNoBuffer, wind_start = kNoBuffer, wind_incident = kNoBuffer,

@@ -1,28 +1,29 @@
 // The table of effects: what a step can contain, when a scene calls for it, what it adds.
 
+#include "taut/kernels/capsule.hpp"
+#include "taut/kernels/cuboid.hpp"
+#include "taut/kernels/damping.hpp"
+#include "taut/kernels/external_force.hpp"
+#include "taut/kernels/pin_motion.hpp"
+#include "taut/kernels/plane.hpp"
+#include "taut/kernels/sphere.hpp"
 #include "taut/plan/acad.hpp"
 #include "taut/plan/builder.hpp"
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/limits.hpp"
+#include "taut/plan/mass_spring.hpp"
+#include "taut/plan/momentum.hpp"
+#include "taut/plan/motion.hpp"
 #include "taut/plan/pbd.hpp"
 #include "taut/plan/plasticity.hpp"
 #include "taut/plan/pressure.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/solid_constraints.hpp"
 #include "taut/plan/surface_volume.hpp"
-#include "taut/plan/wind.hpp"
-#include "taut/kernels/capsule.hpp"
-#include "taut/kernels/cuboid.hpp"
-#include "taut/plan/mass_spring.hpp"
-#include "taut/plan/motion.hpp"
 #include "taut/plan/vbd.hpp"
-#include "taut/kernels/damping.hpp"
-#include "taut/kernels/external_force.hpp"
-#include "taut/kernels/pin_motion.hpp"
-#include "taut/kernels/plane.hpp"
-#include "taut/kernels/sphere.hpp"
+#include "taut/plan/wind.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -246,6 +247,8 @@ bool any_elements(const Scene& scene) { return any_stretch(scene) || any_bending
 
 bool any_blocks(const Scene& scene) { return any_elements(scene) || any_volume(scene) || any_solid(scene); }
 
+constexpr MethodSet kSweeps = only(MethodKind::xpbd) | only(MethodKind::pbd);
+constexpr MethodSet kDescents = only(MethodKind::vbd) | only(MethodKind::implicit_euler);
 constexpr MethodSet kVbd = only(MethodKind::vbd);
 constexpr MethodSet kMassSpring = only(MethodKind::mass_spring);
 constexpr MethodSet kConstraints = only(MethodKind::implicit_constraints);
@@ -269,11 +272,11 @@ constexpr Effect kEffects[] = {
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
     {"vbd_start", Stage::start, any_blocks, prepare_vbd, record_vbd_start, kVbd},
     {"vbd_solve", Stage::solve, any_blocks, nullptr, record_vbd_solve, kVbd},
+    {"momentum", Stage::solve, wants_momentum, prepare_momentum, record_momentum_start, kSweeps},
     {"distance", Stage::solve, any_stretch, prepare_distance, record_distance, only(MethodKind::xpbd)},
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending, only(MethodKind::xpbd)},
     {"volume", Stage::solve, any_volume, prepare_volume, record_volume, only(MethodKind::xpbd)},
-    {"neo_hookean", Stage::solve, any_solid, prepare_neo_hookean, record_neo_hookean,
-     only(MethodKind::xpbd)},
+    {"neo_hookean", Stage::solve, any_solid, prepare_neo_hookean, record_neo_hookean, only(MethodKind::xpbd)},
     {"surface_volume", Stage::solve, any_surface_volume, prepare_surface_volume, record_surface_volume,
      kMassSpring},
     {"pbd_stretch", Stage::solve,
@@ -292,6 +295,7 @@ constexpr Effect kEffects[] = {
                                         (s.method.volume > 0 && any_volume(s)));
      },
      prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
+    {"momentum", Stage::solve, wants_momentum, nullptr, record_momentum_end, kSweeps},
     {"implicit_constraints", Stage::solve, any_stretch, prepare_implicit_constraints,
      record_implicit_constraints, kConstraints},
     {"implicit_euler", Stage::start, any_blocks, prepare_implicit_euler, record_implicit_start,
@@ -302,6 +306,7 @@ constexpr Effect kEffects[] = {
     {"strain_limit", Stage::contact, wants_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, wants_attachment, prepare_attachment, record_attachment},
     {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
+    {"momentum", Stage::contact, wants_momentum, prepare_momentum, record_momentum_end, kDescents},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
     {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
      prepare_plane, record_plane},
@@ -320,8 +325,8 @@ constexpr Effect kEffects[] = {
      nullptr, record_spring_force_after, kMassSpring},
     {"hinge_force", Stage::after, [](const Scene& s) { return any_bending(s) && wants_forces_after(s); },
      nullptr, record_hinge_force_after, kMassSpring},
-    {"force_kick", Stage::after, [](const Scene& s) { return has_bodies(s) && wants_kick_after(s); },
-     nullptr, record_force_kick_after, kMassSpring},
+    {"force_kick", Stage::after, [](const Scene& s) { return has_bodies(s) && wants_kick_after(s); }, nullptr,
+     record_force_kick_after, kMassSpring},
 };
 
 } // namespace

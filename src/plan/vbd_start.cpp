@@ -14,6 +14,7 @@
 #include "taut/kernels/vbd_share.hpp"
 #include "taut/kernels/vbd_shift.hpp"
 #include "taut/kernels/vbd_start.hpp"
+#include "taut/plan/body_parts.hpp"
 
 #include "taut/kernels/shared/vbd_parts.h"
 
@@ -21,30 +22,6 @@
 
 namespace taut {
 namespace {
-
-constexpr std::uint32_t kPartRows = 256; ///< of a group, at most
-
-/// Ends of the groups of a body's rows, which have `elements` each: a group's lanes may have to loop over
-/// them.
-std::vector<std::uint32_t> group_ends(std::span<const std::uint32_t> elements)
-{
-    std::vector<std::uint32_t> ends;
-    std::uint64_t trips = 0;
-    std::uint32_t first = 0;
-    for (std::uint32_t k = 0; k < elements.size(); ++k)
-    {
-        if (k > first && (k - first == kPartRows || trips + elements[k] > kMaxLoopTrips))
-        {
-            ends.push_back(k);
-            first = k;
-            trips = 0;
-        }
-        trips += elements[k] + 3;
-    }
-    if (!elements.empty())
-        ends.push_back(static_cast<std::uint32_t>(elements.size()));
-    return ends;
-}
 
 bool adaptive(const PlanBuilder& b) { return b.scene.method.start == "adaptive"; }
 
@@ -132,28 +109,23 @@ void record_shift(PlanBuilder& b)
 std::vector<std::uint32_t> guard_table(const PlanBuilder& b, BlockBuffers& f,
                                        std::span<const GuardedRow> row_of)
 {
-    std::vector<std::uint32_t> parts, rows;
+    BodyParts parts;
     for (std::size_t body = 0; guarded(b) && body < b.scene.bodies.size(); ++body)
     {
-        const auto begin = static_cast<std::uint32_t>(rows.size());
-        std::vector<std::uint32_t> elements;
-        for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
+        const std::uint32_t first = b.plan.body_start[body], end = b.plan.body_start[body + 1];
+        std::vector<std::uint32_t> rows, elements;
+        for (std::uint32_t v = first; v < end; ++v)
             if (row_of[v].row != kNoRow)
             {
                 rows.push_back(row_of[v].row);
                 elements.push_back(row_of[v].elements);
             }
-        const bool held = elements.size() < b.plan.body_start[body + 1] - b.plan.body_start[body];
-        const std::vector<std::uint32_t> ends = group_ends(elements);
-        const std::uint32_t from = f.groups, to = from + static_cast<std::uint32_t>(ends.size());
-        for (std::uint32_t k = 0; k < ends.size(); ++k)
-            parts.insert(parts.end(), {rows[begin], begin + (k == 0 ? 0 : ends[k - 1]), begin + ends[k], from,
-                                       to, held ? 1u : 0u});
-        f.groups = to;
-        f.loose |= !held && !ends.empty();
+        const bool held = rows.size() < end - first;
+        parts.add(rows, elements, held);
+        f.loose |= !held && !rows.empty();
     }
-    parts.insert(parts.end(), rows.begin(), rows.end());
-    return parts;
+    f.groups = parts.groups();
+    return parts.words();
 }
 
 void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)

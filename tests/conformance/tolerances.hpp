@@ -50,6 +50,8 @@ inline constexpr Tolerance kTolerances[] = {
     {"vbd_rise", 8, "of every element a difference of energies; sums of some rows a lane, a tree of 6"},
     {"vbd_choose", 4, "sums of some groups, a quotient, two sums"},
     {"vbd_limit", 4, "sums of some groups, quotients and differences of squares, a product, two sums"},
+    {"momentum_sum", 6, "as vbd_drift"},
+    {"momentum_turn", 8, "as vbd_shift"},
     {"vbd_drift", 6, "differences, a cross product, products, sums of some rows a lane, a tree of 6"},
     {"vbd_shift", 8,
      "sums of some groups, differences of squares, a 3 x 3 inverse, four cross products, sums"},

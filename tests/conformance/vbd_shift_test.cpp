@@ -2,8 +2,6 @@
 
 #include "support/rigid_sums.hpp"
 
-#include <glm/matrix.hpp>
-
 using namespace taut;
 using namespace taut::conformance;
 
@@ -22,14 +20,8 @@ Motion motion_of(const std::array<double, TAUT_VBD_DRIFT>& s)
     out.way = glm::dvec3(s[1], s[2], s[3]) / s[0];
     out.centre = glm::dvec3(s[4], s[5], s[6]) / s[0];
     const glm::dvec3 c = out.centre, turn = glm::dvec3(s[7], s[8], s[9]) / s[0] - glm::cross(c, out.way);
-    const glm::dvec3 square = glm::dvec3(s[10], s[11], s[12]) / s[0] - c * c;
-    const glm::dvec3 mixed =
-        glm::dvec3(s[13], s[14], s[15]) / s[0] - glm::dvec3(c.y * c.z, c.z * c.x, c.x * c.y);
-    const double trace = square.x + square.y + square.z;
-    const glm::dmat3 tensor(trace - square.x, -mixed.z, -mixed.y, -mixed.z, trace - square.y, -mixed.x,
-                            -mixed.y, -mixed.x, trace - square.z);
-    if (glm::determinant(tensor) > 8e-6 * trace * trace * trace)
-        out.half_turn = 0.5 * (glm::inverse(tensor) * turn);
+    out.half_turn = 0.5 * rigid_turn_of(turn, c, glm::dvec3(s[10], s[11], s[12]) / s[0],
+                                        glm::dvec3(s[13], s[14], s[15]) / s[0]);
     const double length = glm::length(out.half_turn);
     if (length > 0.25)
         out.half_turn *= 0.25 / length;

@@ -129,6 +129,32 @@ inline Scene bar()
     return scene;
 }
 
+/// A cube that falls on an edge: a solid that nothing holds, which keeps its angular momentum.
+inline Scene cube(const std::string& method)
+{
+    Scene scene;
+    Body body;
+    body.name = "cube";
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {3, 3, 3};
+    body.shape.box_size = {0.2, 0.2, 0.2};
+    body.material = solid_material();
+    body.material.youngs_modulus = 1e5;
+    body.transform.rotate_axis = {1, 0, 1};
+    body.transform.rotate_degrees = 30;
+    body.transform.translate = {0, 0.5, 0};
+    scene.bodies = {body};
+    Collider ground;
+    ground.name = "ground";
+    ground.kind = ColliderKind::plane;
+    ground.friction = 0.3;
+    scene.colliders = {ground};
+    scene.method.type = method;
+    scene.method.substeps = 4;
+    scene.method.iterations = 2;
+    return scene;
+}
+
 inline Scene in_double(Scene scene)
 {
     scene.method.precision = "double";
@@ -144,6 +170,9 @@ inline std::map<std::string, Scene> scenes()
             {"busy", busy()},
             {"star", star()},
             {"bar", bar()},
+            {"cube", cube("xpbd")},
+            {"cube_vbd", cube("vbd")},
+            {"cube_implicit_euler", cube("implicit_euler")},
             {"hanging_double", in_double(hanging())},
             {"drape_double", in_double(drape())}};
 }

@@ -1,0 +1,82 @@
+// Solids that nothing holds keep their angular momentum, whatever the solve of a substep leaves.
+//
+// Based on: Newton's third law; Goldstein, Poole, Safko. Classical Mechanics, 3rd ed. 2002, 5.3.
+// Departures: a rigid velocity a substep makes good what the solve took, so that neither the order of the
+//   elements nor the length of a substep turns a body. docs/effects/momentum.md.
+
+#include "taut/plan/momentum.hpp"
+
+#include "taut/kernels/momentum_sum.hpp"
+#include "taut/kernels/momentum_turn.hpp"
+#include "taut/kernels/vbd_mark.hpp"
+#include "taut/plan/body_parts.hpp"
+
+#include "taut/kernels/shared/body_parts.h"
+
+#include <algorithm>
+
+namespace taut {
+
+struct MomentumBuffers
+{
+    std::uint32_t row = kNoBuffer, sums = kNoBuffer, before = kNoBuffer;
+    std::uint32_t groups = 0, rows = 0;
+};
+
+namespace {
+
+/// Cloth is left out: a sweep over its springs costs less than the sums, and little of it flies freely.
+bool turns_freely(const Body& body)
+{
+    return !body.mesh.tetrahedra.empty() &&
+           std::all_of(body.pins.begin(), body.pins.end(), [](const Pin& p) { return p.vertices.empty(); });
+}
+
+} // namespace
+
+bool wants_momentum(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), turns_freely);
+}
+
+void prepare_momentum(PlanBuilder& b)
+{
+    BodyParts parts;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        std::vector<std::uint32_t> rows;
+        for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
+            if (turns_freely(b.scene.bodies[body]))
+                rows.push_back(b.plan_index[v]);
+        parts.add(rows, std::vector<std::uint32_t>(rows.size(), 1), false);
+    }
+    b.momentum = std::make_shared<MomentumBuffers>();
+    MomentumBuffers& m = *b.momentum;
+    m.groups = parts.groups();
+    m.rows = parts.row_count();
+    m.row = b.add_buffer<std::uint32_t>("momentum", "rows", parts.words());
+    m.sums = b.add_buffer("momentum", "sums", std::uint64_t(m.groups) * TAUT_MOMENTUM_SUMS * b.real_size());
+    m.before = b.method.keeps_guess ? b.plan.predicted
+                                    : b.add_buffer("momentum", "displacement before the sweeps",
+                                                   std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
+}
+
+void record_momentum_start(PlanBuilder& b, const Moment&)
+{
+    const Use uses[] = {{b.plan.delta}, {b.momentum->before}};
+    b.dispatch("momentum", "vbd_mark", "", uses, kernels::vbd_mark::Params{b.plan.vertex_count},
+               b.plan.vertex_count);
+}
+
+void record_momentum_end(PlanBuilder& b, const Moment&)
+{
+    const MomentumBuffers& m = *b.momentum;
+    const Use sum[] = {{m.row}, {m.before}, {b.plan.delta}, {m.sums, 0}, {b.plan.position}};
+    b.dispatch("momentum", "momentum_sum", "", sum, kernels::momentum_sum::Params{m.groups}, m.groups,
+               m.rows);
+    const Use turn[] = {{m.row}, {m.sums, 0}, {b.plan.position}, {b.plan.delta}, {b.plan.low}};
+    b.dispatch("momentum", "momentum_turn", "", turn, kernels::momentum_turn::Params{m.groups}, m.groups,
+               m.rows);
+}
+
+} // namespace taut
