@@ -197,7 +197,8 @@ TEST_CASE("running small bodies in one group, or a dispatch a colour, is a choic
     {
         CAPTURE(name);
         const Scene scene = golden::scenes().at(name);
-        if (name != "star") // a hub needs dispatches of its own
+        // A hub needs dispatches of its own; the colours of a cube share one group anyway.
+        if (name != "star" && !name.starts_with("cube"))
             CHECK(World(scene, device, always).plan().passes.size() <
                   World(scene, device, never).plan().passes.size());
         CHECK(hash_on(device, name, always) == serial_hash(name));

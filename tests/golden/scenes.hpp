@@ -136,7 +136,7 @@ inline Scene cube(const std::string& method)
     Body body;
     body.name = "cube";
     body.shape.kind = ShapeKind::box;
-    body.shape.box_cells = {3, 3, 3};
+    body.shape.box_cells = {2, 2, 2};
     body.shape.box_size = {0.2, 0.2, 0.2};
     body.material = solid_material();
     body.material.youngs_modulus = 1e5;
