@@ -3,12 +3,16 @@
 // part of a body; every group of a body adds up the sums alike.
 //
 // Based on: Goldstein, Poole, Safko. Classical Mechanics, 3rd ed. 2002, 5.3.
-// Departures: the displacement stays as the sweeps left it: a body that starts flat or inverted has places
-//   from which no turn would reach the angular momentum, but always a velocity. It becomes one by what the
-//   displacement begins from (`low`), which `finish` takes off.
+// Departures: where it would turn the body by more than 0.002 rad, that much or a tenth of it is given back
+//   in a substep, and the rest is owed: a tangle that has to turn inside out finds its shape less
+//   often where it may not turn meanwhile.
+//   The displacement stays as the solve left it: a body that starts flat or inverted has places from which no
+//   turn would reach the angular momentum, but always a velocity. It becomes one by what the displacement
+//   begins from (`low`), which `finish` takes off.
 // Bytes per row: 4 + 48 read, 16 written (float).
 #include "shared/portable.glsl"
 #include "shared/body_parts.h"
+#include "shared/layouts.h"
 #include "shared/rigid_turn.glsl"
 
 PARAMS
@@ -21,8 +25,10 @@ READ(1, real, sums);      // of momentum_sum
 READ(2, rvec4, position); // m
 READ(3, rvec4, delta);    // m
 UPDATE(4, rvec4, low);    // m
+UPDATE(5, real, owed);    // angular momentum over mass, m^2/s: 3 a group, alike for all groups of a body
+READ_ONE(6, StepValues, step_values);
 
-SHARED(real, sum, 832);
+SHARED(real, sum, 835); // behind the sums what is owed
 
 GROUP_KERNEL(64)
 {
@@ -30,6 +36,8 @@ GROUP_KERNEL(64)
     uint own = TAUT_BODY_PART * mine;
     uint rows = TAUT_BODY_PART * groups;
     PHASE_BEGIN
+    if (lane < 3u)
+        sum[832u + lane] = owed[3u * mine + lane];
     for (uint k = 0u; k < TAUT_MOMENTUM_SUMS; ++k)
         sum[TAUT_MOMENTUM_SUMS * lane + k] = real(0);
     for (uint j = row[own + 3u] + lane; j < row[own + 4u]; j += 64u)
@@ -43,12 +51,20 @@ GROUP_KERNEL(64)
             sum[TAUT_MOMENTUM_SUMS * lane + k] += sum[TAUT_MOMENTUM_SUMS * (lane + width) + k];
         LANES_END
     }
-    PRECISE rvec3 lack = rvec3(sum[1], sum[2], sum[3]) / sum[0];
+    real h = step_values[0].substep;
+    PRECISE rvec3 lack = rvec3(sum[1], sum[2], sum[3]) / sum[0] + rvec3(sum[832], sum[833], sum[834]) * h;
     PRECISE rvec3 centre = rvec3(sum[4], sum[5], sum[6]) / sum[0];
     PRECISE rvec3 square = rvec3(sum[7], sum[8], sum[9]) / sum[0];
     PRECISE rvec3 mixed = rvec3(sum[10], sum[11], sum[12]) / sum[0];
     PRECISE rvec3 turn = rigid_turn(lack, centre, square, mixed);
-    bool moves = group < groups && abs(turn.x) + abs(turn.y) + abs(turn.z) < REAL(1e18);
+    PRECISE real size = sqrt(dot(turn, turn));
+    bool moves = group < groups && size < REAL(1e18);
+    PRECISE real share = size > REAL(0.002) ? max(REAL(0.002) / size, REAL(0.1)) : real(1);
+    turn *= share;
+    LANES_BEGIN(3)
+    if (group < groups)
+        owed[3u * mine + lane] = moves ? lack[lane] * (real(1) - share) / h : real(0);
+    LANES_END
     rvec3 origin = rvec3(position[row[own]]);
     uint last = moves ? row[own + 2u] : 0u;
     EACH_BEGIN(row[own + 1u], last)

@@ -65,7 +65,8 @@ constexpr std::pair<std::string_view, Each> kBindings[] = {
 {
     throw Error(ErrorCode::unsupported,
                 "effect \"" + pass.label + "\" (kernel " + std::string(pass.kernel->name) +
-                    ") cannot be cut between two devices; springs, hinges, tetrahedra, strain limits, pins, "
+                    ") cannot be cut between two devices; springs, hinges, tetrahedra of bodies with pins, "
+                    "strain limits, pins, "
                     "colliders, damping and external forces can: divide whole bodies, or use one device");
 }
 

@@ -19,7 +19,7 @@ namespace taut {
 
 struct MomentumBuffers
 {
-    std::uint32_t row = kNoBuffer, sums = kNoBuffer, before = kNoBuffer;
+    std::uint32_t row = kNoBuffer, sums = kNoBuffer, before = kNoBuffer, owed = kNoBuffer;
     std::uint32_t groups = 0, rows = 0;
 };
 
@@ -36,6 +36,9 @@ bool turns_freely(const Body& body)
 
 bool wants_momentum(const Scene& scene)
 {
+    const Method& method = find_method(method_of(scene));
+    if (!method.contact_each_iteration && !scene.colliders.empty())
+        return false; // what carries a body is not in the solve, and comes after it
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), turns_freely);
 }
 
@@ -56,6 +59,8 @@ void prepare_momentum(PlanBuilder& b)
     m.rows = parts.row_count();
     m.row = b.add_buffer<std::uint32_t>("momentum", "rows", parts.words());
     m.sums = b.add_buffer("momentum", "sums", std::uint64_t(m.groups) * TAUT_MOMENTUM_SUMS * b.real_size());
+    m.owed = b.add_buffer("momentum", "owed", std::uint64_t(m.groups) * 3 * b.real_size());
+    b.plan.kept.push_back(m.owed);
     m.before = b.method.keeps_guess ? b.plan.predicted
                                     : b.add_buffer("momentum", "displacement before the sweeps",
                                                    std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
@@ -74,7 +79,8 @@ void record_momentum_end(PlanBuilder& b, const Moment&)
     const Use sum[] = {{m.row}, {m.before}, {b.plan.delta}, {m.sums, 0}, {b.plan.position}};
     b.dispatch("momentum", "momentum_sum", "", sum, kernels::momentum_sum::Params{m.groups}, m.groups,
                m.rows);
-    const Use turn[] = {{m.row}, {m.sums, 0}, {b.plan.position}, {b.plan.delta}, {b.plan.low}};
+    const Use turn[] = {{m.row},      {m.sums, 0}, {b.plan.position},      {b.plan.delta},
+                        {b.plan.low}, {m.owed, 0}, {b.plan.step_values, 0}};
     b.dispatch("momentum", "momentum_turn", "", turn, kernels::momentum_turn::Params{m.groups}, m.groups,
                m.rows);
 }

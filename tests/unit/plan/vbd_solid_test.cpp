@@ -121,7 +121,8 @@ TEST_CASE("solids take one variant of the sweep, and scenes without them bind no
 {
     Scene scene = solid("neo_hookean", "six");
     CHECK(kernels_of(make_plan(scene, apart())) == std::vector<std::string>{"vbd_solve:elastic"});
-    CHECK(make_plan(scene, apart()).passes.size() == 2 * (2 + 6 + 3 * 4 + 2)); // guard and limit of two each
+    // Guard, limit and momentum of two each.
+    CHECK(make_plan(scene, apart()).passes.size() == 2 * (2 + 6 + 3 * 4 + 2 + 2));
     Scene springs = solid("springs", "six");
     CHECK(kernels_of(make_plan(springs, apart())) == std::vector<std::string>{"vbd_solve:volumes"});
     springs.bodies[0].material.stretch_damping = 1;
