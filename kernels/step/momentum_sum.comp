@@ -16,7 +16,7 @@ PARAMS
 
 READ(0, uint, row);       // TAUT_BODY_PART a group, then the vertices
 READ(1, rvec4, before);   // xyz: displacement before the solve, m
-READ(2, rvec4, delta);    // and after them
+READ(2, rvec4, delta);    // and after it
 WRITE(3, real, sums);     // TAUT_MOMENTUM_SUMS a group
 READ(4, rvec4, position); // m, w = inverse mass, 1/kg
 

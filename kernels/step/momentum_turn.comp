@@ -4,7 +4,7 @@
 //
 // Based on: Goldstein, Poole, Safko. Classical Mechanics, 3rd ed. 2002, 5.3.
 // Departures: where it would turn the body by more than 0.002 rad, that much or a tenth of it is given back
-//   in a substep, and the rest is owed: a tangle that has to turn inside out finds its shape less
+//   at once, and the rest is owed: a tangle that has to turn inside out finds its shape less
 //   often where it may not turn meanwhile.
 //   The displacement stays as the solve left it: a body that starts flat or inverted has places from which no
 //   turn would reach the angular momentum, but always a velocity. It becomes one by what the displacement
@@ -25,7 +25,7 @@ READ(1, real, sums);      // of momentum_sum
 READ(2, rvec4, position); // m
 READ(3, rvec4, delta);    // m
 UPDATE(4, rvec4, low);    // m
-UPDATE(5, real, owed);    // angular momentum over mass, m^2/s: 3 a group, alike for all groups of a body
+UPDATE(5, rvec4, owed);   // m^2/s, over mass, at a group's first vertex; alike for all groups of a body
 READ_ONE(6, StepValues, step_values);
 
 SHARED(real, sum, 835); // behind the sums what is owed
@@ -35,9 +35,10 @@ GROUP_KERNEL(64)
     uint mine = min(group, groups - 1u); // folded dispatches may bring groups too many
     uint own = TAUT_BODY_PART * mine;
     uint rows = TAUT_BODY_PART * groups;
+    uint first = row[rows + row[own + 1u]];
     PHASE_BEGIN
     if (lane < 3u)
-        sum[832u + lane] = owed[3u * mine + lane];
+        sum[832u + lane] = owed[first][lane];
     for (uint k = 0u; k < TAUT_MOMENTUM_SUMS; ++k)
         sum[TAUT_MOMENTUM_SUMS * lane + k] = real(0);
     for (uint j = row[own + 3u] + lane; j < row[own + 4u]; j += 64u)
@@ -61,9 +62,9 @@ GROUP_KERNEL(64)
     bool moves = group < groups && size < REAL(1e18);
     PRECISE real share = size > REAL(0.002) ? max(REAL(0.002) / size, REAL(0.1)) : real(1);
     turn *= share;
-    LANES_BEGIN(3)
+    LANES_BEGIN(1)
     if (group < groups)
-        owed[3u * mine + lane] = moves ? lack[lane] * (real(1) - share) / h : real(0);
+        owed[first] = rvec4(moves ? lack * ((real(1) - share) / h) : rvec3(real(0)), real(0));
     LANES_END
     rvec3 origin = rvec3(position[row[own]]);
     uint last = moves ? row[own + 2u] : 0u;

@@ -1,8 +1,8 @@
 // Solids that nothing holds keep their angular momentum, whatever the solve of a substep leaves.
 //
 // Based on: Newton's third law; Goldstein, Poole, Safko. Classical Mechanics, 3rd ed. 2002, 5.3.
-// Departures: a rigid velocity a substep makes good what the solve took, so that neither the order of the
-//   elements nor the length of a substep turns a body. docs/effects/momentum.md.
+// Departures: a rigid velocity makes good what the solve took, at once or little by little, so that neither
+//   the order of the elements nor the length of a substep turns a body. docs/effects/momentum.md.
 
 #include "taut/plan/momentum.hpp"
 
@@ -19,7 +19,7 @@ namespace taut {
 
 struct MomentumBuffers
 {
-    std::uint32_t row = kNoBuffer, sums = kNoBuffer, before = kNoBuffer, owed = kNoBuffer;
+    std::uint32_t row = kNoBuffer, sums = kNoBuffer, before = kNoBuffer;
     std::uint32_t groups = 0, rows = 0;
 };
 
@@ -59,8 +59,7 @@ void prepare_momentum(PlanBuilder& b)
     m.rows = parts.row_count();
     m.row = b.add_buffer<std::uint32_t>("momentum", "rows", parts.words());
     m.sums = b.add_buffer("momentum", "sums", std::uint64_t(m.groups) * TAUT_MOMENTUM_SUMS * b.real_size());
-    m.owed = b.add_buffer("momentum", "owed", std::uint64_t(m.groups) * 3 * b.real_size());
-    b.plan.kept.push_back(m.owed);
+    b.plan.owed = b.add_buffer("momentum", "owed", std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
     m.before = b.method.keeps_guess ? b.plan.predicted
                                     : b.add_buffer("momentum", "displacement before the sweeps",
                                                    std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
@@ -79,8 +78,8 @@ void record_momentum_end(PlanBuilder& b, const Moment&)
     const Use sum[] = {{m.row}, {m.before}, {b.plan.delta}, {m.sums, 0}, {b.plan.position}};
     b.dispatch("momentum", "momentum_sum", "", sum, kernels::momentum_sum::Params{m.groups}, m.groups,
                m.rows);
-    const Use turn[] = {{m.row},      {m.sums, 0}, {b.plan.position},      {b.plan.delta},
-                        {b.plan.low}, {m.owed, 0}, {b.plan.step_values, 0}};
+    const Use turn[] = {{m.row},      {m.sums, 0},      {b.plan.position},      {b.plan.delta},
+                        {b.plan.low}, {b.plan.owed, 0}, {b.plan.step_values, 0}};
     b.dispatch("momentum", "momentum_turn", "", turn, kernels::momentum_turn::Params{m.groups}, m.groups,
                m.rows);
 }

@@ -162,6 +162,7 @@ struct Plan
     std::uint32_t delta = kNoBuffer;     ///< rvec4: displacement of the last substep, m
     std::uint32_t predicted = kNoBuffer; ///< rvec4: inertial guess of `delta`; with residuals, or a method's
     std::uint32_t coasting = kNoBuffer; ///< rvec4: `delta` had gravity alone acted, m; where any Pull::shown
+    std::uint32_t owed = kNoBuffer;     ///< rvec4: angular momentum over mass owed to bodies, m^2/s
     std::uint32_t step_values = kNoBuffer; ///< layout::StepValues<real>
     std::uint32_t events = kNoBuffer;      ///< TAUT_EVENT_COUNT uint32
     std::uint32_t pin_targets = kNoBuffer; ///< 2 rvec4 per moving pin: start and end of the step

@@ -8,7 +8,7 @@ namespace {
 
 std::array<std::vector<std::byte>*, kCarriedArrays> arrays_of(WorldState& s)
 {
-    return {&s.position, &s.low, &s.velocity, &s.delta, &s.force, &s.coasting};
+    return {&s.position, &s.low, &s.velocity, &s.delta, &s.force, &s.coasting, &s.owed};
 }
 
 } // namespace

@@ -8,7 +8,7 @@
 
 namespace taut {
 
-inline constexpr std::size_t kCarriedArrays = 6;
+inline constexpr std::size_t kCarriedArrays = 7;
 
 /// Per vertex of a whole scene what a world carries on: the arrays of WorldState.
 struct Carried

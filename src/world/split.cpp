@@ -364,8 +364,8 @@ std::vector<HybridPart> SplitWorld::parts() const
 void SplitWorld::copy_into(World& whole) const
 {
     const Plan& plan = impl_->whole;
-    const std::uint32_t buffers[kCarriedArrays] = {plan.position, plan.low,   plan.velocity,
-                                                   plan.delta,    plan.force, plan.coasting};
+    const std::uint32_t buffers[kCarriedArrays] = {plan.position, plan.low,      plan.velocity, plan.delta,
+                                                   plan.force,    plan.coasting, plan.owed};
     Carried state;
     for (std::size_t k = 0; k < kCarriedArrays; ++k)
     {

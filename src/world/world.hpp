@@ -41,6 +41,7 @@ struct WorldState
     Clock clock = {};
     std::vector<std::vector<std::byte>> kept = {}; ///< of Plan::kept, in its order
     std::vector<std::byte> coasting = {}; ///< of Plan::coasting; nothing follows from it but velocities()
+    std::vector<std::byte> owed = {};     ///< of Plan::owed, a vertex; missing: nothing is owed
 };
 
 /// What kernels counted since the world was made.

@@ -45,7 +45,8 @@ void World::Impl::replace_scene(const TornScene& next)
 {
     const std::vector<std::byte> position = raw(plan.position), low = raw(plan.low),
                                  velocity = raw(plan.velocity), delta = raw(plan.delta), force = forces,
-                                 coasting = raw(plan.coasting), events = raw(plan.events);
+                                 coasting = raw(plan.coasting), owed = raw(plan.owed),
+                                 events = raw(plan.events);
     std::vector<std::vector<std::byte>> logs; // of linear solves: they count over the whole run
     for (const PlanSolver& solver : plan.solvers)
         logs.push_back(raw(solver.log));
@@ -69,6 +70,8 @@ void World::Impl::replace_scene(const TornScene& next)
     device->write(buffers[plan.delta], 0, spread(delta, from, element));
     if (plan.coasting != kNoBuffer)
         device->write(buffers[plan.coasting], 0, spread(coasting, from, element));
+    if (plan.owed != kNoBuffer && !owed.empty())
+        device->write(buffers[plan.owed], 0, spread(owed, from, element));
     device->write(buffers[plan.events], 0, events);
     for (std::size_t k = 0; k < std::min(logs.size(), plan.solvers.size()); ++k)
         device->write(buffers[plan.solvers[k].log], 0, logs[k]);
@@ -93,6 +96,7 @@ WorldState World::state() const
     for (const std::uint32_t buffer : plan.kept)
         out.kept.push_back(impl_->raw(buffer));
     out.coasting = impl_->raw(plan.coasting);
+    out.owed = impl_->raw(plan.owed);
     return out;
 }
 
@@ -159,6 +163,11 @@ void World::restore(const WorldState& state)
     const bool told = state.coasting.size() == state.delta.size();
     if (plan.coasting != kNoBuffer)
         impl_->device->write(impl_->buffers[plan.coasting], 0, told ? state.coasting : state.delta);
+    if (plan.owed != kNoBuffer)
+        impl_->device->write(impl_->buffers[plan.owed], 0,
+                             state.owed.size() == state.delta.size()
+                                 ? state.owed
+                                 : std::vector<std::byte>(plan.buffers[plan.owed].bytes));
     impl_->steps = state.step;
     impl_->guessed = false;
     const bool clocked = state.clock.timestep > 0;

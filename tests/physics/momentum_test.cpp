@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <functional>
 
 using namespace taut;
@@ -84,7 +85,7 @@ TEST_CASE("a free solid that starts squeezed, sheared or mirrored finds its shap
     const double rate = glm::degrees(turning(world));
     if (test_detail::is_set("TAUT_NOTES"))
         WARN(method << ", " << name << ", " << modulus << " Pa: " << rate << " degrees a second");
-    CHECK(rate < 0.1); // 10 to 800 where the sweeps decide
+    CHECK(rate < 0.1); // 20 to 800 where the solve decides
 }
 
 TEST_CASE("a free solid turns on as it was turned, under every count of substeps", "[momentum]")
@@ -111,6 +112,25 @@ TEST_CASE("a free solid turns on as it was turned, under every count of substeps
     CHECK(before > 0.1);
     step(240);
     CHECK(turning(world) == Approx(before).epsilon(0.01));
+}
+
+TEST_CASE("what a body is owed goes along with a state", "[momentum]")
+{
+    const auto device = test_device("cpu:serial");
+    Scene scene = free_cube("xpbd");
+    scene.bodies[0].material.youngs_modulus = 1e7;
+    scene = started(scene, [](glm::dvec3 x) { return glm::dvec3(x.x, -x.y, x.z); });
+    World one(scene, device), other(scene, device), poor(scene, device);
+    one.step();
+    WorldState state = one.state();
+    other.restore(state);
+    std::fill(state.owed.begin(), state.owed.end(), std::byte(0));
+    poor.restore(state);
+    for (int k = 0; k < 20; ++k)
+        for (World* world : {&one, &other, &poor})
+            world->step();
+    CHECK(one.positions() == other.positions());
+    CHECK_FALSE(one.positions() == poor.positions()); // something was owed
 }
 
 TEST_CASE("a solid thrown into a tangle finds its shape about as often as if it might turn", "[momentum]")
@@ -145,7 +165,7 @@ TEST_CASE("a solid thrown into a tangle finds its shape about as often as if it 
     }
     if (test_detail::is_set("TAUT_NOTES"))
         WARN("of " << 2 * kTangles << " tangles " << with << " come apart, without the effect " << without);
-    CHECK(with >= without - 0.06 * 2 * kTangles); // two standard deviations
+    CHECK(with >= without - 0.03 * 2 * kTangles); // one standard deviation; all of it at once loses more
 }
 
 // The more substeps, the more corners leave the floor at one time: what turns the cube is the solver's error.
