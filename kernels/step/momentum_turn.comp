@@ -3,9 +3,8 @@
 // part of a body; every group of a body adds up the sums alike.
 //
 // Based on: Goldstein, Poole, Safko. Classical Mechanics, 3rd ed. 2002, 5.3.
-// Departures: where it would turn the body by more than 0.002 rad, that much or a tenth of it is given back
-//   at once, and the rest is owed: a tangle that has to turn inside out finds its shape less
-//   often where it may not turn meanwhile.
+// Departures: at most 0.002 rad an iteration are given back, the rest is owed: a tangle that has to turn inside
+//   out finds its shape less often where it may not turn meanwhile.
 //   The displacement stays as the solve left it: a body that starts flat or inverted has places from which no
 //   turn would reach the angular momentum, but always a velocity. It becomes one by what the displacement
 //   begins from (`low`), which `finish` takes off.
@@ -60,7 +59,7 @@ GROUP_KERNEL(64)
     PRECISE rvec3 turn = rigid_turn(lack, centre, square, mixed);
     PRECISE real size = sqrt(dot(turn, turn));
     bool moves = group < groups && size < REAL(1e18);
-    PRECISE real share = size > REAL(0.002) ? max(REAL(0.002) / size, REAL(0.1)) : real(1);
+    PRECISE real share = size > REAL(0.002) ? REAL(0.002) / size : real(1);
     turn *= share;
     LANES_BEGIN(1)
     if (group < groups)

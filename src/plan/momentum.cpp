@@ -25,10 +25,12 @@ struct MomentumBuffers
 
 namespace {
 
-/// Cloth is left out: a sweep over its springs costs less than the sums, and little of it flies freely.
-bool turns_freely(const Body& body)
+/// Cloth is left out: a sweep over its springs costs less than the sums, and little of it flies freely. Among
+/// colliders, so are bodies that start in shape: docs/effects/momentum.md, "Scenes with colliders".
+bool turns_freely(const Scene& scene, const Body& body)
 {
-    return !body.mesh.tetrahedra.empty() &&
+    const bool among_colliders = method_of(scene) == MethodKind::xpbd && !body.start_positions.empty();
+    return !body.mesh.tetrahedra.empty() && (scene.colliders.empty() || among_colliders) &&
            std::all_of(body.pins.begin(), body.pins.end(), [](const Pin& p) { return p.vertices.empty(); });
 }
 
@@ -36,10 +38,8 @@ bool turns_freely(const Body& body)
 
 bool wants_momentum(const Scene& scene)
 {
-    const Method& method = find_method(method_of(scene));
-    if (!method.contact_each_iteration && !scene.colliders.empty())
-        return false; // what carries a body is not in the solve, and comes after it
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(), turns_freely);
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [&](const Body& body) { return turns_freely(scene, body); });
 }
 
 void prepare_momentum(PlanBuilder& b)
@@ -49,7 +49,7 @@ void prepare_momentum(PlanBuilder& b)
     {
         std::vector<std::uint32_t> rows;
         for (std::uint32_t v = b.plan.body_start[body]; v < b.plan.body_start[body + 1]; ++v)
-            if (turns_freely(b.scene.bodies[body]))
+            if (turns_freely(b.scene, b.scene.bodies[body]))
                 rows.push_back(b.plan_index[v]);
         parts.add(rows, std::vector<std::uint32_t>(rows.size(), 1), false);
     }

@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE("momentum_turn takes off what a displacement begins from, by 
         for (int k = 0; k < 3; ++k)
             body[1 + std::size_t(k)] += body[0] * double(owed[first][k]) * double(step.substep);
         Turn motion = turn_of(body);
-        const double size = glm::length(motion.turn), share = size > 0.002 ? std::max(0.002 / size, 0.1) : 1;
+        const double size = glm::length(motion.turn), share = size > 0.002 ? 0.002 / size : 1;
         motion.turn *= share;
         const glm::dvec3 lack = glm::dvec3(body[1], body[2], body[3]) / body[0] / double(step.substep);
         left[first] = {(1 - share) * lack, 0};

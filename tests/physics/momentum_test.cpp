@@ -102,6 +102,28 @@ TEST_CASE("a free solid that starts squeezed, sheared or mirrored finds its shap
     CHECK(rate < 0.1); // 20 to 800 where the solve decides
 }
 
+TEST_CASE("a solid that starts squeezed above a floor comes down as it started", "[momentum]")
+{
+    Scene scene = free_cube("xpbd");
+    scene = started(scene, [](glm::dvec3 x) { return glm::dvec3(x.x + x.y, 0.1 * x.y, x.z); });
+    scene.gravity = {0, -1, 0};
+    Collider floor;
+    floor.kind = ColliderKind::plane;
+    floor.point = {0, -1, 0};
+    scene.colliders = {floor};
+    World world(scene, test_device("cpu:serial")),
+        other(scene, test_device("cpu:serial"), without_momentum(scene));
+    for (int k = 0; k < 30; ++k)
+    {
+        world.step();
+        other.step();
+    }
+    CHECK(glm::degrees(turning(world)) < 0.1);
+    CHECK(glm::degrees(turning(other)) > 10);
+    scene.bodies[0].start_positions.clear();
+    CHECK(World(scene, test_device("cpu:serial")).plan().owed == kNoBuffer); // not called for
+}
+
 TEST_CASE("a free solid turns on as it was turned, under every count of substeps", "[momentum]")
 {
     const std::string method = GENERATE("xpbd", "pbd", "vbd", "implicit_euler");
