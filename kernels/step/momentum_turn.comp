@@ -3,8 +3,8 @@
 // part of a body; every group of a body adds up the sums alike.
 //
 // Based on: Goldstein, Poole, Safko. Classical Mechanics, 3rd ed. 2002, 5.3.
-// Departures: at most 0.002 rad an iteration are given back, the rest is owed: a tangle that has to turn inside
-//   out finds its shape less often where it may not turn meanwhile.
+// Departures: at most 0.002 rad an iteration are given back, and the rest is owed: a tangle that has to turn
+//   inside out finds its shape less often where it may not turn meanwhile.
 //   The displacement stays as the solve left it: a body that starts flat or inverted has places from which no
 //   turn would reach the angular momentum, but always a velocity. It becomes one by what the displacement
 //   begins from (`low`), which `finish` takes off.
