@@ -1,6 +1,7 @@
 #include "taut/report/energy_budget.hpp"
 
 #include "taut/report/contact.hpp"
+#include "taut/report/drawn.hpp"
 #include "taut/scene/extent.hpp"
 #include "taut/scene/pose.hpp"
 
@@ -70,23 +71,29 @@ double fastest_turn(const std::vector<Keyframe>& motion)
     return out;
 }
 
-/// The fastest and the longest way of a mover between two times, added to `reach`.
-void extend(const Mover& mover, double from, double to, MoverReach& reach)
+/// What a mover does between two times, added to `reach`; `velocity` [m/s] is that of each corner before, and
+/// after, `change` [m/s] by how much it has changed in all.
+void extend(const Mover& mover, double from, double to, std::vector<glm::dvec3>& velocity,
+            std::vector<double>& change, MoverReach& reach)
 {
     const double turn = fastest_turn(mover.motion) * (to - from) / kSampleTurn;
     const int samples = 8 + static_cast<int>(std::min(turn, 1e5));
-    for (const glm::dvec3& corner : mover.corners)
+    for (std::size_t c = 0; c < mover.corners.size(); ++c)
     {
-        glm::dvec3 before = pose(mover.motion, from, corner);
+        glm::dvec3 before = pose(mover.motion, from, mover.corners[c]);
         for (int k = 1; k <= samples; ++k)
         {
-            const glm::dvec3 now = pose(mover.motion, from + (to - from) * k / samples, corner);
-            reach.speed = std::max(reach.speed, glm::distance(now, before) * samples / (to - from));
-            reach.travel = std::max(reach.travel, glm::distance(now, corner));
+            const glm::dvec3 now = pose(mover.motion, from + (to - from) * k / samples, mover.corners[c]);
+            const glm::dvec3 v = (now - before) * (samples / (to - from));
+            change[c] += glm::distance(v, velocity[c]);
+            velocity[c] = v;
+            reach.speed = std::max(reach.speed, glm::length(v));
+            reach.travel = std::max(reach.travel, glm::distance(now, mover.corners[c]));
             reach.low = glm::min(reach.low, glm::min(now, before));
             reach.high = glm::max(reach.high, glm::max(now, before));
             before = now;
         }
+        reach.change = std::max(reach.change, change[c]);
     }
 }
 
@@ -96,14 +103,22 @@ std::vector<MoverPath> paths_of(const std::vector<Mover>& movers)
     for (const Mover& mover : movers)
     {
         MoverPath path{mover.holds, {{}}};
+        std::vector<glm::dvec3> velocity(mover.corners.size(), glm::dvec3(0));
+        std::vector<double> change(mover.corners.size(), 0.0);
         for (const Keyframe& key : mover.motion)
             if (key.time > path.reach.back().time)
             {
                 MoverReach next = path.reach.back();
                 next.time = key.time;
-                extend(mover, path.reach.back().time, key.time, next);
+                extend(mover, path.reach.back().time, key.time, velocity, change, next);
                 path.reach.push_back(next);
             }
+        // It stops at its last key.
+        MoverReach rest = path.reach.back();
+        rest.time = std::numeric_limits<double>::infinity();
+        for (std::size_t c = 0; c < change.size(); ++c)
+            rest.change = std::max(rest.change, change[c] + glm::length(velocity[c]));
+        path.reach.push_back(rest);
         out.push_back(std::move(path));
     }
     return out;
@@ -161,55 +176,6 @@ double elastic_at_start(PhysicalModel model)
     return elastic_energy(model, model.start);
 }
 
-/// m: of a thousand vertices of each, evenly taken; 0 excluded.
-double least_distance(const Pin& a, const Pin& b, std::span<const glm::dvec3> x)
-{
-    constexpr std::size_t kMost = 1000;
-    double out = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < a.vertices.size(); i += a.vertices.size() / kMost + 1)
-        for (std::size_t j = 0; j < b.vertices.size(); j += b.vertices.size() / kMost + 1)
-        {
-            const double distance = glm::distance(x[a.vertices[i]], x[b.vertices[j]]);
-            out = distance > 0 ? std::min(out, distance) : out;
-        }
-    return out;
-}
-
-/// m: over what length a body is drawn where its pins move: to the nearest pin that moves otherwise, or the
-/// body itself.
-double drawn_length(const Body& body, std::span<const glm::dvec3> x)
-{
-    Extent all;
-    for (const glm::dvec3& p : x)
-        all.take(p);
-    double out = all.size();
-    for (std::size_t a = 0; a < body.pins.size(); ++a)
-        for (std::size_t b = a + 1; b < body.pins.size(); ++b)
-            if (!body.pins[a].motion.empty() || !body.pins[b].motion.empty())
-                out = std::min(out, least_distance(body.pins[a], body.pins[b], x));
-    return out;
-}
-
-/// J/m^2, see EnergyBudget::drawn_: by the principle of least energy what is in balance has no more.
-double drawn_energy(const Scene& scene)
-{
-    double out = 0;
-    for (const Body& body : scene.bodies)
-    {
-        if (body.pins.size() + scene.colliders.size() < 2)
-            continue; // what nothing else holds goes along
-        double stiff = 0; // J at a strain of 1
-        for (const StretchElement& e : stretch_elements(body))
-            if (e.compliance > 0)
-                stiff += 0.5 * e.rest_length * e.rest_length / e.compliance;
-        for (const SolidElement& e : solid_elements(body))
-            stiff += 0.5 * (2 * e.mu + e.lambda) * e.rest_volume;
-        const double length = drawn_length(body, body.mesh.positions);
-        out += length > 0 ? stiff / (length * length) : 0;
-    }
-    return out;
-}
-
 /// m: how far springs that a method keeps by projection are from their length at the start. Such a step puts
 /// it right at once, at whatever speed that takes.
 double largest_violation(const Scene& scene, const PhysicalModel& model)
@@ -252,7 +218,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved)
     : model_(make_model(resolved)),
       paths_(paths_of(movers_of(resolved, model_))),
       depth_(deepest_start(resolved, model_)),
-      drawn_(drawn_energy(resolved)),
+      drawn_(std::make_shared<const DrawnBodies>(resolved)),
       violation_(largest_violation(resolved, model_)),
       depenetration_(resolved.depenetration_speed),
       wind_speed_(largest_wind(resolved.wind)),
@@ -285,13 +251,14 @@ MoverReach EnergyBudget::reach_at(double time, std::span<const glm::dvec3> x) co
                                return glm::all(glm::lessThanEqual(reach.low, room.high)) &&
                                       glm::all(glm::lessThanEqual(room.low, reach.high));
                            });
-        out.speed = std::max(out.speed, meets ? reach.speed : 0.0);
+        const double passed_on = std::max(kPulls * reach.change, path.holds ? 0.0 : kHits * reach.speed);
+        out.speed = std::max(out.speed, meets ? passed_on : 0.0);
         out.travel = std::max(out.travel, meets ? reach.travel : 0.0);
     }
     return out;
 }
 
-double EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive) const
+EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive) const
 {
     const MoverReach reach = reach_at(drive.time, x);
     const double g = glm::length(model_.gravity);
@@ -304,7 +271,6 @@ double EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive
     if (depth_ > 0)
         in += mass_ * (g * depth_ + 0.5 * depenetration_ * depenetration_);
     const double way = reach.travel + std::max(depth_, 0.0);
-    in += kHits * drawn_ * way * way;
     in += 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
     if (wind_force_ > 0)
     {
@@ -313,11 +279,15 @@ double EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive
             moved = std::max(moved, glm::distance(x[i], model_.start[i]));
         in += wind_force_ * moved;
     }
-    root += kHits * std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force_ > 0 ? wind_speed_ : 0.0);
+    root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force_ > 0 ? kHits * wind_speed_ : 0.0);
     if (drive.push > 0)
         root += drive.push / std::sqrt(2 * lightest_);
-    root += std::sqrt(std::max(in, 0.0));
-    return root * root;
+    const DrawnEnergy drawn = drawn_->at(drive.time, way);
+    const auto with = [&](double elastic) {
+        const double all = root + std::sqrt(std::max(in + kHits * elastic, 0.0));
+        return all * all;
+    };
+    return {with(drawn.freed), with(drawn.held)};
 }
 
 double EnergyBudget::rounding(Precision precision, double substep) const

@@ -6,6 +6,7 @@
 #include "taut/world/world.hpp"
 
 #include <cmath>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct MoverReach
 {
     double time = 0;   ///< s: end of the stretch
     double speed = 0;  ///< m/s, largest so far
+    double change = 0; ///< m/s, of all changes of its velocity so far
     double travel = 0; ///< m, longest way so far
     glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL}; ///< m, box of all places so far
 };
@@ -27,12 +29,23 @@ struct MoverPath
     std::vector<MoverReach> reach; ///< ascending in time
 };
 
+class DrawnBodies;
+
+/// J: the most that energies can be.
+struct EnergyMost
+{
+    double kinetic = 0; ///< less than `all` by what pins hold drawn
+    double all = 0;     ///< kinetic and elastic together
+};
+
 /// Bounds on energy, fp64 on the host. Immutable after construction; const members may be called from any
 /// thread.
 ///
 /// Based on: the work-energy theorem. A force that accelerates every part of a mass M by at most g raises
-///   sqrt(2 E / M) by at most g t; what moves at V passes on at most a multiple of V to what it meets.
-/// Departures: the work of moving pins and colliders is bounded by kHits times their speed, not integrated. A
+///   sqrt(2 E / M) by at most g t, and what is carried along by at most all changes of velocity together;
+///   what moves at V passes on at most a multiple of V to what it meets.
+/// Departures: the work of moving pins and colliders is bounded by multiples of their speeds, not integrated.
+/// A
 ///   collider whose way is further from all that a body can have been at than the body is large has done
 ///   none.
 class EnergyBudget
@@ -43,8 +56,8 @@ public:
 
     const PhysicalModel& model() const { return model_; }
 
-    /// J: the most that kinetic and elastic energy can be together at places `x` [m, scene-wide].
-    double most(std::span<const glm::dvec3> x, const WorldDrive& drive) const;
+    /// At places `x` [m, scene-wide].
+    EnergyMost most(std::span<const glm::dvec3> x, const WorldDrive& drive) const;
 
     /// J: what rounding and the last digits of strains can make: below it nothing is judged. `substep` in s.
     double rounding(Precision precision, double substep) const;
@@ -54,18 +67,19 @@ public:
 
     double mass() const { return mass_; } ///< kg, of vertices that move
 
-    /// Speeds of colliders and pins count so often: a mass between two that close in is thrown faster.
+    /// Speeds of colliders count so often: a mass between two that close in is thrown faster.
     static constexpr double kHits = 4;
+    /// Changes of velocity count so often: the free end of what is pulled moves twice as fast.
+    static constexpr double kPulls = 2;
 
 private:
-    /// Of all that can have touched bodies that are at `x`, together.
+    /// Of all that can have touched bodies that are at `x`, together; `speed` is what they can pass on.
     MoverReach reach_at(double time, std::span<const glm::dvec3> x) const;
 
     PhysicalModel model_;
     std::vector<MoverPath> paths_;
     double mass_ = 0, lightest_ = 0, start_ = 0, gravity_start_ = 0, depth_ = 0;
-    /// J/m^2: half the elastic energy of drawing the places that movers hold apart by a metre, evenly.
-    double drawn_ = 0;
+    std::shared_ptr<const DrawnBodies> drawn_;
     double violation_ = 0;     ///< m: largest of what rigid elements must put right at the start
     double depenetration_ = 0; ///< m/s
     double wind_speed_ = 0;    ///< m/s

@@ -70,8 +70,8 @@ std::optional<Substep> last_substep(const View& view)
     add_forces(out.model, view.x, force);
     for (const GasElement& e : out.model.gases) // of the guess, which it has pushed
         add_gas_forces(e, view.x, gas);
-    out.left = {std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), h,
-                false};
+    out.left = {
+        std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), {}, h, false};
     for (std::size_t i = 0; i < count; ++i)
     {
         const double mass = out.model.mass[i];
@@ -172,6 +172,9 @@ LoadResidual measure_load_residual(const World& world)
         left.touches[i] =
             touches_collider(view, i, glm::length(last->moved[i]) + gravity * substep * substep);
     }
+    if (!sweeps)
+        for (std::size_t i = 0; i < view.x.size(); ++i)
+            left.carried.push_back(last->model.pinned[i] ? glm::length(last->moved[i]) : 0.0);
     mark_limited(view, left.touches);
     return load_residual(last->model, view.x, left);
 }

@@ -100,7 +100,9 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
     const auto begin = left.touches.begin();
     const bool touches = std::find(begin + first, begin + last, true) != begin + last;
     const glm::dvec3 down = glm::normalize(model.gravity);
-    double moved = 0, loads = 0, mass = 0;
+    double moved = 0, loads = 0, mass = 0, carried = 0;
+    for (std::uint32_t i = first; i < last && !left.carried.empty(); ++i)
+        carried = std::max(carried, left.carried[i]);
     Extent body;
     for (const glm::dvec3& p : x.subspan(first, last - first))
         body.take(p);
@@ -111,7 +113,7 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
                                               : glm::length(step.left[i]));
             mass += model.mass[i];
             loads += left.against_response ? model.mass[i] * glm::length(step.loads[i])
-                                           : left.load[i] * left.time * left.time;
+                                           : left.load[i] * left.time * left.time + model.mass[i] * carried;
         }
     if (!(loads > 0))
         return {};

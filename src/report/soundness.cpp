@@ -138,6 +138,37 @@ Soundness judge_inverted(const RunState& state)
                      std::to_string(state.scene.accept.inverted) + "; take more substeps or iterations");
 }
 
+/// Constraint enforcement keeps lengths by their rates: after a step that was solved no spring changes its
+/// length much. Root mean square over springs, of their lengths, in a substep.
+double length_change(const PhysicalModel& model, const RunState& state)
+{
+    double changes = 0, lengths = 0;
+    for (const StretchElement& e : model.springs)
+    {
+        const glm::dvec3 way = state.x[e.a] - state.x[e.b];
+        const double length = glm::length(way);
+        if (!(length > 0))
+            continue;
+        const double change = glm::dot(way, state.v[e.a] - state.v[e.b]) / length * state.drive.substep;
+        changes += change * change;
+        lengths += e.rest_length * e.rest_length;
+    }
+    return lengths > 0 ? std::sqrt(changes / lengths) : 0;
+}
+
+Soundness judge_rates(const PhysicalModel& model, const RunState& state)
+{
+    const MethodKind kind = method_of(state.scene);
+    if (kind != MethodKind::implicit_constraints && kind != MethodKind::acad)
+        return {};
+    const double change = length_change(model, state), accepted = state.scene.accept.stretch;
+    if (change <= accepted)
+        return {};
+    return found(Status::unconverged, "springs change their length by " + percent(change) +
+                                          " in a substep, accept.stretch is " + percent(accepted) +
+                                          "; take more substeps");
+}
+
 Soundness judge_energy(double energy, double most, double bound, Status status, const char* what)
 {
     if (energy <= bound)
@@ -186,14 +217,14 @@ Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
     const Soundness places = judge_places(state);
     if (!places.sound())
         return places;
-    const double most = budget.most(state.x, state.drive);
+    const EnergyMost most = budget.most(state.x, state.drive);
     const double slack = budget.small() + budget.rounding(state.precision, state.drive.substep);
     const double energy = kinetic_energy(budget.model(), state.v);
-    Soundness out = judge_energy(energy, most, kDivergedKinetic * most + slack, Status::diverged,
-                                 "the kinetic energy is");
+    Soundness out = judge_energy(energy, most.kinetic, kDivergedKinetic * most.kinetic + slack,
+                                 Status::diverged, "the kinetic energy is");
     out = worse(out, judge_clamps(state.scene, state.events, state.vertex_substeps));
     out.energy = energy;
-    out.energy_most = most;
+    out.energy_most = most.all;
     return out;
 }
 
@@ -210,6 +241,7 @@ Soundness judge_state(const EnergyBudget& budget, const RunState& state)
     out = worse(out, motion);
     out = worse(out, judge_strain(strain, state.scene.accept.stretch));
     out = worse(out, judge_inverted(state));
+    out = worse(out, judge_rates(budget.model(), state));
     const double bound = kUnconvergedEnergy * most + slack;
     out = worse(out, judge_energy(energy, most, bound, Status::unconverged, what));
     out.energy = energy;
@@ -248,7 +280,7 @@ void SoundnessWatch::after(std::uint64_t frame, const World& world)
         return;
     const bool strains =
         frames_ >= kMotionLooks && frame * kStrainLooks / frames_ != (frame - 1) * kStrainLooks / frames_;
-    if (frame % every_ != 0 && !strains)
+    if (frame != 1 && frame % every_ != 0 && !strains) // a start is where most is wrong at once
         return;
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());

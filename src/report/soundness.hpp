@@ -71,8 +71,8 @@ inline constexpr std::uint64_t kMotionLooks = 8, kStrainLooks = 2;
 /// bytes that the plan's steps touch pay for at 1 %, where that is more. 1 or more.
 std::uint64_t frames_between_looks(const Plan& plan, std::uint64_t frames);
 
-/// Looks at a run of so many frames: at its motion after each frames_between_looks(), at strains kStrainLooks
-/// times.
+/// Looks at a run of so many frames: at its motion after the first and after each frames_between_looks(), at
+/// strains kStrainLooks times.
 class SoundnessWatch
 {
 public:

@@ -16,7 +16,7 @@ constexpr double kSubstep = 1.0 / 600;
 /// As if a solver did nothing: the whole weight is left. Its signs are those of M (x - x~) / h^2 - f.
 Leftover weight_left(const PhysicalModel& model)
 {
-    Leftover out{{}, {}, {}, kSubstep, false};
+    Leftover out{{}, {}, {}, {}, kSubstep, false};
     for (const double mass : model.mass)
     {
         out.force.push_back(-mass * model.gravity);
@@ -41,6 +41,10 @@ TEST_CASE("a solver that does nothing to what falls leaves all of its loads' mot
     const PhysicalModel model = free_cloth(1e4);
     Leftover left = weight_left(model);
     CHECK(load_residual(model, model.start, left).share == Approx(1));
+    left.carried.assign(model.mass.size(), 0);
+    left.carried[3] = 3 * glm::length(model.gravity) * kSubstep * kSubstep; // a pin moves it thrice as far
+    CHECK(load_residual(model, model.start, left).share == Approx(0.25));
+    left.carried.clear();
     for (glm::dvec3& r : left.force)
         r *= 0.25;
     CHECK(load_residual(model, model.start, left).share == Approx(0.25));

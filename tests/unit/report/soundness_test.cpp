@@ -97,6 +97,50 @@ TEST_CASE("pins that draw a body put in what stretches it")
     CHECK_FALSE(judge_state(EnergyBudget(scene), state_of(scene, x, v, 10)).sound());
 }
 
+TEST_CASE("what pins hold drawn moves nothing until they let it go")
+{
+    Scene scene = sheet();
+    scene.gravity = glm::dvec3(0);
+    Pin still, drawn;
+    still.vertices = {0, 5, 10, 15, 20};
+    drawn.vertices = {4, 9, 14, 19, 24};
+    drawn.motion = {{0, {0, 0, 0}}, {10, {1, 0, 0}}};
+    scene.bodies[0].pins = {still, drawn};
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+    const std::vector<glm::dvec3> v(x.size(), glm::dvec3(0, 0, 100)); // less than is held
+    const auto judged = [&] { return judge_motion(EnergyBudget(scene), state_of(scene, x, v, 10)).status; };
+    CHECK(judged() == Status::diverged);
+    drawn.motion.insert(drawn.motion.begin() + 1, {5, {2, 0, 0}}); // a metre of it back
+    scene.bodies[0].pins = {still, drawn};
+    CHECK(judged() == Status::completed);
+    drawn.motion = {{0, {0, 0, 0}}, {10, {-0.5, 0, 0}}}; // pushed together, it may buckle
+    scene.bodies[0].pins = {still, drawn};
+    CHECK(judged() == Status::completed);
+    drawn.motion = {{0, {0, 0, 0}}, {10, {1, 0, 0}}};
+    scene.bodies[0].pins = {still, drawn};
+    scene.bodies[0].material.tear_strain = 0.2;
+    CHECK(judged() == Status::completed);
+}
+
+TEST_CASE("a body goes faster than the pins that carry it where they turn back often")
+{
+    Scene scene = sheet();
+    scene.gravity = glm::dvec3(0);
+    Pin carried; // at 1 m/s
+    carried.vertices = {0, 1, 2, 3, 4};
+    carried.motion = {{0, {0, 0, 0}}, {10, {10, 0, 0}}};
+    scene.bodies[0].pins = {carried};
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+    const std::vector<glm::dvec3> v(x.size(), glm::dvec3(0, 0, 6));
+    const auto judged = [&] { return judge_motion(EnergyBudget(scene), state_of(scene, x, v, 10)).status; };
+    CHECK(judged() == Status::diverged);
+    carried.motion.clear();
+    for (int k = 0; k <= 10; ++k)
+        carried.motion.push_back({double(k), {k % 2, 0, 0}});
+    scene.bodies[0].pins = {carried};
+    CHECK(judged() == Status::completed);
+}
+
 TEST_CASE("strain without the energy for it is unconverged, with it sound")
 {
     Scene scene = sheet();

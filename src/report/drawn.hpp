@@ -1,0 +1,52 @@
+#pragma once
+// What elastic energy pins put into a body that they draw: how much at most, and how much of it can have come
+// free. Internal to energy_budget.cpp.
+
+#include "taut/scene/scene.hpp"
+
+#include <vector>
+
+namespace taut {
+
+/// J. `held`: of the bodies as drawn, in balance or not. `freed`: how much less that is than it was, and what
+/// was pushed together, which may buckle.
+struct DrawnEnergy
+{
+    double held = 0, freed = 0;
+};
+
+/// Bodies whose pins move against each other, or against colliders. Immutable after construction.
+///
+/// Based on: the principle of least energy: what is in balance has no more elastic energy than if it were
+///   drawn evenly over the length between two pins.
+/// Departures: where only translations of pins draw a body and nothing can tear, the length by which each two
+///   pins have drawn what lies between them is followed over time; otherwise everything moved counts as drawn
+///   and as freed.
+class DrawnBodies
+{
+public:
+    explicit DrawnBodies(const Scene& resolved);
+
+    /// At `time` [s], `way` being the longest way that anything has been moved by then, m.
+    DrawnEnergy at(double time, double way) const;
+
+private:
+    /// Two pins of a body of which one moves.
+    struct Pair
+    {
+        std::vector<Keyframe> a, b;
+        std::vector<glm::dvec3> between; ///< m, from places of one to places of the other, at rest
+        double stiffness = 0;            ///< J/m^2
+    };
+    /// How far a pair is from its distances at rest: apart, and together, m.
+    struct Change
+    {
+        double apart = 0, together = 0;
+    };
+    static Change change(const Pair& pair, double time);
+
+    std::vector<Pair> pairs_;
+    double stiffness_ = 0; ///< J/m^2, of bodies that are not followed pair by pair
+};
+
+} // namespace taut
