@@ -41,6 +41,8 @@ struct CgOutcome
     double curvature = 0;       ///< p.Ap of the last direction
     double curvature_ratio = 0; ///< p.Ap / p.Mp over the largest seen so far
     double rz = 0;
+    /// The matrix that was given has no such curvature: what a float made of it has.
+    bool misread = false;
 };
 
 class ConjugateGradient
@@ -55,6 +57,8 @@ public:
     const BufferPtr& x() const { return base_; }
     /// What the iterations since the residual was last formed have added to x: rows reals.
     const BufferPtr& gain() const { return x_; }
+    /// The last direction p: rows reals.
+    const BufferPtr& direction() const { return p_; }
     /// Where the solve stands: layout::CgState<real>. Final after record_end.
     const BufferPtr& state() const { return decided_; }
 

@@ -337,6 +337,13 @@ std::vector<double> SmallBatch::x(std::size_t system)
     return sum;
 }
 
+std::vector<double> SmallBatch::direction(std::size_t system)
+{
+    const Parts& p = *parts_;
+    return read_reals(*p.device, p.work, p.size.at(system), p.precision,
+                      std::uint64_t{p.rows} + p.first[system]);
+}
+
 std::vector<float> SmallBatch::history(std::size_t system)
 {
     Parts& p = *parts_;

@@ -40,6 +40,8 @@ public:
     std::vector<double> x(std::size_t system);
     /// x as it was when the residual was last formed anew: what there is to fall back on when x is no better.
     std::vector<double> checked_x(std::size_t system);
+    /// The last direction p, scaled as b.
+    std::vector<double> direction(std::size_t system);
     /// |r| / |b|, at most ConjugateGradient::kHistory last ones.
     std::vector<float> history(std::size_t system);
 

@@ -17,6 +17,11 @@ std::string stagnation(const SolveReport& report, const CgOutcome& outcome, cons
                        const std::string& after)
 {
     const std::string precision(to_string(report.precision));
+    if (outcome.misread)
+        return precision + " finds a direction p with p.Ap = " + shown(outcome.curvature, 3) + " (scaled)" +
+               after +
+               "; of A itself it is positive, but its entries are too many decades apart for this precision" +
+               advice(report.precision);
     if (outcome.cause == TAUT_CG_EXHAUSTED)
         return "the steepest descent from " + where + after + " has a curvature of " +
                shown(outcome.curvature_ratio, 3) + " of the largest, which " + precision +

@@ -6,6 +6,7 @@
 #include "taut/linear/system_solver.hpp"
 
 #include "taut/linear/device_preconditioner.hpp"
+#include "taut/linear/host_sums.hpp"
 #include "taut/linear/reals.hpp"
 #include "taut/linear/solve_reason.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -171,7 +172,8 @@ CgOutcome SystemSolver::solve_small(std::span<const double> b, std::span<const d
     const Clock::time_point start = Clock::now();
     batch_->run();
     report_.seconds += seconds_since(start);
-    const CgOutcome outcome = batch_->outcome(0);
+    CgOutcome outcome = batch_->outcome(0);
+    check_curvature(batch_->direction(0), outcome);
     const std::vector<float> history = batch_->history(0);
     const std::uint32_t first = outcome.iterations + 1 - static_cast<std::uint32_t>(history.size());
     watch(history, first);
@@ -204,6 +206,7 @@ CgOutcome SystemSolver::solve_large(std::span<const double> b, std::span<const d
         told = upto;
     } while (outcome.running);
     report_.seconds += seconds_since(start);
+    check_curvature(read_reals(*device_, cg_->direction(), a_.rows, precision_), outcome);
     const std::vector<double> base = read(cg_->x());
     const std::vector<double> gained = read_reals(*device_, cg_->gain(), a_.rows, precision_);
     std::vector<double> sum = base;
@@ -281,6 +284,22 @@ void SystemSolver::take(std::vector<double> candidate)
         return;
     report_.relative_residual = now;
     x_ = std::move(candidate);
+}
+
+/// A matrix whose entries are many decades apart may be definite where it has been rounded to float, with a
+/// sum of as many decades, is not: what is said of A has to hold of the one that was given.
+void SystemSolver::check_curvature(std::span<const double> direction, CgOutcome& outcome) const
+{
+    if (outcome.status != Status::indefinite_matrix)
+        return;
+    std::vector<double> p(direction.begin(), direction.end()), product(a_.rows);
+    for (const std::uint32_t row : options_.held)
+        p[row] = 0;
+    multiply(a_, p, product);
+    if (!(dot(p, product) > 0))
+        return;
+    outcome.status = Status::stagnated;
+    outcome.misread = true;
 }
 
 /// Says how it ended; false: go on with a smaller tolerance.

@@ -41,6 +41,7 @@ private:
     /// where the iteration ran along a null space a larger x is no better one.
     void take(std::vector<double> candidate);
     /// Says how it ended; false: go on with a smaller tolerance.
+    void check_curvature(std::span<const double> direction, CgOutcome& outcome) const;
     bool settle(const CgOutcome& outcome);
     void measure_product();
 

@@ -207,3 +207,24 @@ TEST_CASE("options that make no sense are refused in words", "[linear][solve]")
     options.chebyshev_degree = 17;
     CHECK_THROWS_WITH(solve(device, a, b, options), Contains("1 to 16"));
 }
+
+TEST_CASE("a matrix of many decades is not called indefinite for what float makes of it")
+{
+    const double decades[] = {1e14, 1e-4, 1e16}; // D S D with the definite S of ones and 0.3
+    const double s[3][3] = {{1, -0.3, 0.3}, {-0.3, 1, 0.3}, {0.3, 0.3, 1}};
+    std::vector<Triplet> entries;
+    for (std::uint32_t i = 0; i < 3; ++i)
+        for (std::uint32_t j = 0; j < 3; ++j)
+            entries.push_back({i, j, decades[i] * s[i][j] * decades[j]});
+    const std::vector<double> b = {0, 1e27, 0};
+    SolveOptions options =
+        big(GENERATE(Preconditioner::chebyshev, Preconditioner::jacobi, Preconditioner::none));
+    options.precision = GENERATE(SolvePrecision::float32, SolvePrecision::mixed);
+    const SolveReport report =
+        solve(test_device("cpu:serial"), from_triplets(3, 3, entries), b, options).report;
+    INFO(to_string(options.preconditioner) << ": " << to_string(report.status) << ", " << report.reason);
+    CHECK(report.status != Status::converged); // |b - A x| is beyond float
+    CHECK(report.status != Status::indefinite_matrix);
+    if (options.preconditioner == Preconditioner::chebyshev)
+        CHECK_THAT(report.reason, Contains("decades apart for this precision"));
+}
