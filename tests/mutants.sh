@@ -174,20 +174,39 @@ make_host() {
     pairs=("$object" "$work/host.o")
 }
 
+# passes SUITE PROGRAM: with what it prints in a log. Status 77 is "passed, and left something out".
+passes() {
+    local log=$work/${2##*/}.log status=0
+    [ "$1" != hard ] || local -x TAUT_HARD_SHORT=1 TAUT_MAP_FIRST=1
+    TAUT_TEST_DEVICES=cpu:serial TAUT_PIPELINE_CACHE=off TAUT_DEVICE_COSTS=off timeout "$limit" nice \
+        "$2" --abort > "$log" 2>&1 || status=$?
+    [ $status -eq 0 ] || [ $status -eq 77 ]
+}
+
 # run_suite SUITE: "killed" or "lives".
 run_suite() {
-    local program arguments linked
+    local program linked
     for program in $(programs_of "$1"); do
         linked=0
         link "$program" "$work/$program" "${pairs[@]}" || linked=$?
         [ $linked -ne 3 ] || continue
-        arguments=(--abort)
-        [ "$1" != hard ] || export TAUT_HARD_SHORT=1 TAUT_MAP_FIRST=1
-        TAUT_TEST_DEVICES=cpu:serial TAUT_PIPELINE_CACHE=off TAUT_DEVICE_COSTS=off timeout "$limit" nice \
-            "$work/$program" "${arguments[@]}" > "$work/$program.log" 2>&1 && continue
-        [ $? -eq 77 ] || { echo killed; return; } # 77: passed, and left something out
+        passes "$1" "$work/$program" || { echo killed; return; }
     done
     echo lives
+}
+
+# require_sound SUITE: once a suite. One that fails without any mutant would seem to notice each of them.
+declare -A sound=()
+require_sound() {
+    local program
+    [ -z "${sound[$1]:-}" ] || return 0
+    for program in $(programs_of "$1"); do
+        passes "$1" "$build/tests/$program" || {
+            echo "$program fails without any mutant, see $work/$program.log: cure that first" >&2
+            exit 1
+        }
+    done
+    sound[$1]=1
 }
 
 # spared MUTANT: --survivors, and a suite has noticed it.
@@ -199,6 +218,7 @@ judge() {
     for suite in ${suites//,/ }; do
         ! spared "$1" || break
         [ -n "$again" ] || [ -z "$(field "$1" "$suite")" ] || continue
+        require_sound "$suite"
         note "$1" "$2" "$what" "$suite" "$(run_suite "$suite")"
     done
     grep "^$1," "$out" >&2

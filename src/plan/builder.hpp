@@ -142,7 +142,6 @@ public:
     PbdBuffers pbd;
     SurfaceBuffers surfaces;
     SurfaceBuffers gas; ///< the same of surfaces that enclose one (pressure.hpp)
-    std::uint32_t distance_damping = kNoBuffer; ///< real a constraint: damper over stiffness, s
     std::shared_ptr<ImplicitConstraints> implicit_constraints; ///< null: nothing is constrained
     std::shared_ptr<ImplicitEuler> implicit_euler; ///< under that method
     std::shared_ptr<Acad> acad;                                ///< likewise

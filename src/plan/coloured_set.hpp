@@ -50,15 +50,16 @@ void prepare_set(PlanBuilder& b, const SetOptions& options, std::uint32_t multip
     add_set(b, set, std::move(table), options, multipliers_each);
 }
 
-/// What the passes of a set bind. `damped`: the set has dampers (PlanBuilder::distance_damping).
+/// What the passes of a set bind.
 std::vector<Use> uses_of(const PlanBuilder& builder, const ConstraintSet& set, std::uint32_t vertices_each,
-                         bool grouped, bool damped);
+                         bool grouped);
 
 /// Passes of one sweep. `Params` is {first, count, first_iteration, report} for every constraint kernel.
 template <typename Params>
 void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                    const Moment& moment, bool damped = false)
+                    const Moment& moment)
 {
+    const bool damped = set.damping != kNoBuffer;
     const bool keep = set.multipliers != kNoBuffer;
     const std::string_view alone = damped ? (keep ? "damped_lambda" : "damped") : (keep ? "lambda" : "");
     const std::string_view grouped =
@@ -68,7 +69,7 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
     for (const Run& run : runs_of(b, set))
     {
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
-        const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped(), damped);
+        const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped());
         if (run.grouped())
             b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 1, first_iteration, report}, 1, size);
         else
@@ -76,7 +77,7 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
         range += run.grouped() ? 2 : 0;
     }
     if (set.small_bodies > 0)
-        b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true, damped),
+        b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true),
                    Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
                    set.small_constraints);
 }

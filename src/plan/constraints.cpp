@@ -80,13 +80,8 @@ Colouring stretch_colouring(const PlanBuilder& b, std::size_t body,
     return colouring;
 }
 
-bool is_damped(const PlanBuilder& b, const ConstraintSet& set)
-{
-    return set.kind == "distance" && b.distance_damping != kNoBuffer;
-}
-
 /// What the springs' dampers need, where there are any.
-void add_damping(PlanBuilder& b, const ConstraintSet& set, const std::vector<StretchElement>& flat)
+void add_damping(PlanBuilder& b, ConstraintSet& set, const std::vector<StretchElement>& flat)
 {
     if (std::none_of(flat.begin(), flat.end(), [](const StretchElement& e) { return e.damping > 0; }))
         return;
@@ -100,7 +95,7 @@ void add_damping(PlanBuilder& b, const ConstraintSet& set, const std::vector<Str
         std::vector<Real> times;
         for (const StretchElement& e : flat)
             times.push_back(static_cast<Real>(e.damping * e.compliance));
-        b.distance_damping = b.add_buffer<Real>(set.kind, "damping times", times);
+        set.damping = b.add_buffer<Real>(set.kind, "damping times", times);
     });
 }
 
@@ -143,7 +138,7 @@ void add_set(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> tabl
 }
 
 std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                         bool grouped, bool damped)
+                         bool grouped)
 {
     std::vector<Use> uses = {{set.buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
                              {b.plan.step_values, 0}, {b.plan.events, 0}};
@@ -151,8 +146,8 @@ std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::ui
         uses.push_back({set.table});
     if (set.multipliers != kNoBuffer)
         uses.push_back({set.multipliers});
-    if (damped)
-        uses.push_back({b.distance_damping});
+    if (set.damping != kNoBuffer)
+        uses.push_back({set.damping});
     return uses;
 }
 
@@ -228,7 +223,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "distance"))
     {
-        record_colours<kernels::distance::Params>(b, *set, 2, moment, is_damped(b, *set));
+        record_colours<kernels::distance::Params>(b, *set, 2, moment);
         record_hubs(b, *set, moment);
     }
 }

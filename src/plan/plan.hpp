@@ -68,6 +68,7 @@ struct ConstraintSet
     std::string kind;                      ///< "distance", "bending"
     std::uint32_t buffer = kNoBuffer;      ///< records, in colour order
     std::uint32_t multipliers = kNoBuffer; ///< same order; kNoBuffer when none are kept
+    std::uint32_t damping = kNoBuffer; ///< s, damper over stiffness, same order; kNoBuffer without dampers
     std::uint32_t count = 0;
     std::vector<std::uint32_t> colour_start; ///< colours + 1
     std::uint32_t table = kNoBuffer;         ///< colours on the device, for groups that run several of them

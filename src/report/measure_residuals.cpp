@@ -20,12 +20,16 @@ using reference::BendingRecord;
 using reference::DistanceRecord;
 using reference::View;
 
-/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of the distance constraints.
-double distance_residual(const View& view, double h, std::vector<glm::dvec3>& impulse)
+/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of the distance constraints: eq. 9, with
+/// the damper's part of eq. 26, gamma n . (moved_a - moved_b), gamma = damping time / h; over 1 + gamma, so
+/// that it is a change of length, by which the ends would have to move.
+double distance_residual(const View& view, double h, const std::vector<glm::dvec3>& moved,
+                         std::vector<glm::dvec3>& impulse)
 {
     const std::vector<double> lambda = view.world.multipliers("distance");
     if (lambda.empty())
         return 0;
+    const std::vector<double> times = view.world.damping_times("distance");
     double worst = 0;
     for (std::size_t k = 0; k < view.distance.size(); ++k)
     {
@@ -36,9 +40,12 @@ double distance_residual(const View& view, double h, std::vector<glm::dvec3>& im
         const glm::dvec3 n = (view.x[c.a] - view.x[c.b]) / length;
         impulse[c.a] += n * lambda[k];
         impulse[c.b] -= n * lambda[k];
-        if (c.rest_length > 0)
-            worst = std::max(worst, std::abs(length - c.rest_length + c.compliance / (h * h) * lambda[k]) /
-                                        c.rest_length);
+        if (!(c.rest_length > 0))
+            continue;
+        const double gamma = times.empty() ? 0 : times[k] / h;
+        const double damper = gamma * glm::dot(n, moved[c.a] - moved[c.b]);
+        const double open = length - c.rest_length + damper + c.compliance / (h * h) * lambda[k];
+        worst = std::max(worst, std::abs(open) / ((1 + gamma) * c.rest_length));
     }
     return worst;
 }
@@ -87,7 +94,7 @@ void measure_residuals(const View& view, StepReport& out)
         return;
     const double h = view.plan.timestep / view.plan.substeps;
     std::vector<glm::dvec3> impulse(view.x.size(), glm::dvec3(0));
-    out.stretch_residual = distance_residual(view, h, impulse);
+    out.stretch_residual = distance_residual(view, h, moved, impulse);
     out.dual_residual = std::max(out.stretch_residual, bending_residual(view, h, impulse));
     const double gravity = glm::length(view.model.gravity);
     double worst = 0;

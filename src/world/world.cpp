@@ -1,5 +1,6 @@
 #include "taut/world/world_impl.hpp"
 
+#include "taut/plan/constraints.hpp"
 #include "taut/runtime/required.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
 #include "taut/world/inputs.hpp"
@@ -93,6 +94,18 @@ std::vector<glm::dvec3> World::Impl::vectors(std::uint32_t buffer, std::uint32_t
         return {};
     return plan.precision == Precision::float64 ? read_vectors<double>(buffer, added)
                                                 : read_vectors<float>(buffer, added);
+}
+
+std::vector<double> World::Impl::of_constraints(std::string_view kind,
+                                                std::uint32_t ConstraintSet::*buffer) const
+{
+    const ConstraintSet* set = find_set(plan, kind);
+    if (!set || set->*buffer == kNoBuffer)
+        return {};
+    if (plan.precision == Precision::float64)
+        return device->read<double>(buffers[set->*buffer], set->count);
+    const auto values = device->read<float>(buffers[set->*buffer], set->count);
+    return {values.begin(), values.end()};
 }
 
 /// In the plan's order.
@@ -283,17 +296,12 @@ std::vector<glm::dvec3> World::predictions() const
 
 std::vector<double> World::multipliers(std::string_view kind) const
 {
-    for (const ConstraintSet& set : impl_->plan.constraints)
-    {
-        if (set.kind != kind || set.multipliers == kNoBuffer)
-            continue;
-        const BufferPtr& buffer = impl_->buffers[set.multipliers];
-        if (impl_->plan.precision == Precision::float64)
-            return impl_->device->read<double>(buffer, set.count);
-        const auto values = impl_->device->read<float>(buffer, set.count);
-        return {values.begin(), values.end()};
-    }
-    return {};
+    return impl_->of_constraints(kind, &ConstraintSet::multipliers);
+}
+
+std::vector<double> World::damping_times(std::string_view kind) const
+{
+    return impl_->of_constraints(kind, &ConstraintSet::damping);
 }
 
 Events World::events() const

@@ -119,6 +119,8 @@ public:
     std::vector<glm::dvec3> predictions() const;
     /// Multipliers of a constraint kind in the plan's order, N s^2; empty when none are kept.
     std::vector<double> multipliers(std::string_view kind) const;
+    /// Damper over stiffness of a constraint kind in the plan's order, s; empty without dampers.
+    std::vector<double> damping_times(std::string_view kind) const;
     Events events() const;
     /// Since the world was made, over all systems of the plan. All zero under methods without one.
     SolverReport solver_report() const;

@@ -55,6 +55,8 @@ struct World::Impl
     template <typename Real>
     void repace(const Pace& before);
     std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
+    /// One number a constraint of a kind, in the plan's order; empty without such a buffer.
+    std::vector<double> of_constraints(std::string_view kind, std::uint32_t ConstraintSet::*buffer) const;
     std::vector<std::byte> raw(std::uint32_t buffer) const;
 };
 

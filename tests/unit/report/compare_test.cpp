@@ -24,9 +24,11 @@ Scene hanging(const std::string& method)
     return scene;
 }
 
-Residuals residual(const std::string& method, std::uint32_t iterations)
+/// `damping`: of the springs, s.
+Residuals residual(const std::string& method, std::uint32_t iterations, double damping = 0)
 {
     Scene scene = hanging(method);
+    scene.bodies[0].material.stretch_damping = damping;
     scene.method.iterations = iterations;
     World world(scene, test_device("cpu:serial"));
     for (int step = 0; step < 5; ++step)
@@ -58,6 +60,8 @@ TEST_CASE("what iterations leave unsolved falls to nothing, and other methods ha
     CHECK(one.primal >= 0);
     CHECK(one.dual > 1e-3);
     CHECK(many.dual < 1e-6 * one.dual);
+    const Residuals damped = residual("xpbd", 400, 0.01);
+    CHECK(damped.dual < 1e-6 * one.dual);
 }
 
 TEST_CASE("asking for residuals leaves the world as it is", "[compare]")
