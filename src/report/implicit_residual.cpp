@@ -56,11 +56,9 @@ void put_dampers_into_springs(const View& view, const std::vector<glm::dvec3>& m
 
 std::optional<Substep> last_substep(const View& view)
 {
-    const auto& bodies = view.world.scene().bodies;
-    const bool flows = std::any_of(bodies.begin(), bodies.end(),
-                                   [](const Body& body) { return body.material.plastic_yield > 0; });
     const std::vector<glm::dvec3> guess = view.world.predictions();
-    if (flows || guess.empty())
+    const std::vector<bool>& flows = view.model.flows;
+    if (guess.empty() || std::find(flows.begin(), flows.end(), false) == flows.end())
         return std::nullopt;
     const std::size_t count = view.x.size();
     const double h = view.plan.timestep / view.plan.substeps;
@@ -126,7 +124,7 @@ void measure_implicit_residual(const View& view, StepReport& out)
     double worst = 0, lefts = 0, sizes = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
-        if (last->model.pinned[i] || touches_collider(view, i))
+        if (last->model.pinned[i] || last->model.flows[i] || touches_collider(view, i))
             continue;
         const double mass = last->model.mass[i], left = glm::length(last->left.force[i]);
         worst = std::max(worst, left / mass / (gravity > 0 ? gravity : 1.0));
@@ -170,6 +168,7 @@ LoadResidual measure_load_residual(const World& world)
         left.load[i] = last->model.mass[i] * std::max(gravity, glm::length(last->inertia[i]));
         // One that a collider pushed may have left it in the same substep.
         left.touches[i] =
+            view.model.flows[i] ||
             touches_collider(view, i, glm::length(last->moved[i]) + gravity * substep * substep);
     }
     if (!sweeps)

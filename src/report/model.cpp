@@ -39,6 +39,7 @@ void append_vertices(PhysicalModel& model, const Body& body)
     model.gap.resize(model.mass.size(), body.material.thickness);
     model.velocity.resize(model.mass.size(), body.velocity);
     model.pinned.resize(model.mass.size(), false);
+    model.flows.resize(model.mass.size(), body.material.plastic_yield > 0);
 }
 
 void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first)

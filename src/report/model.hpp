@@ -29,6 +29,7 @@ struct PhysicalModel
     std::vector<double> mass;                 ///< kg, > 0, of pinned vertices too
     std::vector<double> gap;                  ///< m kept from colliders
     std::vector<bool> pinned;
+    std::vector<bool> flows; ///< of a plastic body, of which the elements below are as at the start
     std::vector<glm::dvec3> start;            ///< m
     std::vector<glm::dvec3> velocity;         ///< m/s; 0 where pinned
     std::vector<StretchElement> springs;

@@ -56,9 +56,9 @@ struct StepReport
     double imbalance = -1;
     /// What one exact Newton step would still move of the worst body's mass after the last substep, over what
     /// its loads (weight, inertia) move in a substep; of a body that touches a collider half of what goes
-    /// along gravity alone (report/load_residual.hpp): 0 solved, 1 as if nothing pulled. Dear, so that
-    /// residuals_ahead() measures it and measure() leaves -1; -1 also under other methods, without gravity,
-    /// and with plastic strain, attachments and held surface volumes.
+    /// along gravity alone (report/load_residual.hpp): 0 solved, 1 as if nothing pulled. Vertices of plastic
+    /// bodies are held. Dear, so that residuals_ahead() measures it and measure() leaves -1; -1 also under
+    /// other methods, without gravity, with attachments and held surface volumes, and where all is plastic.
     double load_residual = -1;
     /// xpbd: what the leftovers of its substeps move the worst body in the time of a fall through the scene's
     /// size, over the body's size; load_residual is then what they move over what its loads do.

@@ -52,16 +52,10 @@ Soundness judge_places(const RunState& state)
 /// What is strained beyond what the scene accepts.
 struct Strained
 {
-    double energy = 0;       ///< J, of elements with a stiffness
+    double energy = 0;       ///< J, of elements with a stiffness whose shape at rest the model knows
     double kept_strain = 0;  ///< largest strain of those that the method keeps by projection
     double limit_strain = 0; ///< largest strain above a strain_limit
 };
-
-bool any_plastic(const Scene& scene)
-{
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                       [](const Body& body) { return body.material.plastic_yield > 0; });
-}
 
 /// pbd, or a spring that is rigid, is asked to keep its length; pbd of a stiffness k below 1 to 1/k as much.
 /// What two held vertices have between them is nobody's to solve.
@@ -83,7 +77,7 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
             const double strain = stretch / e.rest_length;
             if (kept || !(e.compliance > 0))
                 out.kept_strain = std::max(out.kept_strain, share * strain);
-            else if (std::abs(strain) > accepted)
+            else if (std::abs(strain) > accepted && !model.flows[first])
                 out.energy += 0.5 * stretch * stretch / e.compliance;
             if (body.material.strain_limit > 0)
                 out.limit_strain = std::max(out.limit_strain, strain - body.material.strain_limit);
@@ -100,6 +94,8 @@ Strained strained(const PhysicalModel& model, const RunState& state)
     if (method_of(state.scene) != MethodKind::pbd)
         for (const SolidElement& e : model.solids)
         {
+            if (model.flows[e.vertex[0]])
+                continue;
             const glm::dmat3 f = deformation(e, state.x);
             const glm::dmat3 green = 0.5 * (glm::transpose(f) * f - glm::dmat3(1));
             const double size = std::sqrt(glm::dot(green[0], green[0]) + glm::dot(green[1], green[1]) +
@@ -107,8 +103,6 @@ Strained strained(const PhysicalModel& model, const RunState& state)
             if (size > accepted)
                 out.energy += std::max(solid_energy(e, state.x), 0.0);
         }
-    if (any_plastic(state.scene)) // the model does not know what has flowed
-        out.energy = 0;
     return out;
 }
 

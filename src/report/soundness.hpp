@@ -40,7 +40,7 @@ Soundness worse(const Soundness& a, const Soundness& b);
 
 /// Factors of EnergyBudget::most: kinetic energy beyond the first, kinetic and strained energy beyond the
 /// third is `diverged`; kinetic and strained energy beyond the second is `unconverged`.
-inline constexpr double kDivergedKinetic = 2, kUnconvergedEnergy = 2, kDivergedEnergy = 100;
+inline constexpr double kDivergedKinetic = 2, kUnconvergedEnergy = 1.5, kDivergedEnergy = 100;
 /// Coordinates beyond this count as diverged, m.
 inline constexpr double kDivergedExtent = 1e12;
 /// Share of vertices times substeps whose speed was cut at the scene's own max_speed.
