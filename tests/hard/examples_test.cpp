@@ -12,15 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kExamples = fs::path(TAUT_SOURCE_DIR) / "examples/scenes";
+const fs::path kExamples = fs::path(TAUT_SOURCE_DIR) / "examples";
 
 /// Settings of the thesis and of another program, kept as they were published (docs/cloth.md,
 /// docs/solids.md): what they leave is what those figures show.
-const std::set<std::string> kShowFailure = {"cloth/pbd_bend.json",       "cloth/pbd_devices.json",
-                                            "cloth/pbd_iterations.json", "cloth/pbd_sphere.json",
-                                            "cloth/pbd_stretch.json",    "opencloth.json",
-                                            "solids/iterations.json",    "solids/pbd_drop.json",
-                                            "solids/stiffness.json"};
+const std::set<std::string> kShowFailure = {
+    "scenes/cloth/pbd_bend.json",    "scenes/cloth/pbd_devices.json", "scenes/cloth/pbd_iterations.json",
+    "scenes/cloth/pbd_sphere.json",  "scenes/cloth/pbd_stretch.json", "scenes/opencloth.json",
+    "scenes/solids/iterations.json", "scenes/solids/pbd_drop.json",   "scenes/solids/stiffness.json"};
 
 /// As `taut run` judges it: on the way, at the end, and by residuals.
 StepReport whole_run(const Scene& scene, const std::shared_ptr<Device>& device)
