@@ -71,14 +71,13 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
     PHASE_END
     uint filled = group == 0u ? min(used * chunk, count) : 0u;
     EACH_BEGIN(min(rows, filled), filled)
-    Spring empty;
-    empty.a = 0u;
-    empty.b = 0u;
-    empty.rest_length = real(0);
-    empty.stiffness = real(0);
-    empty.damping = real(0);
-    empty.kind = 0u;
-    row[i] = empty;
+    // Member by member: the padding of a record in double stays what it was, the same on every device.
+    row[i].a = 0u;
+    row[i].b = 0u;
+    row[i].rest_length = real(0);
+    row[i].stiffness = real(0);
+    row[i].damping = real(0);
+    row[i].kind = 0u;
     EACH_END
     LANES_BEGIN(1)
     if (group == 0u)
