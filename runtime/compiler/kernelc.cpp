@@ -274,7 +274,7 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
             if (precision == taut::Precision::float64 && !uses_real)
                 continue;
             const auto kernel = taut::compile_kernel({stem, text, root, variant, precision});
-            const std::string path = fs::absolute(kernel_path).string();
+            const std::string path = fs::relative(kernel_path, root).generic_string(); // no machine's paths
             native_kernel(native, path, *kernel, variant, shared, kScalar);
             const bool has_form = lanes && precision == taut::Precision::float32;
             native_entry(native, *kernel, has_form);
