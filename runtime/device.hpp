@@ -2,6 +2,7 @@
 // Device, Buffer, Recorder, Recording: everything above the runtime speaks to a device through
 // these four. Knows no physics and no graphics API.
 
+#include "taut/runtime/base/bindings.hpp"
 #include "taut/runtime/base/dispatch.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/kernel_info.hpp"
@@ -198,13 +199,34 @@ public:
         BufferPtr buffer;
         std::uint64_t offset = 0;
         std::uint64_t bytes = 0; ///< 0: to the end of the buffer
-        Binding(BufferPtr b, std::uint64_t o = 0, std::uint64_t n = 0)
+        Binding(BufferPtr b = nullptr, std::uint64_t o = 0, std::uint64_t n = 0)
             : buffer(std::move(b)), offset(o), bytes(n) {}
+        bool is_set() const { return buffer != nullptr; }
+    };
+
+    /// Which form of a kernel a dispatch takes.
+    struct Form
+    {
+        std::string_view variant = {};
+        Precision precision = Precision::float32;
+        std::string_view label = {}; ///< empty: the kernel's name
     };
 
     /// Adds one dispatch over `count` elements (or groups); a count of 0 is checked but adds nothing.
-    /// `params` is the generated Params struct of the kernel. Throws Error{bad_input} when bindings or
-    /// parameters do not fit the kernel.
+    /// `bindings` is the generated Bindings struct of the kernel: every member goes to the slot of its name,
+    /// and members that the variant does not have stay unset. Throws std::logic_error where they do not fit
+    /// the variant, and Error{bad_input} where a buffer does not fit.
+    template <template <typename> typename Bindings>
+    Recorder& dispatch(const Bindings<Binding>& bindings, const typename Bindings<Binding>::Params& params,
+                       std::uint32_t count, const Form& form)
+    {
+        const KernelInfo& kernel = Bindings<Binding>::info(form.variant, form.precision);
+        return add(kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)), count, {},
+                   form.label);
+    }
+
+    /// The same for a kernel that was compiled from a text of the caller's, with bindings in order of slot.
+    /// Throws Error{bad_input} when bindings or parameters do not fit the kernel.
     template <typename Params>
     Recorder& dispatch(const KernelInfo& kernel, std::vector<Binding> bindings, const Params& params,
                        std::uint32_t count, std::string_view label = {})
@@ -227,6 +249,17 @@ public:
     }
 
     /// Group counts come from 12 bytes of a buffer when the dispatch starts; zero groups cost nothing.
+    template <template <typename> typename Bindings>
+    Recorder& dispatch_indirect(const Bindings<Binding>& bindings,
+                                const typename Bindings<Binding>::Params& params, Binding group_counts,
+                                std::uint32_t largest_count, const Form& form)
+    {
+        const KernelInfo& kernel = Bindings<Binding>::info(form.variant, form.precision);
+        return add(kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
+                   largest_count, std::move(group_counts), form.label);
+    }
+
+    /// The same with bindings in order of slot.
     Recorder& dispatch_indirect(const KernelInfo& kernel, std::vector<Binding> bindings,
                                 std::span<const std::byte> params, Binding group_counts,
                                 std::uint32_t largest_count, std::string_view label = {})

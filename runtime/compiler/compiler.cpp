@@ -179,8 +179,9 @@ void fill_tables(CompiledKernel& kernel, const Reflection& reflection)
     for (const ReflectedBinding& b : reflection.bindings)
     {
         kernel.bindings.push_back({keep(b.name), b.slot, b.access, b.stride});
+        kernel.binding_types.push_back(b.type);
         for (const auto& [member, offset] : b.members)
-            kernel.layouts.push_back({b.record, member, offset, b.stride});
+            kernel.layouts.push_back({b.type, member, offset, b.stride});
     }
     for (const ReflectedParam& p : reflection.params)
         kernel.params.push_back({keep(p.name), keep(p.type), p.offset});

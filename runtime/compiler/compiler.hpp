@@ -52,6 +52,7 @@ struct CompiledKernel
     std::string name, variant, glsl;
     std::vector<std::uint32_t> spirv_vulkan, spirv_opengl;
     std::vector<BindingInfo> bindings;
+    std::vector<std::string> binding_types; ///< of an element of each, as GLSL spells it
     std::vector<ParamInfo> params;
     std::vector<LayoutMember> layouts;
     std::vector<std::unique_ptr<std::string>> names; ///< storage behind string_views

@@ -3,6 +3,7 @@
 //                                                     <stem>.lanes.cpp if the kernel has a line "//! lanes"
 //   taut-kernelc --includes INCLUDE_ROOT OUT_FILE     embeds kernels/shared/* as text
 
+#include "taut/runtime/compiler/bindings_text.hpp"
 #include "taut/runtime/compiler/compiler.hpp"
 
 #include <algorithm>
@@ -84,8 +85,8 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
 {
     std::ostringstream out;
     out << "#pragma once\n// Generated from kernels/**/" << stem << ".comp. Do not edit.\n\n"
-        << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <cstddef>\n"
-           "#include <cstdint>\n#include <string_view>\n\n"
+        << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <array>\n"
+           "#include <cstddef>\n#include <cstdint>\n#include <string_view>\n#include <utility>\n\n"
         << "namespace taut::kernels::" << stem << " {\n\n";
     const auto& params = kernels.front()->params;
     if (!params.empty())
@@ -104,7 +105,7 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
     out << "\n/// Throws Error{unsupported} when there is no such variant.\n"
         << "const KernelInfo& info(std::string_view variant = {}, "
            "Precision precision = Precision::float32);\n\n"
-        << "} // namespace taut::kernels::" << stem << "\n";
+        << taut::bindings_text(stem, kernels) << "\n} // namespace taut::kernels::" << stem << "\n";
     return out.str();
 }
 

@@ -136,6 +136,24 @@ std::string name_or(const std::map<std::uint32_t, std::string>& names, std::uint
     throw Error(ErrorCode::kernel_compilation, "kernel " + kernel + ": " + why);
 }
 
+/// A type as GLSL spells it; empty for what neither bindings nor parameters may hold.
+std::string spelled(const Module& module, std::uint32_t id)
+{
+    const Type& type = module.types.at(id);
+    switch (type.op)
+    {
+    case spv::OpTypeInt: return type.operands[1] != 0 ? "int" : "uint";
+    case spv::OpTypeFloat: return type.operands[0] == 64 ? "double" : "float";
+    case spv::OpTypeStruct: return name_or(module.names, id);
+    case spv::OpTypeVector:
+    {
+        const std::string part = spelled(module, type.operands[0]);
+        return (part == "float" ? "" : part.substr(0, 1)) + "vec" + std::to_string(type.operands[1]);
+    }
+    default: return {};
+    }
+}
+
 ReflectedBinding reflect_binding(const Module& module, const std::string& kernel, std::uint32_t variable,
                                  std::uint32_t block)
 {
@@ -153,13 +171,11 @@ ReflectedBinding reflect_binding(const Module& module, const std::string& kernel
         binding.access = Access::count;
     const std::uint32_t element = module.types.at(array).operands[0];
     const Type& type = module.types.at(element);
+    binding.type = spelled(module, element);
     if (type.op == spv::OpTypeStruct)
-    {
-        binding.record = name_or(module.names, element);
         for (std::uint32_t m = 0; m < type.operands.size(); ++m)
             binding.members.emplace_back(module.member_names.at({element, m}),
                                          module.offsets.at({element, m}));
-    }
     return binding;
 }
 
@@ -173,10 +189,7 @@ void reflect_params(const Module& module, const std::string& kernel, std::uint32
         const bool scalar = member.op == spv::OpTypeInt || member.op == spv::OpTypeFloat;
         if (!scalar || member.operands[0] != 32)
             refuse(kernel, "parameter " + name + " must be uint, int or float (32-bit scalars only)");
-        const char* spelled = member.op == spv::OpTypeFloat ? "float"
-                              : member.operands[1] != 0     ? "int"
-                                                            : "uint";
-        out.params.push_back({name, spelled, module.offsets.at({block, m})});
+        out.params.push_back({name, spelled(module, type.operands[m]), module.offsets.at({block, m})});
         out.param_bytes = std::max(out.param_bytes, module.offsets.at({block, m}) + 4);
     }
 }

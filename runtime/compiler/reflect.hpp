@@ -16,8 +16,8 @@ struct ReflectedBinding
     std::uint32_t slot = 0;
     Access access = Access::update;
     std::uint32_t stride = 0;
-    std::string record; ///< struct name of an element; empty for scalars and vectors
-    std::vector<std::pair<std::string, std::uint32_t>> members; ///< name, offset
+    std::string type; ///< of an element, as GLSL spells it: "Spring", "dvec4", "uint"
+    std::vector<std::pair<std::string, std::uint32_t>> members; ///< of a struct: name, offset
 };
 
 struct ReflectedParam
