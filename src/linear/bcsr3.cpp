@@ -78,10 +78,10 @@ void Bcsr3Matrix::check_trips() const
 void Bcsr3Matrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) const
 {
     const Grid share = grid(gate.groups);
-    launch(recorder, gate, kernels::spmv_bcsr3::info(pass.variant, precision()),
-           bindings({slice_start_, column_}, pass),
-           kernels::spmv_bcsr3::Params{share.count, share.chunk, gate.groups, has_low_words() ? 1u : 0u},
-           "spmv");
+    launch(recorder, gate, {pass.variant, precision(), "spmv"},
+           bindings(kernels::spmv_bcsr3::Bindings<Binding>{.slice_start = slice_start_, .column = column_},
+                    pass),
+           {share.count, share.chunk, gate.groups, has_low_words() ? 1u : 0u});
 }
 
 } // namespace

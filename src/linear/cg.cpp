@@ -121,16 +121,17 @@ void ConjugateGradient::use_part(BufferPtr control, std::uint64_t offset)
 
 void ConjugateGradient::record_restart(Recorder& recorder, const Gate& gate, bool begin)
 {
-    const auto& kernel = kernels::cg_restart::info(
-        variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_);
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
-    std::vector<Recorder::Binding> bindings = {
-        r_, begin ? b_ : r_, partials_, begin ? settings_ : decided_, measured_, control_};
-    if (preconditioning_.inverse)
-        bindings.push_back(preconditioning_.inverse);
-    launch(recorder, gate, kernel, std::move(bindings),
-           kernels::cg_restart::Params{grid.count, grid.chunk, groups_, begin ? 1u : 0u, pairs_ ? 2u : 1u},
-           kLabel);
+    launch(recorder, gate,
+           {variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_, kLabel},
+           kernels::cg_restart::Bindings<Recorder::Binding>{.residual = r_,
+                                                            .b = begin ? b_ : r_,
+                                                            .partials = partials_,
+                                                            .before = begin ? settings_ : decided_,
+                                                            .after = measured_,
+                                                            .control = control_,
+                                                            .inverse = preconditioning_.inverse},
+           {grid.count, grid.chunk, groups_, begin ? 1u : 0u, pairs_ ? 2u : 1u});
     record_preconditioner(recorder, gate);
 }
 
@@ -171,13 +172,17 @@ void ConjugateGradient::record_direction(Recorder& recorder, bool last)
     const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
     const bool stored = is_stored(preconditioning_.kind);
-    std::vector<Recorder::Binding> bindings = {stored ? z_ : r_, p_,       x_,      partials_,
-                                               measured_,        decided_, control_};
-    if (preconditioning_.inverse && !stored)
-        bindings.push_back(preconditioning_.inverse);
-    launch(recorder, gate, kernels::cg_direction::info(variant_of(preconditioning_.kind), precision_),
-           std::move(bindings),
-           kernels::cg_direction::Params{grid.count, grid.chunk, groups_, kHistory, last ? 1u : 0u}, kLabel);
+    launch(recorder, gate, {variant_of(preconditioning_.kind), precision_, kLabel},
+           kernels::cg_direction::Bindings<Recorder::Binding>{.residual = stored ? z_ : r_,
+                                                              .direction = p_,
+                                                              .x = x_,
+                                                              .partials = partials_,
+                                                              .before = measured_,
+                                                              .after = decided_,
+                                                              .control = control_,
+                                                              .inverse = stored ? nullptr
+                                                                                : preconditioning_.inverse},
+           {grid.count, grid.chunk, groups_, kHistory, last ? 1u : 0u});
 }
 
 void ConjugateGradient::record_iteration(Recorder& recorder)
@@ -187,17 +192,27 @@ void ConjugateGradient::record_iteration(Recorder& recorder)
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
     if (operator_->recomputes())
     {
-        operator_->record_product(recorder, gate, p_, Recorder::Binding(nullptr), curvatures_);
-        operator_->record_step(recorder, gate, {p_, r_, curvatures_, partials_, decided_, measured_});
+        operator_->record_product(recorder, gate, p_, {}, curvatures_);
+        operator_->record_step(recorder, gate,
+                               {.direction = p_,
+                                .residual = r_,
+                                .curvatures = curvatures_,
+                                .partials = partials_,
+                                .before = decided_,
+                                .after = measured_});
         return;
     }
     operator_->record_product(recorder, gate, p_, q_, curvatures_);
-    std::vector<Recorder::Binding> bindings = {r_, q_, curvatures_, partials_, decided_, measured_};
-    if (preconditioning_.inverse)
-        bindings.push_back(preconditioning_.inverse);
-    const std::string_view variant = variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr);
-    launch(recorder, gate, kernels::cg_step::info(variant, precision_), std::move(bindings),
-           kernels::cg_step::Params{grid.count, grid.chunk, groups_}, kLabel);
+    launch(recorder, gate,
+           {variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_, kLabel},
+           kernels::cg_step::Bindings<Recorder::Binding>{.residual = r_,
+                                                         .product = q_,
+                                                         .curvatures = curvatures_,
+                                                         .partials = partials_,
+                                                         .before = decided_,
+                                                         .after = measured_,
+                                                         .inverse = preconditioning_.inverse},
+           {grid.count, grid.chunk, groups_});
     record_preconditioner(recorder, gate);
 }
 
@@ -221,8 +236,9 @@ void ConjugateGradient::record_end(Recorder& recorder)
 void ConjugateGradient::record_collect(Recorder& recorder, const Gate& gate, bool add)
 {
     const Grid grid = make_grid(operator_->rows(), groups_);
-    launch(recorder, gate, kernels::cg_collect::info(pairs_ ? "pair" : "", precision_), {base_, x_},
-           kernels::cg_collect::Params{grid.count, grid.chunk, add ? 1u : 0u}, kLabel);
+    launch(recorder, gate, {pairs_ ? "pair" : "", precision_, kLabel},
+           kernels::cg_collect::Bindings<Recorder::Binding>{.base = base_, .x = x_},
+           {grid.count, grid.chunk, add ? 1u : 0u});
 }
 
 CgOutcome ConjugateGradient::outcome()

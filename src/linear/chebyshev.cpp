@@ -200,24 +200,23 @@ void Chebyshev::record(Recorder& recorder, const Gate& gate, Operator::Binding r
         const bool in_z = (degree_ - 1 - step) % 2 == 0;
         const Operator::Binding next = in_z ? z : Operator::Binding(other_);
         const Operator::Binding at = in_z ? Operator::Binding(other_) : z;
-        std::vector<Operator::Binding> bindings = {r, inverse_, next};
+        kernels::chebyshev::Bindings<Operator::Binding> bindings = {
+            .residual = r, .inverse = inverse_, .z = next};
         if (step > 0)
         {
-            operator_->record_product(recorder, gate, at, product_, Operator::Binding(nullptr));
+            operator_->record_product(recorder, gate, at, product_, {});
             const double after = 1 / (2 * sigma - rho);
             momentum = after * rho;
             gain = 2 * after / half;
             rho = after;
-            bindings.push_back(at);
-            bindings.push_back(product_);
+            bindings.at = at;
+            bindings.product = product_;
         }
-        const bool last = step + 1 == degree_ && partials.buffer;
+        const bool last = step + 1 == degree_ && partials.is_set();
         if (last)
-            bindings.push_back(partials);
-        const kernels::chebyshev::Params params{grid.count, grid.chunk, gate.groups,
-                                                static_cast<float>(momentum), static_cast<float>(gain)};
-        launch(recorder, gate, kernels::chebyshev::info(variant_of(step, last), operator_->precision()),
-               std::move(bindings), params, kLabel);
+            bindings.partials = partials;
+        launch(recorder, gate, {variant_of(step, last), operator_->precision(), kLabel}, bindings,
+               {grid.count, grid.chunk, gate.groups, static_cast<float>(momentum), static_cast<float>(gain)});
     }
 }
 

@@ -120,27 +120,24 @@ void CooMatrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) c
         throw Error(ErrorCode::unsupported,
                     "this matrix was put on the device without `pairs`, so it forms no "
                     "residual in two floats");
-    Pass product = pass;
-    product.variant = pairs ? pass.variant : "";
-    product.result = pairs ? Binding(sums_) : pass.result;
-    product.other = carries_;
-    std::vector<Binding> bound = bindings({row_, column_}, product);
-    if (!pairs)
-        bound.emplace_back(carries_);
-    launch(recorder, gate, kernels::spmv_coo::info(product.variant, precision()), std::move(bound),
-           kernels::spmv_coo::Params{entries_.count, entries_.chunk, groups_, has_low_words() ? 1u : 0u},
-           kLabel);
-
-    const Grid grid = make_grid(rows(), groups_);
-    std::vector<Binding> rest = {table_, carries_, product.result};
-    if (pass.variant == "dot")
-        rest.push_back(pass.x);
-    if (pass.variant != "")
-        rest.push_back(pass.other);
+    kernels::spmv_coo::Bindings<Binding> product = {
+        .row = row_, .column = column_, .values = values(), .x = pass.x, .carries = carries_};
+    kernels::coo_carry::Bindings<Binding> rest = {
+        .table = table_, .carries = carries_, .y = pass.y, .partials = pass.partials, .b = pass.b};
     if (pairs)
-        rest.push_back(pass.result);
-    launch(recorder, gate, kernels::coo_carry::info(pass.variant, precision()), std::move(rest),
-           kernels::coo_carry::Params{grid.count, grid.chunk, groups_, splits_}, kLabel);
+    {
+        product.sums = rest.sums = sums_;
+        product.low = low_words();
+    }
+    else
+        product.y = pass.y;
+    if (pass.variant == "dot")
+        rest.x = pass.x;
+    launch(recorder, gate, {pairs ? pass.variant : "", precision(), kLabel}, product,
+           {entries_.count, entries_.chunk, groups_, has_low_words() ? 1u : 0u});
+    const Grid grid = make_grid(rows(), groups_);
+    launch(recorder, gate, {pass.variant, precision(), kLabel}, rest,
+           {grid.count, grid.chunk, groups_, splits_});
 }
 
 } // namespace

@@ -145,17 +145,18 @@ void CsrMatrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) c
         Pass plain = pass;
         if (pass.variant == "dot") // taken from y by the short rows
             plain.variant = "";
-        launch(recorder, gate, kernels::spmv_csr_long::info(plain.variant, precision()),
-               bindings({long_rows_, column_}, plain),
-               kernels::spmv_csr_long::Params{cuts_[k - 1], cuts_[k], gate.groups, low_words}, kLabel);
+        launch(recorder, gate, {plain.variant, precision(), kLabel},
+               bindings(kernels::spmv_csr_long::Bindings<Binding>{.long_rows = long_rows_, .column = column_},
+                        plain),
+               {cuts_[k - 1], cuts_[k], gate.groups, low_words});
     }
     std::string variant(pass.variant);
     if (stream_)
         variant = variant.empty() ? "stream" : "stream_" + variant;
     const Grid grid = make_grid(rows(), gate.groups);
-    launch(recorder, gate, kernels::spmv_csr::info(variant, precision()),
-           bindings({row_start_, column_}, pass),
-           kernels::spmv_csr::Params{grid.count, grid.chunk, gate.groups, low_words}, kLabel);
+    launch(recorder, gate, {variant, precision(), kLabel},
+           bindings(kernels::spmv_csr::Bindings<Binding>{.row_start = row_start_, .column = column_}, pass),
+           {grid.count, grid.chunk, gate.groups, low_words});
 }
 
 } // namespace

@@ -60,9 +60,9 @@ void DenseMatrix::check_trips() const
 void DenseMatrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) const
 {
     const Grid grid = make_grid(rows(), gate.groups);
-    launch(recorder, gate, kernels::spmv_dense::info(pass.variant, precision()), bindings({}, pass),
-           kernels::spmv_dense::Params{grid.count, grid.chunk, gate.groups, has_low_words() ? 1u : 0u},
-           "spmv");
+    launch(recorder, gate, {pass.variant, precision(), "spmv"},
+           bindings(kernels::spmv_dense::Bindings<Binding>{}, pass),
+           {grid.count, grid.chunk, gate.groups, has_low_words() ? 1u : 0u});
 }
 
 } // namespace

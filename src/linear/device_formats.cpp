@@ -65,19 +65,19 @@ void PackedMatrix::record_product(Recorder& recorder, const Gate& gate, Binding 
                                   Binding partials) const
 {
     const std::string_view variant = partials.buffer ? "dot" : "";
-    record(recorder, gate, {variant, std::move(x), std::move(y), std::move(partials)});
+    record(recorder, gate, {variant, x, y, partials, {}});
 }
 
 void PackedMatrix::record_residual(Recorder& recorder, const Gate& gate, Binding x, Binding b,
                                    Binding r) const
 {
-    record(recorder, gate, {"residual", std::move(x), std::move(r), std::move(b)});
+    record(recorder, gate, {"residual", x, r, {}, b});
 }
 
 void PackedMatrix::record_residual_pairs(Recorder& recorder, const Gate& gate, Binding x, Binding b,
                                          Binding r) const
 {
-    record(recorder, gate, {"residual_pairs", std::move(x), std::move(r), std::move(b)});
+    record(recorder, gate, {"residual_pairs", x, r, {}, b});
 }
 
 void PackedMatrix::check_bytes(std::uint64_t wanted, std::string_view what) const
@@ -148,17 +148,6 @@ void PackedMatrix::upload_values(const SparseMatrix& matrix, std::span<const std
     values_ = send(packed.values, "matrix values");
     if (packed.needs_low)
         low_ = send(packed.low, "matrix low words");
-}
-
-std::vector<Operator::Binding> PackedMatrix::bindings(std::vector<BufferPtr> tables, const Pass& pass) const
-{
-    std::vector<Binding> out(tables.begin(), tables.end());
-    out.insert(out.end(), {Binding(values_), pass.x, pass.result});
-    if (pass.variant != "")
-        out.push_back(pass.other);
-    if (pass.variant == "residual_pairs")
-        out.emplace_back(low_ ? low_ : values_);
-    return out;
 }
 
 } // namespace taut::linear

@@ -11,8 +11,8 @@ namespace taut::linear {
 /// What every format is: tables that stay, values, and a kernel with the variants "" (y = A x), "dot"
 /// (partials too), "residual" (r = b - A x) and "residual_pairs" (the same in two floats).
 ///
-/// Every kernel binds, in this order: tables of the pattern, values, x, the result (y or r), and then for
-/// "dot" the partials, for "residual" b, for "residual_pairs" b and the low words of the values.
+/// Every kernel binds tables of the pattern, `values`, `x` and `y` (the result), and for "dot" `partials`,
+/// for "residual" `b`, for "residual_pairs" `b` and `low`, the low words of the values.
 class PackedMatrix : public DeviceMatrix
 {
 public:
@@ -30,11 +30,10 @@ protected:
     /// `format` as upload was asked for. The matrix is square (upload checked it).
     PackedMatrix(const std::shared_ptr<Device>&, const SparseMatrix&, const UploadOptions&);
 
-    /// One pass. `other` is partials, b, or empty.
     struct Pass
     {
         std::string_view variant;
-        Binding x, result, other;
+        Binding x, y, partials, b; ///< the last two where the variant has them
     };
     virtual void record(Recorder&, const Gate&, const Pass&) const = 0;
 
@@ -47,12 +46,25 @@ protected:
     /// above, and Error{bad_input} for a value that float cannot hold.
     void upload_values(const SparseMatrix&, std::span<const std::uint32_t> slots, std::uint64_t count);
 
-    /// tables, values, x, result, and what the variant asks for behind it: the bindings of a pass.
-    std::vector<Binding> bindings(std::vector<BufferPtr> tables, const Pass&) const;
+    /// The bindings of a pass: `tables` and all that the formats share.
+    template <template <typename> typename Bindings>
+    Bindings<Binding> bindings(Bindings<Binding> tables, const Pass& pass) const
+    {
+        tables.values = values_;
+        tables.x = pass.x;
+        tables.y = pass.y;
+        if constexpr (requires { tables.partials; })
+            tables.partials = pass.partials;
+        tables.b = pass.b;
+        if (pass.variant == "residual_pairs")
+            tables.low = low_words();
+        return tables;
+    }
 
-    /// Whether values have low words: the parameter `low_words` of "residual_pairs". Without, `bindings`
-    /// binds the values again in that slot and the kernel must not read it.
+    /// Whether values have low words: the parameter `low_words` of "residual_pairs". Without, the values are
+    /// bound again in their place and the kernel must not read them.
     bool has_low_words() const { return low_ != nullptr; }
+    BufferPtr low_words() const { return low_ ? low_ : values_; }
 
     /// Throws Error{limit} where a buffer of `wanted` bytes is more than the device allows.
     void check_bytes(std::uint64_t wanted, std::string_view what) const;

@@ -74,9 +74,10 @@ void DeviceInverse::record(Recorder& recorder, const Gate& gate) const
 {
     const bool blocks = kind_ == Preconditioner::block_jacobi;
     const Grid grid = make_grid(blocks ? matrix_->rows() / 3 : matrix_->rows(), gate.groups);
-    launch(recorder, gate, kernels::diagonal_inverse::info(blocks ? "block" : "", matrix_->precision()),
-           {matrix_->values(), slots_, held_, inverse_},
-           kernels::diagonal_inverse::Params{grid.count, grid.chunk}, "cg inverse");
+    launch(recorder, gate, {blocks ? "block" : "", matrix_->precision(), "cg inverse"},
+           kernels::diagonal_inverse::Bindings<Recorder::Binding>{
+               .values = matrix_->values(), .slots = slots_, .held = held_, .inverse = inverse_},
+           {grid.count, grid.chunk});
 }
 
 std::uint64_t DeviceInverse::bytes() const { return slots_->bytes() + held_->bytes() + inverse_->bytes(); }

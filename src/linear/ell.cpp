@@ -54,10 +54,9 @@ private:
     void record(Recorder& recorder, const Gate& gate, const Pass& pass) const override
     {
         const Grid grid = make_grid(rows(), gate.groups);
-        launch(recorder, gate, kernels::spmv_ell::info(pass.variant, precision()), bindings({column_}, pass),
-               kernels::spmv_ell::Params{grid.count, grid.chunk, gate.groups, stride_, width_,
-                                         has_low_words() ? 1u : 0u},
-               "spmv");
+        launch(recorder, gate, {pass.variant, precision(), "spmv"},
+               bindings(kernels::spmv_ell::Bindings<Binding>{.column = column_}, pass),
+               {grid.count, grid.chunk, gate.groups, stride_, width_, has_low_words() ? 1u : 0u});
     }
 
     const std::uint32_t stride_;

@@ -40,15 +40,4 @@ Grid make_grid(std::uint32_t count, std::uint32_t groups, std::uint32_t multiple
     return {count, groups, static_cast<std::uint32_t>(chunk)};
 }
 
-void launch(Recorder& recorder, const Gate& gate, const KernelInfo& kernel,
-            std::vector<Recorder::Binding> bindings, std::span<const std::byte> params,
-            std::string_view label)
-{
-    if (gate.control)
-        recorder.dispatch_indirect(kernel, std::move(bindings), params, {gate.control, gate.offset, 12},
-                                   gate.groups, label);
-    else
-        recorder.dispatch(kernel, std::move(bindings), params, gate.groups, label);
-}
-
 } // namespace taut::linear

@@ -45,14 +45,15 @@ struct Gate
 };
 
 /// Adds one dispatch of a GROUP_KERNEL over gate.groups groups.
-void launch(Recorder&, const Gate&, const KernelInfo&, std::vector<Recorder::Binding>,
-            std::span<const std::byte> params, std::string_view label);
-
-template <typename Params>
-void launch(Recorder& recorder, const Gate& gate, const KernelInfo& kernel,
-            std::vector<Recorder::Binding> bindings, const Params& params, std::string_view label)
+template <template <typename> typename Bindings>
+void launch(Recorder& recorder, const Gate& gate, const Recorder::Form& form,
+            const Bindings<Recorder::Binding>& bindings,
+            const typename Bindings<Recorder::Binding>::Params& params)
 {
-    launch(recorder, gate, kernel, std::move(bindings), std::as_bytes(std::span(&params, 1)), label);
+    if (gate.control)
+        recorder.dispatch_indirect(bindings, params, {gate.control, gate.offset, 12}, gate.groups, form);
+    else
+        recorder.dispatch(bindings, params, gate.groups, form);
 }
 
 } // namespace taut::linear

@@ -96,8 +96,9 @@ void Multigrid::record_level(Recorder& recorder, const Gate& gate, std::size_t k
     level.matrix->record_residual(recorder, gate, level.corrected, r, level.rest);
     level.smoother->record(recorder, gate, level.rest, z, none);
     const Grid grid = make_grid(level.matrix->rows(), gate.groups);
-    launch(recorder, gate, kernels::cg_collect::info("", precision_), {z, level.corrected},
-           kernels::cg_collect::Params{grid.count, grid.chunk, 1}, kLabel);
+    launch(recorder, gate, {"", precision_, kLabel},
+           kernels::cg_collect::Bindings<Recorder::Binding>{.base = z, .x = level.corrected},
+           {grid.count, grid.chunk, 1});
 }
 
 void Multigrid::record(Recorder& recorder, const Gate& gate, Operator::Binding r, Operator::Binding z,
@@ -105,8 +106,9 @@ void Multigrid::record(Recorder& recorder, const Gate& gate, Operator::Binding r
 {
     record_level(recorder, gate, 0, r, z);
     const Grid grid = make_grid(levels_.front().matrix->rows(), gate.groups);
-    launch(recorder, gate, kernels::dot::info("", precision_), {r, z, partials},
-           kernels::dot::Params{grid.count, grid.chunk, gate.groups}, kLabel);
+    launch(recorder, gate, {"", precision_, kLabel},
+           kernels::dot::Bindings<Recorder::Binding>{.x = r, .y = z, .partials = partials},
+           {grid.count, grid.chunk, gate.groups});
 }
 
 } // namespace taut::linear

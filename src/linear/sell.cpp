@@ -77,10 +77,12 @@ private:
     void record(Recorder& recorder, const Gate& gate, const Pass& pass) const override
     {
         const Grid grid = make_grid(rows(), gate.groups);
-        launch(recorder, gate, kernels::spmv_sell::info(pass.variant, precision()),
-               bindings({slice_start_, order_, column_}, pass),
-               kernels::spmv_sell::Params{grid.count, grid.chunk, gate.groups, has_low_words() ? 1u : 0u},
-               "spmv");
+        launch(recorder, gate, {pass.variant, precision(), "spmv"},
+               bindings(kernels::spmv_sell::Bindings<Binding>{.slice_start = slice_start_,
+                                                              .order = order_,
+                                                              .column = column_},
+                        pass),
+               {grid.count, grid.chunk, gate.groups, has_low_words() ? 1u : 0u});
     }
 
     BufferPtr slice_start_, order_, column_;

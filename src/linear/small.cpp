@@ -185,10 +185,16 @@ void SmallBatch::Parts::record()
                  "small states");
     control = make(systems * kControl * 4, "small history");
     Recorder recorder(device);
-    recorder.dispatch(kernels::cg_small::info(pairs ? "pairs" : "", precision),
-                      {table, column, value, given, base, work, state, control},
-                      kernels::cg_small::Params{static_cast<std::uint32_t>(systems), rows, entries, kHistory},
-                      static_cast<std::uint32_t>(systems), "cg_small");
+    recorder.dispatch(kernels::cg_small::Bindings<Recorder::Binding>{.table = table,
+                                                                     .column = column,
+                                                                     .value = value,
+                                                                     .given = given,
+                                                                     .base = base,
+                                                                     .work = work,
+                                                                     .state = state,
+                                                                     .control = control},
+                      {static_cast<std::uint32_t>(systems), rows, entries, kHistory},
+                      static_cast<std::uint32_t>(systems), {pairs ? "pairs" : "", precision, "cg_small"});
     pass = recorder.finish();
 }
 

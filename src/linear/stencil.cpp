@@ -28,27 +28,23 @@ Stencil7::Stencil7(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz, Precisi
 }
 
 void Stencil7::record(Recorder& recorder, const Gate& gate, std::string_view variant,
-                      std::vector<Binding> bindings) const
+                      const kernels::stencil7::Bindings<Binding>& bindings) const
 {
     const Grid grid = make_grid(rows(), gate.groups);
-    launch(recorder, gate, kernels::stencil7::info(variant, precision_), std::move(bindings),
-           kernels::stencil7::Params{nx_, ny_, nz_, grid.chunk, gate.groups, scale_}, "stencil7");
+    launch(recorder, gate, {variant, precision_, "stencil7"}, bindings,
+           {nx_, ny_, nz_, grid.chunk, gate.groups, scale_});
 }
 
 void Stencil7::record_product(Recorder& recorder, const Gate& gate, Binding x, Binding y,
                               Binding partials) const
 {
-    if (!y.buffer)
-        record(recorder, gate, "curvature", {std::move(x), std::move(partials)});
-    else if (partials.buffer)
-        record(recorder, gate, "dot", {std::move(x), std::move(y), std::move(partials)});
-    else
-        record(recorder, gate, "", {std::move(x), std::move(y)});
+    const std::string_view variant = !y.is_set() ? "curvature" : partials.is_set() ? "dot" : "";
+    record(recorder, gate, variant, {.x = x, .y = y, .partials = partials});
 }
 
 void Stencil7::record_residual(Recorder& recorder, const Gate& gate, Binding x, Binding b, Binding r) const
 {
-    record(recorder, gate, "residual", {std::move(x), std::move(r), std::move(b)});
+    record(recorder, gate, "residual", {.x = x, .y = r, .b = b});
 }
 
 void Stencil7::record_residual_pairs(Recorder& recorder, const Gate& gate, Binding x, Binding b,
@@ -56,13 +52,18 @@ void Stencil7::record_residual_pairs(Recorder& recorder, const Gate& gate, Bindi
 {
     if (precision_ != Precision::float32)
         return Operator::record_residual_pairs(recorder, gate, x, b, r);
-    record(recorder, gate, "residual_pairs", {std::move(x), std::move(r), std::move(b)});
+    record(recorder, gate, "residual_pairs", {.x = x, .y = r, .b = b});
 }
 
 void Stencil7::record_step(Recorder& recorder, const Gate& gate, const StepBuffers& at) const
 {
     record(recorder, gate, "step",
-           {at.direction, at.residual, at.curvatures, at.partials, at.before, at.after});
+           {.x = at.direction,
+            .partials = at.partials,
+            .residual = at.residual,
+            .curvatures = at.curvatures,
+            .before = at.before,
+            .after = at.after});
 }
 
 } // namespace taut::linear

@@ -1,6 +1,7 @@
 #pragma once
 // Operators that are known without a matrix.
 
+#include "taut/kernels/stencil7.hpp"
 #include "taut/linear/operator.hpp"
 
 namespace taut::linear {
@@ -29,7 +30,8 @@ public:
     void record_step(Recorder&, const Gate&, const StepBuffers&) const override;
 
 private:
-    void record(Recorder&, const Gate&, std::string_view variant, std::vector<Binding>) const;
+    void record(Recorder&, const Gate&, std::string_view variant,
+                const kernels::stencil7::Bindings<Binding>&) const;
 
     std::uint32_t nx_, ny_, nz_;
     Precision precision_;

@@ -141,39 +141,50 @@ void add_choice_buffers(PlanBuilder& b, Acad& a)
 }
 
 /// Adds a pass under the gate of three words of the control buffer.
-template <typename Params>
-void gated(PlanBuilder& b, const Acad& a, std::string_view kernel, std::string_view variant,
-           std::span<const Use> uses, const Params& params, std::uint32_t groups, std::uint32_t gate)
+template <template <typename> typename Bindings>
+void gated(PlanBuilder& b, const Acad& a, std::string_view variant, const Bindings<Use>& uses,
+           const typename Bindings<Use>::Params& params, std::uint32_t groups, std::uint32_t gate)
 {
-    b.dispatch_indirect(kEffect, kernel, variant, uses, params, groups, a.control, gate * kWord);
+    b.dispatch_indirect(kEffect, variant, uses, params, groups, a.control, gate * kWord);
 }
 
 void record_choice(PlanBuilder& b, Acad& a)
 {
     const std::uint32_t springs = size_of(a), n = b.plan.vertex_count;
     const Strain on(b.scene.method.activate_strain), off(release_strain(b.scene));
-    const Use begin[] = {{b.plan.events, 0}, {a.control, 0}, {a.flags}};
-    b.dispatch(kEffect, "acad_begin", "", begin, kernels::acad_begin::Params{1, a.groups, springs}, 1);
-    const Use flag[] = {{a.springs}, {b.plan.position, 2}, {b.plan.low, 2},
-                        {a.flags},   {a.multiplier},       {a.sums}};
-    gated(b, a, "acad_flag", "", flag,
-          kernels::acad_flag::Params{springs, a.chunk, a.groups, on.high, on.low, off.high, off.low,
-                                     b.scene.method.compress},
-          a.groups, TAUT_ACAD_CHOOSE);
-    const Use touch[] = {{a.rows.start}, {a.rows.incident}, {a.flags}, {a.touched}, {a.sums}};
-    gated(b, a, "acad_touch", "", touch, kernels::acad_touch::Params{n, vertex_chunk(b, a), a.groups},
-          a.groups, TAUT_ACAD_CHOOSE);
-    const Use scan[] = {{a.sums},      {a.control},      {a.solve->control(b)},  {a.row_list},
-                        {a.rows.list}, {a.rows.records}, {a.solve->partials(b)}, {a.solve->curvatures(b)}};
-    gated(b, a, "acad_scan", "", scan, kernels::acad_scan::Params{springs, a.chunk, a.groups}, 1,
-          TAUT_ACAD_SCAN);
-    const Use rows[] = {{a.flags}, {a.sums}, {a.row_list}, {a.rows.place}};
-    gated(b, a, "acad_scatter", "place", rows, kernels::acad_scatter::Params{springs, a.chunk, 0, a.groups},
-          a.groups, TAUT_ACAD_CHOOSE);
-    const Use vertices[] = {{a.touched}, {a.sums}, {a.rows.list}};
-    gated(b, a, "acad_scatter", "", vertices,
-          kernels::acad_scatter::Params{n, vertex_chunk(b, a), a.groups, a.groups}, a.groups,
+    const kernels::acad_begin::Bindings<Use> begin = {
+        .events = {b.plan.events, 0}, .control = {a.control, 0}, .flags = {a.flags}};
+    b.dispatch(kEffect, "", begin, {1, a.groups, springs}, 1);
+    const kernels::acad_flag::Bindings<Use> flag = {.spring = {a.springs},
+                                                    .position = {b.plan.position, 2},
+                                                    .low = {b.plan.low, 2},
+                                                    .flags = {a.flags},
+                                                    .multiplier = {a.multiplier},
+                                                    .sums = {a.sums}};
+    gated(b, a, "", flag,
+          {springs, a.chunk, a.groups, on.high, on.low, off.high, off.low, b.scene.method.compress}, a.groups,
           TAUT_ACAD_CHOOSE);
+    const kernels::acad_touch::Bindings<Use> touch = {.start = {a.rows.start},
+                                                      .incident = {a.rows.incident},
+                                                      .flags = {a.flags},
+                                                      .touched = {a.touched},
+                                                      .sums = {a.sums}};
+    gated(b, a, "", touch, {n, vertex_chunk(b, a), a.groups}, a.groups, TAUT_ACAD_CHOOSE);
+    const kernels::acad_scan::Bindings<Use> scan = {.sums = {a.sums},
+                                                    .control = {a.control},
+                                                    .solver_control = {a.solve->control(b)},
+                                                    .row_list = {a.row_list},
+                                                    .list = {a.rows.list},
+                                                    .row = {a.rows.records},
+                                                    .partials = {a.solve->partials(b)},
+                                                    .curvatures = {a.solve->curvatures(b)}};
+    gated(b, a, "", scan, {springs, a.chunk, a.groups}, 1, TAUT_ACAD_SCAN);
+    const kernels::acad_scatter::Bindings<Use> rows = {
+        .flags = {a.flags}, .sums = {a.sums}, .list = {a.row_list}, .place = {a.rows.place}};
+    gated(b, a, "place", rows, {springs, a.chunk, 0, a.groups}, a.groups, TAUT_ACAD_CHOOSE);
+    const kernels::acad_scatter::Bindings<Use> vertices = {
+        .flags = {a.touched}, .sums = {a.sums}, .list = {a.rows.list}};
+    gated(b, a, "", vertices, {n, vertex_chunk(b, a), a.groups, a.groups}, a.groups, TAUT_ACAD_CHOOSE);
 }
 
 } // namespace
@@ -225,14 +236,18 @@ void record_acad_forces(PlanBuilder& b, const Moment& moment)
     Acad& a = *b.acad;
     const std::uint32_t n = b.plan.vertex_count, each = 2 * size_of(a) / n + 1;
     const Strain on(b.scene.method.activate_strain), off(release_strain(b.scene));
-    std::vector<Use> uses = {{a.rows.start},         {a.ends, each},    {b.plan.position, 1 + each},
-                             {b.plan.low, 1 + each}, {b.forces->force}, {b.plan.events, 0},
-                             {a.flags, each}};
+    kernels::acad_force::Bindings<Use> uses = {.start = {a.rows.start},
+                                               .end = {a.ends, each},
+                                               .position = {b.plan.position, 1 + each},
+                                               .low = {b.plan.low, 1 + each},
+                                               .force = {b.forces->force},
+                                               .events = {b.plan.events, 0},
+                                               .flags = {a.flags, each}};
     if (a.damped)
-        uses.push_back({b.plan.velocity, 1 + each});
-    b.dispatch(kEffect, "acad_force", a.damped ? "damped" : "", uses,
-               kernels::acad_force::Params{n, moment.substep + 1 == b.plan.substeps, size_of(a), on.high,
-                                           on.low, off.high, off.low, b.scene.method.compress},
+        uses.velocity = {b.plan.velocity, 1 + each};
+    b.dispatch(kEffect, a.damped ? "damped" : "", uses,
+               {n, moment.substep + 1 == b.plan.substeps, size_of(a), on.high, on.low, off.high, off.low,
+                b.scene.method.compress},
                n);
     record_choice(b, a);
 }
@@ -244,31 +259,48 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
     Acad& a = *b.acad;
     const std::uint32_t springs = size_of(a), further = moment.iteration > 0;
     const bool last = moment.iteration + 1 == b.plan.iterations, kept = a.total != kNoBuffer;
-    const Use copy[] = {{a.row_list},   {a.candidates, 2},    {a.multiplier},       {a.rows.records},
-                        {a.solve->x()}, {a.solve->inverse()}, {b.plan.position, 2}, {b.plan.step_values, 0}};
-    gated(b, a, "acad_rows", "", copy, kernels::acad_rows::Params{springs, a.chunk, further}, a.groups,
-          TAUT_ACAD_SOLVE);
-    std::vector<Use> uses = {{a.rows.records},        {b.plan.position, 2}, {b.plan.delta, 2},
-                             {b.plan.step_values, 0}, {b.plan.events, 0},   {a.rows.direction},
-                             {a.solve->b()}};
+    const kernels::acad_rows::Bindings<Use> copy = {.row_list = {a.row_list},
+                                                    .candidate = {a.candidates, 2},
+                                                    .multiplier = {a.multiplier},
+                                                    .row = {a.rows.records},
+                                                    .x = {a.solve->x()},
+                                                    .inverse = {a.solve->inverse()},
+                                                    .position = {b.plan.position, 2},
+                                                    .step_values = {b.plan.step_values, 0}};
+    gated(b, a, "", copy, {springs, a.chunk, further}, a.groups, TAUT_ACAD_SOLVE);
+    kernels::constraint_rows::Bindings<Use> uses = {.row = {a.rows.records},
+                                                    .position = {b.plan.position, 2},
+                                                    .delta = {b.plan.delta, 2},
+                                                    .step_values = {b.plan.step_values, 0},
+                                                    .events = {b.plan.events, 0},
+                                                    .direction = {a.rows.direction},
+                                                    .b = {a.solve->b()}};
     if (kept)
-        uses.push_back({a.total});
-    gated(b, a, "constraint_rows", kept ? "kept" : "", uses,
-          kernels::constraint_rows::Params{springs, a.chunk, further, moment.last, 0}, a.groups,
+        uses.multiplier = {a.total};
+    gated(b, a, kept ? "kept" : "", uses, {springs, a.chunk, further, moment.last, 0}, a.groups,
           TAUT_ACAD_SOLVE);
     a.solve->record(b);
-    std::vector<Use> store = {{a.row_list}, {a.solve->x()},        {a.multiplier},         {a.flags},
-                              {a.hold},     {a.solve->state(), 0}, {b.plan.step_values, 0}};
+    kernels::acad_store::Bindings<Use> store = {.row_list = {a.row_list},
+                                                .x = {a.solve->x()},
+                                                .multiplier = {a.multiplier},
+                                                .flags = {a.flags},
+                                                .hold = {a.hold},
+                                                .state = {a.solve->state(), 0},
+                                                .step_values = {b.plan.step_values, 0}};
     if (kept)
-        store.push_back({a.total});
+        store.total = {a.total};
     const std::uint32_t release = b.scene.method.release == "multiplier";
-    gated(b, a, "acad_store", kept ? "total" : "", store,
-          kernels::acad_store::Params{springs, a.chunk, further, last, release}, a.groups, TAUT_ACAD_SOLVE);
-    const Use moved[] = {{a.rows.start},    {a.rows.incident}, {a.rows.direction}, {a.solve->x()},
-                         {b.plan.position}, {b.plan.delta},    {a.rows.list},      {a.rows.place}};
-    gated(b, a, "constraint_spread", "listed_apply", moved,
-          kernels::constraint_spread::Params{b.plan.vertex_count, listed_chunk(a)}, a.groups,
+    gated(b, a, kept ? "total" : "", store, {springs, a.chunk, further, last, release}, a.groups,
           TAUT_ACAD_SOLVE);
+    const kernels::constraint_spread::Bindings<Use> moved = {.start = {a.rows.start},
+                                                             .incident = {a.rows.incident},
+                                                             .direction = {a.rows.direction},
+                                                             .x = {a.solve->x()},
+                                                             .position = {b.plan.position},
+                                                             .delta = {b.plan.delta},
+                                                             .list = {a.rows.list},
+                                                             .place = {a.rows.place}};
+    gated(b, a, "listed_apply", moved, {b.plan.vertex_count, listed_chunk(a)}, a.groups, TAUT_ACAD_SOLVE);
 }
 
 } // namespace taut

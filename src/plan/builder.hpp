@@ -3,6 +3,7 @@
 
 #include "taut/plan/methods.hpp"
 #include "taut/plan/plan.hpp"
+#include "taut/runtime/base/bindings.hpp"
 #include "taut/runtime/base/registry.hpp"
 #include "taut/runtime/paper_device.hpp"
 
@@ -47,6 +48,7 @@ struct Use
 {
     std::uint32_t buffer = kNoBuffer;
     std::uint32_t touched = 1;
+    bool is_set() const { return buffer != kNoBuffer; }
 };
 
 /// Buffers of the Jacobi schemes of PBD, kNoBuffer where a scene has no use for them (pbd.hpp).
@@ -90,6 +92,30 @@ public:
         return id;
     }
 
+    /// Adds a pass of the kernel that `bindings` belongs to. Members that the variant does not have stay
+    /// unset. `elements`: those that the account of bytes counts, where they are not `count`.
+    template <template <typename> typename Bindings>
+    void dispatch(std::string_view effect, std::string_view variant, const Bindings<Use>& bindings,
+                  const typename Bindings<Use>::Params& params, std::uint32_t count,
+                  std::uint64_t elements = 0)
+    {
+        const KernelInfo& kernel = Bindings<Use>::info(variant, plan.precision);
+        add_dispatch(effect, kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
+                     count, elements == 0 ? count : elements);
+    }
+
+    /// The same with 12 bytes of a buffer as group counts, read when the dispatch starts; `count` is the
+    /// most.
+    template <template <typename> typename Bindings>
+    void dispatch_indirect(std::string_view effect, std::string_view variant, const Bindings<Use>& bindings,
+                           const typename Bindings<Use>::Params& params, std::uint32_t count,
+                           std::uint32_t group_counts, std::uint64_t offset = 0)
+    {
+        const KernelInfo& kernel = Bindings<Use>::info(variant, plan.precision);
+        add_dispatch(effect, kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
+                     count, count, {group_counts, offset, 12});
+    }
+
     template <typename Params>
     void dispatch(std::string_view effect, std::string_view kernel, std::string_view variant,
                   std::span<const Use> uses, const Params& params, std::uint32_t count,
@@ -97,17 +123,6 @@ public:
     {
         add_dispatch(effect, find_kernel(kernel, variant, plan.precision), uses,
                      std::as_bytes(std::span(&params, 1)), count, elements == 0 ? count : elements);
-    }
-
-    /// The same with 12 bytes of a buffer as group counts, read when the dispatch starts; `count` is the
-    /// most.
-    template <typename Params>
-    void dispatch_indirect(std::string_view effect, std::string_view kernel, std::string_view variant,
-                           std::span<const Use> uses, const Params& params, std::uint32_t count,
-                           std::uint32_t group_counts, std::uint64_t offset = 0)
-    {
-        add_dispatch(effect, find_kernel(kernel, variant, plan.precision), uses,
-                     std::as_bytes(std::span(&params, 1)), count, count, {group_counts, offset, 12});
     }
 
     /// Where src/linear makes its matrices and solvers, as on a device. Its buffers become the plan's.

@@ -75,56 +75,65 @@ void ConstraintOperator::record_spread(Recorder& recorder, const linear::Gate& g
     // Rows in use have twice as many vertices at most, so that their groups suffice for these too.
     const std::uint32_t chunk = list_ ? 2 * linear::make_grid(rows_.count, gate.groups).chunk
                                       : linear::make_grid(vertices_, gate.groups).chunk;
-    std::vector<Binding> bindings = {start_, incident_, direction_, x, position_, spread_};
-    if (list_)
-        bindings.insert(bindings.end(), {list_, place_});
-    launch(recorder, gate, kernels::constraint_spread::info(list_ ? "listed" : "", precision_),
-           std::move(bindings), kernels::constraint_spread::Params{vertices_, chunk}, kLabel);
+    launch(recorder, gate, {list_ ? "listed" : "", precision_, kLabel},
+           kernels::constraint_spread::Bindings<Binding>{.start = start_,
+                                                         .incident = incident_,
+                                                         .direction = direction_,
+                                                         .x = x,
+                                                         .position = position_,
+                                                         .spread = spread_,
+                                                         .list = list_,
+                                                         .place = place_},
+           {vertices_, chunk});
     if (corners_)
-        launch(recorder, gate, kernels::corner_spread::info("", precision_),
-               {corner_start_, corner_incident_, gradient_, std::move(x), position_, spread_},
-               kernels::corner_spread::Params{vertices_, chunk, rows_.count}, kLabel);
+        launch(recorder, gate, {"", precision_, kLabel},
+               kernels::corner_spread::Bindings<Binding>{.start = corner_start_,
+                                                         .incident = corner_incident_,
+                                                         .gradient = gradient_,
+                                                         .x = x,
+                                                         .position = position_,
+                                                         .spread = spread_},
+               {vertices_, chunk, rows_.count});
 }
 
-void ConstraintOperator::record_corners(Recorder& recorder, const linear::Gate& gate,
-                                        std::string_view variant, std::vector<Binding> bindings) const
+void ConstraintOperator::record_rows(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
 {
+    record_spread(recorder, gate, pass.x);
+    const Recorder::Form form = {pass.variant, precision_, kLabel};
+    const linear::Grid grid = linear::make_grid(rows_.count, gate.groups);
+    launch(recorder, gate, form,
+           kernels::constraint_product::Bindings<Binding>{.row = records_,
+                                                          .direction = direction_,
+                                                          .spread = spread_,
+                                                          .x = pass.x,
+                                                          .y = pass.y,
+                                                          .partials = pass.partials,
+                                                          .b = pass.b},
+           {grid.count, grid.chunk, gate.groups});
     if (!corners_)
         return;
-    const linear::Grid grid = linear::make_grid(rows_.corners.count, gate.groups);
-    launch(recorder, gate, kernels::corner_product::info(variant, precision_), std::move(bindings),
-           kernels::corner_product::Params{grid.count, grid.chunk, rows_.count, gate.groups}, kLabel);
+    const linear::Grid share = linear::make_grid(rows_.corners.count, gate.groups);
+    launch(recorder, gate, form,
+           kernels::corner_product::Bindings<Binding>{.corners = corners_,
+                                                      .gradient = gradient_,
+                                                      .spread = spread_,
+                                                      .x = pass.x,
+                                                      .y = pass.y,
+                                                      .partials = pass.partials,
+                                                      .b = pass.b},
+           {share.count, share.chunk, rows_.count, gate.groups});
 }
 
 void ConstraintOperator::record_product(Recorder& recorder, const linear::Gate& gate, Binding x, Binding y,
                                         Binding partials) const
 {
-    record_spread(recorder, gate, x);
-    const linear::Grid grid = linear::make_grid(rows_.count, gate.groups);
-    std::vector<Binding> bindings = {records_, direction_, spread_, x, y};
-    std::vector<Binding> corners = {corners_, gradient_, spread_, std::move(x), std::move(y)};
-    const bool dot = partials.buffer != nullptr;
-    if (dot)
-    {
-        bindings.push_back(partials);
-        corners.push_back(std::move(partials));
-    }
-    launch(recorder, gate, kernels::constraint_product::info(dot ? "dot" : "", precision_),
-           std::move(bindings), kernels::constraint_product::Params{grid.count, grid.chunk, gate.groups},
-           kLabel);
-    record_corners(recorder, gate, dot ? "dot" : "", std::move(corners));
+    record_rows(recorder, gate, {partials.is_set() ? "dot" : "", x, y, partials, {}});
 }
 
 void ConstraintOperator::record_residual(Recorder& recorder, const linear::Gate& gate, Binding x, Binding b,
                                          Binding r) const
 {
-    record_spread(recorder, gate, x);
-    const linear::Grid grid = linear::make_grid(rows_.count, gate.groups);
-    launch(recorder, gate, kernels::constraint_product::info("residual", precision_),
-           {records_, direction_, spread_, x, r, b},
-           kernels::constraint_product::Params{grid.count, grid.chunk, gate.groups}, kLabel);
-    record_corners(recorder, gate, "residual",
-                   {corners_, gradient_, spread_, std::move(x), std::move(r), std::move(b)});
+    record_rows(recorder, gate, {"residual", x, r, {}, b});
 }
 
 linear::SparseMatrix constraint_pattern(std::span<const StretchElement> rows, const Incidence& at,
@@ -298,15 +307,19 @@ void ConstraintMatrix::record(PlanBuilder& b) const
 {
     if (start_ == kNoBuffer)
     {
-        const Use uses[] = {{pair_, 2}, {weight_}, {direction_, 2}, {values_}};
-        b.dispatch(effect_, "constraint_matrix", "", uses, kernels::constraint_matrix::Params{entries_},
-                   entries_);
+        const kernels::constraint_matrix::Bindings<Use> uses = {
+            .pair = {pair_, 2}, .weight = {weight_}, .direction = {direction_, 2}, .values = {values_}};
+        b.dispatch(effect_, "", uses, {entries_}, entries_);
         return;
     }
     const std::uint32_t each = terms_ / std::max(entries_, 1u) + 1;
-    const Use uses[] = {{start_, 2},        {pair_, 2 * each}, {weight_, each},
-                        {direction_, each}, {gradient_, each}, {values_}};
-    b.dispatch(effect_, "corner_matrix", "", uses, kernels::corner_matrix::Params{entries_}, entries_);
+    const kernels::corner_matrix::Bindings<Use> uses = {.start = {start_, 2},
+                                                        .term = {pair_, 2 * each},
+                                                        .weight = {weight_, each},
+                                                        .direction = {direction_, each},
+                                                        .gradient = {gradient_, each},
+                                                        .values = {values_}};
+    b.dispatch(effect_, "", uses, {entries_}, entries_);
 }
 
 } // namespace taut

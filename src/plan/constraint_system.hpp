@@ -49,8 +49,12 @@ public:
 
 private:
     void record_spread(Recorder&, const linear::Gate&, Binding x) const;
-    void record_corners(Recorder&, const linear::Gate&, std::string_view variant,
-                        std::vector<Binding> bindings) const;
+    struct Pass
+    {
+        std::string_view variant;
+        Binding x, y, partials, b; ///< the last two where the variant has them
+    };
+    void record_rows(Recorder&, const linear::Gate&, const Pass&) const;
 
     ConstraintRows rows_;
     Precision precision_;

@@ -14,64 +14,72 @@ constexpr const char* kLabel = "implicit product";
 
 } // namespace
 
-void ImplicitProduct::record_springs(Recorder& recorder, const linear::Gate& gate, std::string_view variant,
-                                     Binding x, Binding y, Binding last) const
+void ImplicitProduct::record_springs(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
 {
     const linear::Grid grid = linear::make_grid(at_.vertices, gate.groups);
-    std::vector<Binding> bindings = {
-        at_.position, at_.delta, at_.springs, at_.spring_table, at_.step_values, x, y};
-    if (!variant.empty())
-        bindings.push_back(std::move(last));
-    linear::launch(recorder, gate, kernels::implicit_product::info(variant, at_.precision),
-                   std::move(bindings),
-                   kernels::implicit_product::Params{grid.count, grid.chunk, gate.groups, at_.scale}, kLabel);
+    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel},
+                   kernels::implicit_product::Bindings<Binding>{.position = at_.position,
+                                                                .delta = at_.delta,
+                                                                .spring = at_.springs,
+                                                                .table = at_.spring_table,
+                                                                .step_values = at_.step_values,
+                                                                .x = pass.x,
+                                                                .y = pass.y,
+                                                                .partials = pass.partials,
+                                                                .b = pass.b},
+                   {grid.count, grid.chunk, gate.groups, at_.scale});
 }
 
-void ImplicitProduct::record_hinges(Recorder& recorder, const linear::Gate& gate, std::string_view variant,
-                                    Binding x, Binding y, Binding last) const
+void ImplicitProduct::record_hinges(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
 {
     const linear::Grid grid = linear::make_grid(at_.vertices, gate.groups);
-    std::vector<Binding> bindings = {at_.position,    at_.delta, at_.hinges, at_.hinge_table,
-                                     at_.step_values, x,         y};
-    if (variant == "dot")
-        bindings.push_back(std::move(last));
-    linear::launch(
-        recorder, gate, kernels::implicit_hinge_product::info(variant, at_.precision), std::move(bindings),
-        kernels::implicit_hinge_product::Params{grid.count, grid.chunk, gate.groups, at_.scale}, kLabel);
+    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel},
+                   kernels::implicit_hinge_product::Bindings<Binding>{.position = at_.position,
+                                                                      .delta = at_.delta,
+                                                                      .hinge = at_.hinges,
+                                                                      .table = at_.hinge_table,
+                                                                      .step_values = at_.step_values,
+                                                                      .x = pass.x,
+                                                                      .y = pass.y,
+                                                                      .partials = pass.partials},
+                   {grid.count, grid.chunk, gate.groups, at_.scale});
 }
 
-void ImplicitProduct::record_solids(Recorder& recorder, const linear::Gate& gate, std::string_view variant,
-                                    Binding x, Binding y, Binding last) const
+void ImplicitProduct::record_solids(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
 {
     const linear::Grid grid = linear::make_grid(at_.vertices, gate.groups);
-    std::vector<Binding> bindings = {at_.solids, at_.solid_state, at_.solid_table, x, y};
-    if (variant == "dot")
-        bindings.push_back(std::move(last));
-    linear::launch(recorder, gate, kernels::implicit_solid_product::info(variant, at_.precision),
-                   std::move(bindings),
-                   kernels::implicit_solid_product::Params{grid.count, grid.chunk, gate.groups}, kLabel);
+    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel},
+                   kernels::implicit_solid_product::Bindings<Binding>{.solid = at_.solids,
+                                                                      .state = at_.solid_state,
+                                                                      .table = at_.solid_table,
+                                                                      .x = pass.x,
+                                                                      .y = pass.y,
+                                                                      .partials = pass.partials},
+                   {grid.count, grid.chunk, gate.groups});
 }
 
 /// The last pass takes the partial sums, of y as it is then.
 void ImplicitProduct::record_product(Recorder& recorder, const linear::Gate& gate, Binding x, Binding y,
                                      Binding partials) const
 {
-    const std::string_view variant = partials.buffer ? "dot" : "";
-    record_springs(recorder, gate, at_.hinges || at_.solids ? "" : variant, x, y, partials);
+    const Pass plain = {"", x, y, {}, {}};
+    const Pass last = {partials.is_set() ? "dot" : "", x, y, partials, {}};
+    record_springs(recorder, gate, at_.hinges || at_.solids ? plain : last);
     if (at_.hinges)
-        record_hinges(recorder, gate, at_.solids ? "" : variant, x, y, partials);
+        record_hinges(recorder, gate, at_.solids ? plain : last);
     if (at_.solids)
-        record_solids(recorder, gate, variant, x, y, partials);
+        record_solids(recorder, gate, last);
 }
 
+/// The first pass takes b, the others go on from its residual.
 void ImplicitProduct::record_residual(Recorder& recorder, const linear::Gate& gate, Binding x, Binding b,
                                       Binding r) const
 {
-    record_springs(recorder, gate, "residual", x, r, b);
+    record_springs(recorder, gate, {"residual", x, r, {}, b});
     if (at_.hinges)
-        record_hinges(recorder, gate, "residual", x, r, b);
+        record_hinges(recorder, gate, {"residual", x, r, {}, {}});
     if (at_.solids)
-        record_solids(recorder, gate, "residual", x, r, b);
+        record_solids(recorder, gate, {"residual", x, r, {}, {}});
 }
 
 } // namespace taut

@@ -32,13 +32,14 @@ public:
     void record_residual(Recorder&, const linear::Gate&, Binding x, Binding b, Binding r) const override;
 
 private:
-    /// `last`: partials or b, for the variant that reads or writes it.
-    void record_springs(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
-                        Binding last) const;
-    void record_hinges(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
-                       Binding last) const;
-    void record_solids(Recorder&, const linear::Gate&, std::string_view variant, Binding x, Binding y,
-                       Binding last) const;
+    struct Pass
+    {
+        std::string_view variant;
+        Binding x, y, partials, b; ///< the last two where the variant has them
+    };
+    void record_springs(Recorder&, const linear::Gate&, const Pass&) const;
+    void record_hinges(Recorder&, const linear::Gate&, const Pass&) const;
+    void record_solids(Recorder&, const linear::Gate&, const Pass&) const;
     ImplicitBuffers at_;
 };
 

@@ -32,41 +32,58 @@ constexpr std::string_view kName = "implicit_euler";
 void record_force(PlanBuilder& b, const ImplicitEuler& m)
 {
     const std::uint32_t n = b.plan.vertex_count;
-    std::vector<Use> uses = {{b.plan.position},   {b.plan.delta},          {b.plan.predicted}, {m.springs},
-                             {m.spring_table, 2}, {b.plan.step_values, 0}, {m.solve->b(), 3}};
+    kernels::implicit_force::Bindings<Use> uses = {.position = {b.plan.position},
+                                                   .delta = {b.plan.delta},
+                                                   .predicted = {b.plan.predicted},
+                                                   .spring = {m.springs},
+                                                   .table = {m.spring_table, 2},
+                                                   .step_values = {b.plan.step_values, 0},
+                                                   .b = {m.solve->b(), 3}};
     if (m.damped)
-        uses.push_back({b.plan.low});
-    b.dispatch(kName, "implicit_force", m.damped ? "damped" : "", uses,
-               kernels::implicit_force::Params{n, m.scale, m.lift}, n);
+        uses.low = {b.plan.low};
+    b.dispatch(kName, m.damped ? "damped" : "", uses, {n, m.scale, m.lift}, n);
 }
 
 void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
 {
     const std::uint32_t n = b.plan.vertex_count;
     const std::uint32_t report = moment.last ? 1 : 0;
-    const Use springs[] = {{b.plan.position},       {b.plan.delta}, {m.springs},       {m.spring_table, 2},
-                           {b.plan.step_values, 0}, {m.values, 9},  {b.plan.events, 0}};
-    b.dispatch(kName, "implicit_matrix", "", springs, kernels::implicit_matrix::Params{n, report, m.scale},
-               n);
+    const kernels::implicit_matrix::Bindings<Use> springs = {.position = {b.plan.position},
+                                                             .delta = {b.plan.delta},
+                                                             .spring = {m.springs},
+                                                             .table = {m.spring_table, 2},
+                                                             .step_values = {b.plan.step_values, 0},
+                                                             .values = {m.values, 9},
+                                                             .events = {b.plan.events, 0}};
+    b.dispatch(kName, "", springs, {n, report, m.scale}, n);
     if (m.hinge_count > 0)
     {
-        const Use hinges[] = {{b.plan.position},       {b.plan.delta},    {m.hinges},    {m.hinge_table, 2},
-                              {b.plan.step_values, 0}, {m.solve->b(), 3}, {m.values, 9}, {b.plan.events, 0}};
-        b.dispatch(kName, "implicit_hinges", "", hinges,
-                   kernels::implicit_hinges::Params{n, report, m.scale, m.lift}, n);
+        const kernels::implicit_hinges::Bindings<Use> hinges = {.position = {b.plan.position},
+                                                                .delta = {b.plan.delta},
+                                                                .hinge = {m.hinges},
+                                                                .table = {m.hinge_table, 2},
+                                                                .step_values = {b.plan.step_values, 0},
+                                                                .b = {m.solve->b(), 3},
+                                                                .values = {m.values, 9},
+                                                                .events = {b.plan.events, 0}};
+        b.dispatch(kName, "", hinges, {n, report, m.scale, m.lift}, n);
     }
     if (m.solid_count == 0)
         return;
-    const Use state[] = {{b.plan.position, 4}, {b.plan.delta, 4},
-                         {m.solids},           {b.plan.step_values, 0},
-                         {m.solid_state, TAUT_SOLID_STATE},
-                         {b.plan.events, 0}};
-    b.dispatch(kName, "implicit_solids", "", state,
-               kernels::implicit_solids::Params{m.solid_count, report, m.scale}, m.solid_count);
-    const Use blocks[] = {{m.solids, 4}, {m.solid_state, 4 * TAUT_SOLID_STATE},
-                          {m.solid_table, 2}, {m.solve->b(), 3}, {m.values, 9}};
-    b.dispatch(kName, "implicit_solid_blocks", "", blocks,
-               kernels::implicit_solid_blocks::Params{n, m.lift}, n);
+    const kernels::implicit_solids::Bindings<Use> state = {.position = {b.plan.position, 4},
+                                                           .delta = {b.plan.delta, 4},
+                                                           .solid = {m.solids},
+                                                           .step_values = {b.plan.step_values, 0},
+                                                           .state = {m.solid_state, TAUT_SOLID_STATE},
+                                                           .events = {b.plan.events, 0}};
+    b.dispatch(kName, "", state, {m.solid_count, report, m.scale}, m.solid_count);
+    const kernels::implicit_solid_blocks::Bindings<Use> blocks = {
+        .solid = {m.solids, 4},
+        .state = {m.solid_state, 4 * TAUT_SOLID_STATE},
+        .table = {m.solid_table, 2},
+        .b = {m.solve->b(), 3},
+        .values = {m.values, 9}};
+    b.dispatch(kName, "", blocks, {n, m.lift}, n);
 }
 
 /// The solver's start: the inertial guess, as far as it helps.
@@ -77,12 +94,14 @@ void record_guess(PlanBuilder& b, const ImplicitEuler& m)
         const linear::Grid rows = linear::make_grid(3 * b.plan.vertex_count, always.groups);
         const BufferPtr x = b.on_paper(m.solve->x());
         m.solve->system().record_product(recorder, always, x, m.product, m.curvatures);
-        linear::launch(recorder, always, kernels::dot::info("", b.plan.precision),
-                       {x, b.on_paper(m.solve->b()), m.products},
-                       kernels::dot::Params{rows.count, rows.chunk, always.groups}, kName);
-        linear::launch(recorder, always, kernels::implicit_guess::info("", b.plan.precision),
-                       {m.products, m.curvatures, x},
-                       kernels::implicit_guess::Params{rows.count, rows.chunk, always.groups}, kName);
+        linear::launch(recorder, always, {"", b.plan.precision, kName},
+                       kernels::dot::Bindings<Recorder::Binding>{
+                           .x = x, .y = b.on_paper(m.solve->b()), .partials = m.products},
+                       {rows.count, rows.chunk, always.groups});
+        linear::launch(recorder, always, {"", b.plan.precision, kName},
+                       kernels::implicit_guess::Bindings<Recorder::Binding>{
+                           .products = m.products, .curvatures = m.curvatures, .x = x},
+                       {rows.count, rows.chunk, always.groups});
     });
 }
 
@@ -91,13 +110,17 @@ void record_momentum(PlanBuilder& b, const ImplicitEuler& m)
 {
     if (m.part_count == 0)
         return;
-    std::vector<Use> uses = {{m.part_start}, {m.part_members},   {b.plan.position},
-                             {b.plan.delta}, {b.plan.predicted}, {m.solve->x(), 3}};
+    kernels::implicit_momentum::Bindings<Use> uses = {.start = {m.part_start},
+                                                      .member = {m.part_members},
+                                                      .position = {b.plan.position},
+                                                      .delta = {b.plan.delta},
+                                                      .predicted = {b.plan.predicted},
+                                                      .x = {m.solve->x(), 3}};
     const bool contact = m.before != kNoBuffer;
     if (contact)
-        uses.push_back({m.marks, 3});
-    b.dispatch(kName, "implicit_momentum", contact ? "contact" : "", uses,
-               kernels::implicit_momentum::Params{m.part_count, m.lift}, m.part_count, b.plan.vertex_count);
+        uses.marks = {m.marks, 3};
+    b.dispatch(kName, contact ? "contact" : "", uses, {m.part_count, m.lift}, m.part_count,
+               b.plan.vertex_count);
 }
 
 /// Who stays where it is in this Newton step.
@@ -106,8 +129,12 @@ void record_hold(PlanBuilder& b, const ImplicitEuler& m, bool first)
     if (m.before == kNoBuffer)
         return;
     const std::uint32_t n = b.plan.vertex_count;
-    const Use uses[] = {{m.held, 3}, {m.light}, {m.before}, {b.plan.delta}, {m.marks, 3}};
-    b.dispatch(kName, "implicit_hold", "", uses, kernels::implicit_hold::Params{n, first ? 1u : 0u}, n);
+    const kernels::implicit_hold::Bindings<Use> uses = {.held = {m.held, 3},
+                                                        .light = {m.light},
+                                                        .before = {m.before},
+                                                        .delta = {b.plan.delta},
+                                                        .marks = {m.marks, 3}};
+    b.dispatch(kName, "", uses, {n, first ? 1u : 0u}, n);
 }
 
 /// Colliders push between two Newton steps, so that the next one knows what they carry.
@@ -116,8 +143,8 @@ void record_push(PlanBuilder& b, const ImplicitEuler& m, Moment moment)
     if (m.before == kNoBuffer || moment.iteration + 1 == b.plan.iterations)
         return;
     const std::uint32_t n = b.plan.vertex_count;
-    const Use uses[] = {{b.plan.delta}, {m.before}};
-    b.dispatch(kName, "vbd_mark", "", uses, kernels::vbd_mark::Params{n}, n);
+    const kernels::vbd_mark::Bindings<Use> uses = {.delta = {b.plan.delta}, .solved = {m.before}};
+    b.dispatch(kName, "", uses, {n}, n);
     moment.iteration = 0; // friction knows of one push at a time
     moment.last = false;
     record_colliders(b, moment);
@@ -128,25 +155,25 @@ void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
     const linear::Gate always{m.solve->groups(), nullptr, 0};
     const std::uint32_t trials = b.scene.method.line_search + 1;
     std::uint32_t part = 0;
-    const auto add = [&](std::string_view variant, std::uint32_t count, std::vector<Recorder::Binding> more) {
+    using Bindings = kernels::implicit_trial::Bindings<Recorder::Binding>;
+    const auto add = [&](std::string_view variant, std::uint32_t count, Bindings bindings) {
         const linear::Grid grid = linear::make_grid(count, always.groups);
-        std::vector<Recorder::Binding> bindings = {b.on_paper(b.plan.position), b.on_paper(b.plan.delta),
-                                                   b.on_paper(m.solve->x()), m.trials};
-        bindings.insert(bindings.end(), more.begin(), more.end());
-        linear::launch(recorder, always, kernels::implicit_trial::info(variant, b.plan.precision),
-                       std::move(bindings),
-                       kernels::implicit_trial::Params{grid.count, grid.chunk, always.groups, trials, part++,
-                                                       m.parts(), m.scale, m.lift},
-                       kName);
+        bindings.position = b.on_paper(b.plan.position);
+        bindings.delta = b.on_paper(b.plan.delta);
+        bindings.x = b.on_paper(m.solve->x());
+        bindings.partials = m.trials;
+        linear::launch(recorder, always, {variant, b.plan.precision, kName}, bindings,
+                       {grid.count, grid.chunk, always.groups, trials, part++, m.parts(), m.scale, m.lift});
     };
     const BufferPtr step_values = b.on_paper(b.plan.step_values);
-    add("", b.plan.vertex_count, {b.on_paper(b.plan.predicted)});
+    add("", b.plan.vertex_count, {.predicted = b.on_paper(b.plan.predicted)});
     if (m.spring_count > 0)
-        add("springs", m.spring_count, {b.on_paper(m.springs), step_values, b.on_paper(b.plan.low)});
+        add("springs", m.spring_count,
+            {.spring = b.on_paper(m.springs), .step_values = step_values, .low = b.on_paper(b.plan.low)});
     if (m.hinge_count > 0)
-        add("hinges", m.hinge_count, {b.on_paper(m.hinges), step_values});
+        add("hinges", m.hinge_count, {.step_values = step_values, .hinge = b.on_paper(m.hinges)});
     if (m.solid_count > 0)
-        add("solids", m.solid_count, {b.on_paper(m.solids), step_values});
+        add("solids", m.solid_count, {.step_values = step_values, .solid = b.on_paper(m.solids)});
 }
 
 void record_update(PlanBuilder& b, const ImplicitEuler& m)
@@ -154,18 +181,13 @@ void record_update(PlanBuilder& b, const ImplicitEuler& m)
     b.record(kName, [&](Recorder& recorder) {
         const linear::Gate always{m.solve->groups(), nullptr, 0};
         const linear::Grid grid = linear::make_grid(b.plan.vertex_count, always.groups);
-        std::vector<Recorder::Binding> bindings = {b.on_paper(b.plan.delta), b.on_paper(m.solve->x())};
         if (m.trials)
-        {
             record_trials(b, m, recorder);
-            bindings.push_back(m.trials);
-        }
-        linear::launch(recorder, always,
-                       kernels::implicit_update::info(m.trials ? "search" : "", b.plan.precision),
-                       std::move(bindings),
-                       kernels::implicit_update::Params{grid.count, grid.chunk, always.groups,
-                                                        b.scene.method.line_search + 1, m.parts(), m.lift},
-                       kName);
+        linear::launch(
+            recorder, always, {m.trials ? "search" : "", b.plan.precision, kName},
+            kernels::implicit_update::Bindings<Recorder::Binding>{
+                .delta = b.on_paper(b.plan.delta), .x = b.on_paper(m.solve->x()), .partials = m.trials},
+            {grid.count, grid.chunk, always.groups, b.scene.method.line_search + 1, m.parts(), m.lift});
     });
 }
 
@@ -177,8 +199,12 @@ void record_implicit_start(PlanBuilder& b, const Moment&)
         return;
     const ImplicitEuler& m = *b.implicit_euler;
     const std::uint32_t n = b.plan.vertex_count;
-    const Use uses[] = {{b.plan.low}, {m.held, 3}, {b.plan.predicted}, {b.plan.delta}, {m.solve->x(), 3}};
-    b.dispatch(kName, "implicit_start", "", uses, kernels::implicit_start::Params{n, m.lift}, n);
+    const kernels::implicit_start::Bindings<Use> uses = {.low = {b.plan.low},
+                                                         .held = {m.held, 3},
+                                                         .predicted = {b.plan.predicted},
+                                                         .delta = {b.plan.delta},
+                                                         .guess = {m.solve->x(), 3}};
+    b.dispatch(kName, "", uses, {n, m.lift}, n);
 }
 
 void record_implicit_step(PlanBuilder& b, const Moment& moment)

@@ -49,12 +49,11 @@ void PlanSolve::record(PlanBuilder& builder)
         cg_.record_iterations(recorder, iterations_);
         cg_.record_end(recorder);
     });
-    const Use uses[] = {{state_}, {log_}};
+    const kernels::solve_log::Bindings<Use> uses = {.state = {state_}, .run_log = {log_}};
     if (part_ == kNoBuffer)
-        builder.dispatch(effect_, "solve_log", "", uses, kernels::solve_log::Params{1}, 1);
+        builder.dispatch(effect_, "", uses, {1}, 1);
     else
-        builder.dispatch_indirect(effect_, "solve_log", "", uses, kernels::solve_log::Params{1}, 1, part_,
-                                  once_);
+        builder.dispatch_indirect(effect_, "", uses, {1}, 1, part_, once_);
 }
 
 } // namespace taut

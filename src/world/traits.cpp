@@ -55,8 +55,7 @@ public:
     {
         Recorder recorder(device_.shared_from_this());
         for (std::uint32_t d = 0; d < dispatches; ++d)
-            recorder.dispatch(kernels::distance::info(), {constraint_, position_, delta_, step_, events_},
-                              kernels::distance::Params{0, springs, 1, 0}, springs);
+            recorder.dispatch(bindings({}), {0, springs, 1, 0}, springs, {});
         return best(*recorder.finish());
     }
 
@@ -70,13 +69,21 @@ public:
     double time_tail(Range range)
     {
         Recorder recorder(device_.shared_from_this());
-        recorder.dispatch(kernels::distance::info("tail"),
-                          {constraint_, position_, delta_, step_, events_, table_},
-                          kernels::distance::Params{range, 1, 1, 0}, 1);
+        recorder.dispatch(bindings(table_), {range, 1, 1, 0}, 1, {"tail"});
         return best(*recorder.finish());
     }
 
 private:
+    kernels::distance::Bindings<Recorder::Binding> bindings(BufferPtr table) const
+    {
+        return {.constraint = constraint_,
+                .position = position_,
+                .delta = delta_,
+                .step_values = step_,
+                .events = events_,
+                .table = std::move(table)};
+    }
+
     template <typename T>
     BufferPtr upload(const std::vector<T>& values)
     {

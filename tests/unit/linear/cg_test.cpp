@@ -230,8 +230,9 @@ void check_rewritten(const std::shared_ptr<Device>& device, Format format, bool 
     Recorder recorder(device);
     const std::uint32_t groups = group_count_for(count, device->info());
     const Grid grid = make_grid(count, groups);
-    launch(recorder, {groups, nullptr, 0}, kernels::cg_collect::info("", precision),
-           {matrix->values(), increments}, kernels::cg_collect::Params{grid.count, grid.chunk, 1}, "rewrite");
+    launch(recorder, {groups, nullptr, 0}, {"", precision, "rewrite"},
+           kernels::cg_collect::Bindings<Recorder::Binding>{.base = matrix->values(), .x = increments},
+           {grid.count, grid.chunk, 1});
     cg.record_begin(recorder);
     cg.record_iterations(recorder, 120);
     cg.record_end(recorder);

@@ -78,8 +78,9 @@ void check_step(const std::shared_ptr<Device>& device, const Setup& s)
     Recorder recorder(device);
     const std::uint32_t groups = group_count_for(count, device->info());
     const Grid grid = make_grid(count, groups);
-    launch(recorder, {groups, nullptr, 0}, kernels::cg_collect::info("", s.precision),
-           {matrix->values(), increments}, kernels::cg_collect::Params{grid.count, grid.chunk, 1}, "rewrite");
+    launch(recorder, {groups, nullptr, 0}, {"", s.precision, "rewrite"},
+           kernels::cg_collect::Bindings<Recorder::Binding>{.base = matrix->values(), .x = increments},
+           {grid.count, grid.chunk, 1});
     inverse.record(recorder, {group_count_for(rows, device->info()), nullptr, 0});
     cg.record_begin(recorder);
     cg.record_iterations(recorder, 60);
