@@ -161,24 +161,29 @@ void record_corner_rows(PlanBuilder& b, std::string_view effect, const CornerSet
                         std::uint32_t groups, const Moment& moment)
 {
     const CornerRows& own = rows.corners;
-    const bool kept = multiplier != kNoBuffer, further = moment.iteration > 0;
-    std::vector<Use> uses = {
-        {own.records},      {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.step_values, 0},
-        {b.plan.events, 0}, {own.gradient, 3},    {solve.b()}};
-    if (kept)
-        uses.push_back({multiplier});
-    const std::string_view variant = kept ? "kept" : "";
+    const std::uint32_t further = moment.iteration > 0;
+    const std::string_view variant = multiplier != kNoBuffer ? "kept" : "";
     const auto volumes = static_cast<std::uint32_t>(set.volumes.size());
     const auto hinges = static_cast<std::uint32_t>(set.hinges.size());
+    const auto with_rest = [&](auto uses) {
+        uses.position = {b.plan.position, 4};
+        uses.delta = {b.plan.delta, 4};
+        uses.step_values = {b.plan.step_values, 0};
+        uses.events = {b.plan.events, 0};
+        uses.gradient = {own.gradient, 3};
+        uses.b = {solve.b()};
+        uses.multiplier = {multiplier};
+        return uses;
+    };
     if (volumes > 0)
-        b.dispatch(effect, "volume_rows", variant, uses,
-                   kernels::volume_rows::Params{volumes, linear::make_grid(volumes, groups).chunk, rows.count,
-                                                further, moment.last},
+        b.dispatch(effect, variant,
+                   with_rest(kernels::volume_rows::Bindings<Use>{.tetrahedron = {own.records}}),
+                   {volumes, linear::make_grid(volumes, groups).chunk, rows.count, further, moment.last},
                    groups, volumes);
     if (hinges > 0)
-        b.dispatch(effect, "hinge_rows", variant, uses,
-                   kernels::hinge_rows::Params{hinges, linear::make_grid(hinges, groups).chunk, volumes,
-                                               rows.count + volumes, further, moment.last, set.scale},
+        b.dispatch(effect, variant, with_rest(kernels::hinge_rows::Bindings<Use>{.hinge = {own.records}}),
+                   {hinges, linear::make_grid(hinges, groups).chunk, volumes, rows.count + volumes, further,
+                    moment.last, set.scale},
                    groups, hinges);
 }
 

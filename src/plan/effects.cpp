@@ -64,9 +64,9 @@ bool has_friction(const Scene& scene, ColliderKind kind)
 
 void record_damping(PlanBuilder& b, const Moment&)
 {
-    const Use uses[] = {{b.plan.velocity}, {b.plan.step_values, 0}};
-    b.dispatch("damping", "damping", "", uses, kernels::damping::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
+    const kernels::damping::Bindings<Use> uses = {.velocity = {b.plan.velocity},
+                                                  .step_values = {b.plan.step_values, 0}};
+    b.dispatch("damping", "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 void prepare_external_force(PlanBuilder& b)
@@ -76,9 +76,11 @@ void prepare_external_force(PlanBuilder& b)
 
 void record_external_force(PlanBuilder& b, const Moment&)
 {
-    const Use uses[] = {{b.plan.position}, {b.plan.force}, {b.plan.velocity}, {b.plan.step_values, 0}};
-    b.dispatch("external_force", "external_force", "", uses,
-               kernels::external_force::Params{b.plan.vertex_count}, b.plan.vertex_count);
+    const kernels::external_force::Bindings<Use> uses = {.position = {b.plan.position},
+                                                         .force = {b.plan.force},
+                                                         .velocity = {b.plan.velocity},
+                                                         .step_values = {b.plan.step_values, 0}};
+    b.dispatch("external_force", "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 // ---------------------------------------------------------------- held vertices that move
@@ -116,9 +118,11 @@ void prepare_pin_motion(PlanBuilder& b)
 void record_pin_motion(PlanBuilder& b, const Moment& moment)
 {
     const auto count = static_cast<std::uint32_t>(b.plan.moving_pins.size());
-    const Use uses[] = {{b.pin_vertices}, {b.plan.pin_targets, 2}, {b.plan.position}, {b.plan.delta}};
-    b.dispatch("pin_motion", "pin_motion", "", uses,
-               kernels::pin_motion::Params{count, moment.substep, b.plan.substeps}, count);
+    const kernels::pin_motion::Bindings<Use> uses = {.vertex = {b.pin_vertices},
+                                                     .pin_target = {b.plan.pin_targets, 2},
+                                                     .position = {b.plan.position},
+                                                     .delta = {b.plan.delta}};
+    b.dispatch("pin_motion", "", uses, {count, moment.substep, b.plan.substeps}, count);
 }
 
 // ---------------------------------------------------------------- colliders
@@ -177,42 +181,47 @@ void prepare_friction(PlanBuilder& b)
     }
 }
 
-template <typename Params>
-void record_contact(PlanBuilder& b, const Moment& moment, ColliderKind kind, std::uint32_t buffer)
+/// `uses` binds the colliders.
+template <template <typename> typename Bindings>
+void record_contact(PlanBuilder& b, const Moment& moment, ColliderKind kind, Bindings<Use> uses)
 {
-    const std::string_view shape = kColliderNames[static_cast<std::size_t>(kind)];
-    const std::uint32_t colliders = collider_count(b.scene, kind);
-    std::vector<Use> uses = {
-        {b.plan.position}, {b.plan.delta}, {buffer, 0}, {b.plan.step_values, 0}, {b.plan.events, 0}};
     const auto row = static_cast<std::size_t>(kind);
-    const bool kept = b.friction_taken[row] != kNoBuffer;
+    const std::uint32_t colliders = collider_count(b.scene, kind);
+    uses.position = {b.plan.position};
+    uses.delta = {b.plan.delta};
+    uses.step_values = {b.plan.step_values, 0};
+    uses.events = {b.plan.events, 0};
+    uses.contact = {b.friction_taken[row], colliders};
+    const bool kept = uses.contact.is_set();
     const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";
-    if (kept)
-        uses.push_back({b.friction_taken[row], colliders});
-    b.dispatch(shape, shape, variant, uses,
-               Params{b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0,
-                      moment.last},
-               b.plan.vertex_count);
+    b.dispatch(
+        kColliderNames[row], variant, uses,
+        {b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
+        b.plan.vertex_count);
 }
 
 void record_plane(PlanBuilder& b, const Moment& moment)
 {
-    record_contact<kernels::plane::Params>(b, moment, ColliderKind::plane, b.plan.planes);
+    const kernels::plane::Bindings<Use> uses = {.plane = {b.plan.planes, 0}};
+    record_contact(b, moment, ColliderKind::plane, uses);
 }
 
 void record_sphere(PlanBuilder& b, const Moment& moment)
 {
-    record_contact<kernels::sphere::Params>(b, moment, ColliderKind::sphere, b.plan.spheres);
+    const kernels::sphere::Bindings<Use> uses = {.sphere = {b.plan.spheres, 0}};
+    record_contact(b, moment, ColliderKind::sphere, uses);
 }
 
 void record_capsule(PlanBuilder& b, const Moment& moment)
 {
-    record_contact<kernels::capsule::Params>(b, moment, ColliderKind::capsule, b.plan.capsules);
+    const kernels::capsule::Bindings<Use> uses = {.capsule = {b.plan.capsules, 0}};
+    record_contact(b, moment, ColliderKind::capsule, uses);
 }
 
 void record_cuboid(PlanBuilder& b, const Moment& moment)
 {
-    record_contact<kernels::cuboid::Params>(b, moment, ColliderKind::cuboid, b.plan.cuboids);
+    const kernels::cuboid::Bindings<Use> uses = {.cuboid = {b.plan.cuboids, 0}};
+    record_contact(b, moment, ColliderKind::cuboid, uses);
 }
 
 bool wants_friction(const Scene& scene)

@@ -259,36 +259,46 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
     const std::uint32_t groups = groups_of(b, c), count = c.rows.count, all = c.rows.all();
     if (c.multiplier != kNoBuffer)
     {
-        const Use uses[] = {{c.solve->x()}, {c.multiplier}, {c.solve->state(), 0}};
-        b.dispatch(kEffect, "constraint_total", "", uses,
-                   kernels::constraint_total::Params{all, moment.iteration == 0}, all);
+        const kernels::constraint_total::Bindings<Use> uses = {
+            .x = {c.solve->x()}, .multiplier = {c.multiplier}, .state = {c.solve->state(), 0}};
+        b.dispatch(kEffect, "", uses, {all, moment.iteration == 0}, all);
     }
-    std::vector<Use> uses = {{c.rows.records},        {b.plan.position, 2}, {b.plan.delta, 2},
-                             {b.plan.step_values, 0}, {b.plan.events, 0},   {c.rows.direction},
-                             {c.solve->b()}};
+    kernels::constraint_rows::Bindings<Use> uses = {.row = {c.rows.records},
+                                                    .position = {b.plan.position, 2},
+                                                    .delta = {b.plan.delta, 2},
+                                                    .step_values = {b.plan.step_values, 0},
+                                                    .events = {b.plan.events, 0},
+                                                    .direction = {c.rows.direction},
+                                                    .b = {c.solve->b()}};
     if (c.multiplier != kNoBuffer)
-        uses.push_back({c.multiplier});
+        uses.multiplier = {c.multiplier};
     const std::uint32_t chunk = linear::make_grid(count, groups).chunk;
-    b.dispatch(kEffect, "constraint_rows", c.multiplier != kNoBuffer ? "kept" : "", uses,
-               kernels::constraint_rows::Params{count, chunk, moment.iteration > 0, moment.last,
-                                                b.plan.iterations == 1},
-               groups, count);
+    b.dispatch(kEffect, c.multiplier != kNoBuffer ? "kept" : "", uses,
+               {count, chunk, moment.iteration > 0, moment.last, b.plan.iterations == 1}, groups, count);
     record_corner_rows(b, kEffect, c.corners, c.rows, *c.solve, c.multiplier, groups, moment);
     if (c.matrix)
         c.matrix->record(b);
     c.solve->record(b);
     const linear::Grid grid = linear::make_grid(b.plan.vertex_count, groups);
-    const Use moved[] = {{c.rows.start},    {c.rows.incident, 12}, {c.rows.direction, 12}, {c.solve->x(), 12},
-                         {b.plan.position}, {b.plan.delta},        {c.solve->state(), 0}};
-    b.dispatch(kEffect, "constraint_spread", "apply", moved,
-               kernels::constraint_spread::Params{grid.count, grid.chunk}, groups, grid.count);
+    const kernels::constraint_spread::Bindings<Use> moved = {.start = {c.rows.start},
+                                                             .incident = {c.rows.incident, 12},
+                                                             .direction = {c.rows.direction, 12},
+                                                             .x = {c.solve->x(), 12},
+                                                             .position = {b.plan.position},
+                                                             .delta = {b.plan.delta},
+                                                             .state = {c.solve->state(), 0}};
+    b.dispatch(kEffect, "apply", moved, {grid.count, grid.chunk}, groups, grid.count);
     const CornerRows& v = c.rows.corners;
     if (v.count == 0)
         return;
-    const Use also[] = {{v.start},         {v.incident, 24}, {v.gradient, 24},     {c.solve->x(), 24},
-                        {b.plan.position}, {b.plan.delta},   {c.solve->state(), 0}};
-    b.dispatch(kEffect, "corner_spread", "apply", also,
-               kernels::corner_spread::Params{grid.count, grid.chunk, count}, groups, grid.count);
+    const kernels::corner_spread::Bindings<Use> also = {.start = {v.start},
+                                                        .incident = {v.incident, 24},
+                                                        .gradient = {v.gradient, 24},
+                                                        .x = {c.solve->x(), 24},
+                                                        .position = {b.plan.position},
+                                                        .delta = {b.plan.delta},
+                                                        .state = {c.solve->state(), 0}};
+    b.dispatch(kEffect, "apply", also, {grid.count, grid.chunk, count}, groups, grid.count);
 }
 
 } // namespace taut

@@ -152,22 +152,22 @@ void record_strain_limit(PlanBuilder& b, const Moment&)
     const ConstraintSet& set = b.limits;
     if (set.count == 0)
         return;
-    const std::vector<Use> alone = {{set.buffer}, {b.plan.position, 2}, {b.plan.delta, 2}};
-    std::vector<Use> grouped = alone;
-    grouped.push_back({set.table});
+    const kernels::strain_limit::Bindings<Use> alone = {
+        .constraint = {set.buffer}, .position = {b.plan.position, 2}, .delta = {b.plan.delta, 2}};
+    kernels::strain_limit::Bindings<Use> grouped = alone;
+    grouped.table = {set.table};
     std::uint32_t range = first_run_range(set);
     for (const Run& run : runs_of(b, set))
     {
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
         if (run.grouped())
-            b.dispatch(kStrain, kStrain, "tail", grouped, kernels::strain_limit::Params{range, 1}, 1, size);
+            b.dispatch(kStrain, "tail", grouped, {range, 1}, 1, size);
         else
-            b.dispatch(kStrain, kStrain, "", alone, kernels::strain_limit::Params{first, size}, size);
+            b.dispatch(kStrain, "", alone, {first, size}, size);
         range += run.grouped() ? 2 : 0;
     }
     if (set.small_bodies > 0)
-        b.dispatch(kStrain, kStrain, "tail", grouped,
-                   kernels::strain_limit::Params{set.small_range, set.small_bodies}, set.small_bodies,
+        b.dispatch(kStrain, "tail", grouped, {set.small_range, set.small_bodies}, set.small_bodies,
                    set.small_constraints);
 }
 
@@ -198,9 +198,9 @@ void record_attachment(PlanBuilder& b, const Moment&)
 {
     if (b.attachment_count == 0)
         return;
-    const Use uses[] = {{b.attachments}, {b.plan.position, 2}, {b.plan.delta, 2}};
-    b.dispatch("attachment", "attachment", "", uses, kernels::attachment::Params{b.attachment_count},
-               b.attachment_count);
+    const kernels::attachment::Bindings<Use> uses = {
+        .attachment = {b.attachments}, .position = {b.plan.position, 2}, .delta = {b.plan.delta, 2}};
+    b.dispatch("attachment", "", uses, {b.attachment_count}, b.attachment_count);
 }
 
 void prepare_tearing(PlanBuilder& b)
@@ -221,8 +221,9 @@ void record_tearing(PlanBuilder& b, const Moment& moment)
 {
     if (b.tearing_count == 0 || moment.substep + 1 < b.plan.substeps)
         return;
-    const Use uses[] = {{b.tearing}, {b.plan.position, 2}, {b.plan.torn, 0}};
-    b.dispatch("tearing", "tearing", "", uses, kernels::tearing::Params{b.tearing_count}, b.tearing_count);
+    const kernels::tearing::Bindings<Use> uses = {
+        .spring = {b.tearing}, .position = {b.plan.position, 2}, .torn = {b.plan.torn, 0}};
+    b.dispatch("tearing", "", uses, {b.tearing_count}, b.tearing_count);
 }
 
 } // namespace taut

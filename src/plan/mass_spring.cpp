@@ -55,27 +55,32 @@ void record_gather(PlanBuilder& b, std::uint32_t report)
 {
     const ForceBuffers& f = *b.forces;
     const std::uint32_t n = b.plan.vertex_count, each = per_vertex(b, 2 * std::uint64_t(f.springs));
-    std::vector<Use> uses = {
-        {f.start}, {f.ends, each},    {b.plan.position, 1 + each}, {b.plan.low, 1 + each},
-        {f.force}, {b.plan.events, 0}};
+    kernels::spring_force::Bindings<Use> uses = {.start = {f.start},
+                                                 .end = {f.ends, each},
+                                                 .position = {b.plan.position, 1 + each},
+                                                 .low = {b.plan.low, 1 + each},
+                                                 .force = {f.force},
+                                                 .events = {b.plan.events, 0}};
     if (f.damped)
-        uses.push_back({b.plan.velocity, 1 + each});
-    b.dispatch("spring_force", "spring_force", f.damped ? "damped" : "", uses,
-               kernels::spring_force::Params{n, report}, n);
+        uses.velocity = {b.plan.velocity, 1 + each};
+    b.dispatch("spring_force", f.damped ? "damped" : "", uses, {n, report}, n);
 }
 
 void record_slots(PlanBuilder& b, std::uint32_t report)
 {
     const ForceBuffers& f = *b.forces;
     const std::uint32_t n = b.plan.vertex_count, each = per_vertex(b, 2 * std::uint64_t(f.springs));
-    std::vector<Use> uses = {
-        {f.records}, {b.plan.position, 2}, {b.plan.low, 2}, {f.slots}, {b.plan.events, 0}};
+    kernels::spring_slots::Bindings<Use> uses = {.spring = {f.records},
+                                                 .position = {b.plan.position, 2},
+                                                 .low = {b.plan.low, 2},
+                                                 .slot = {f.slots},
+                                                 .events = {b.plan.events, 0}};
     if (f.damped)
-        uses.push_back({b.plan.velocity, 2});
-    b.dispatch("spring_force", "spring_slots", f.damped ? "damped" : "", uses,
-               kernels::spring_slots::Params{f.springs, report}, f.springs);
-    const Use sum[] = {{f.start}, {f.incident, each}, {f.slots, each}, {f.force}};
-    b.dispatch("spring_force", "slot_sum", "", sum, kernels::slot_sum::Params{n}, n);
+        uses.velocity = {b.plan.velocity, 2};
+    b.dispatch("spring_force", f.damped ? "damped" : "", uses, {f.springs, report}, f.springs);
+    const kernels::slot_sum::Bindings<Use> sum = {
+        .start = {f.start}, .incident = {f.incident, each}, .slot = {f.slots, each}, .force = {f.force}};
+    b.dispatch("spring_force", "", sum, {n}, n);
 }
 
 void record_springs(PlanBuilder& b, bool report)
@@ -94,21 +99,26 @@ void record_hinges(PlanBuilder& b, bool report)
     if (f.hinges == 0)
         return;
     const std::uint32_t n = b.plan.vertex_count, each = per_vertex(b, 4 * std::uint64_t(f.hinges));
-    const Use uses[] = {{f.hinge_start},         {f.hinge_incident, each},
-                        {f.hinge_records, each}, {b.plan.position, 4 * each},
-                        {b.plan.low, 4 * each},  {f.force},
-                        {b.plan.events, 0}};
+    const kernels::hinge_force::Bindings<Use> uses = {.start = {f.hinge_start},
+                                                      .incident = {f.hinge_incident, each},
+                                                      .hinge = {f.hinge_records, each},
+                                                      .position = {b.plan.position, 4 * each},
+                                                      .low = {b.plan.low, 4 * each},
+                                                      .force = {f.force},
+                                                      .events = {b.plan.events, 0}};
     const std::uint32_t add = f.springs > 0;
-    b.dispatch("hinge_force", "hinge_force", "", uses, kernels::hinge_force::Params{n, add, report}, n);
+    b.dispatch("hinge_force", "", uses, {n, add, report}, n);
 }
 
 void record_kick(PlanBuilder& b, float force_share, float gravity_share)
 {
     const std::uint32_t n = b.plan.vertex_count;
-    const Use uses[] = {
-        {b.plan.position}, {b.forces->force}, {b.plan.velocity}, {b.plan.step_values, 0}, {b.plan.events, 0}};
-    b.dispatch("force_kick", "force_kick", "", uses,
-               kernels::force_kick::Params{n, force_share, gravity_share}, n);
+    const kernels::force_kick::Bindings<Use> uses = {.position = {b.plan.position},
+                                                     .force = {b.forces->force},
+                                                     .velocity = {b.plan.velocity},
+                                                     .step_values = {b.plan.step_values, 0},
+                                                     .events = {b.plan.events, 0}};
+    b.dispatch("force_kick", "", uses, {n, force_share, gravity_share}, n);
 }
 
 bool report_now(const PlanBuilder& b, const Moment& moment) { return moment.substep + 1 == b.plan.substeps; }

@@ -67,21 +67,27 @@ void prepare_momentum(PlanBuilder& b)
 
 void record_momentum_start(PlanBuilder& b, const Moment&)
 {
-    const Use uses[] = {{b.plan.delta}, {b.momentum->before}};
-    b.dispatch("momentum", "vbd_mark", "", uses, kernels::vbd_mark::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
+    const kernels::vbd_mark::Bindings<Use> uses = {.delta = {b.plan.delta}, .solved = {b.momentum->before}};
+    b.dispatch("momentum", "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 void record_momentum_end(PlanBuilder& b, const Moment&)
 {
     const MomentumBuffers& m = *b.momentum;
-    const Use sum[] = {{m.row}, {m.before}, {b.plan.delta}, {m.sums, 0}, {b.plan.position}};
-    b.dispatch("momentum", "momentum_sum", "", sum, kernels::momentum_sum::Params{m.groups}, m.groups,
-               m.rows);
-    const Use turn[] = {{m.row},      {m.sums, 0},      {b.plan.position},      {b.plan.delta},
-                        {b.plan.low}, {b.plan.owed, 0}, {b.plan.step_values, 0}};
-    b.dispatch("momentum", "momentum_turn", "", turn, kernels::momentum_turn::Params{m.groups}, m.groups,
-               m.rows);
+    const kernels::momentum_sum::Bindings<Use> sum = {.row = {m.row},
+                                                      .before = {m.before},
+                                                      .delta = {b.plan.delta},
+                                                      .sums = {m.sums, 0},
+                                                      .position = {b.plan.position}};
+    b.dispatch("momentum", "", sum, {m.groups}, m.groups, m.rows);
+    const kernels::momentum_turn::Bindings<Use> turn = {.row = {m.row},
+                                                        .sums = {m.sums, 0},
+                                                        .position = {b.plan.position},
+                                                        .delta = {b.plan.delta},
+                                                        .low = {b.plan.low},
+                                                        .owed = {b.plan.owed, 0},
+                                                        .step_values = {b.plan.step_values, 0}};
+    b.dispatch("momentum", "", turn, {m.groups}, m.groups, m.rows);
 }
 
 } // namespace taut

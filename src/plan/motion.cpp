@@ -113,32 +113,40 @@ void record_coast(PlanBuilder& b, const Moment& moment)
 {
     if (!is_last(b, moment))
         return;
-    const Use uses[] = {
-        {b.plan.position}, {b.plan.low}, {b.plan.velocity}, {b.plan.coasting}, {b.plan.step_values, 0}};
-    b.dispatch("motion", "coast", "", uses, kernels::coast::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
+    const kernels::coast::Bindings<Use> uses = {.position = {b.plan.position},
+                                                .low = {b.plan.low},
+                                                .velocity = {b.plan.velocity},
+                                                .coasting = {b.plan.coasting},
+                                                .step_values = {b.plan.step_values, 0}};
+    b.dispatch("motion", "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 void record_predict(PlanBuilder& b, const Moment& moment)
 {
-    std::vector<Use> uses = {{b.plan.position},       {b.plan.low},      {b.plan.velocity}, {b.plan.delta},
-                             {b.plan.step_values, 0}, {b.plan.events, 0}};
+    kernels::predict::Bindings<Use> uses = {.position = {b.plan.position},
+                                            .low = {b.plan.low},
+                                            .velocity = {b.plan.velocity},
+                                            .delta = {b.plan.delta},
+                                            .step_values = {b.plan.step_values, 0},
+                                            .events = {b.plan.events, 0}};
     const bool coasts = !b.coasts_first && is_last(b, moment);
     const std::uint32_t kept =
         b.plan.predicted == kNoBuffer && coasts ? b.plan.coasting : b.plan.predicted;
     const bool keep = kept != kNoBuffer;
     if (keep)
-        uses.push_back({kept});
-    b.dispatch("motion", "predict", keep ? "kept" : "", uses, kernels::predict::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
+        uses.predicted = {kept};
+    b.dispatch("motion", keep ? "kept" : "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 void record_finish(PlanBuilder& b, const Moment&)
 {
-    const Use uses[] = {{b.plan.position},       {b.plan.low},      {b.plan.velocity}, {b.plan.delta},
-                        {b.plan.step_values, 0}, {b.plan.events, 0}};
-    b.dispatch("motion", "finish", "", uses, kernels::finish::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
+    const kernels::finish::Bindings<Use> uses = {.position = {b.plan.position},
+                                                 .low = {b.plan.low},
+                                                 .velocity = {b.plan.velocity},
+                                                 .delta = {b.plan.delta},
+                                                 .step_values = {b.plan.step_values, 0},
+                                                 .events = {b.plan.events, 0}};
+    b.dispatch("motion", "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 } // namespace taut

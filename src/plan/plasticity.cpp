@@ -253,17 +253,24 @@ void record_plasticity(PlanBuilder& b, const Moment&)
     const Plasticity& p = *b.plasticity;
     if (p.springs > 0)
     {
-        const Use uses[] = {{p.spring_list},      {p.spring_rules, 4}, {p.spring_records},
-                            {b.plan.position, 2}, {b.plan.low, 2},     {b.plan.step_values, 0}};
-        b.dispatch(kEffect, "plastic_spring", p.forces ? "force" : "", uses,
-                   kernels::plastic_spring::Params{p.springs}, p.springs);
+        const kernels::plastic_spring::Bindings<Use> uses = {.record = {p.spring_list},
+                                                             .rule = {p.spring_rules, 4},
+                                                             .spring = {p.spring_records},
+                                                             .position = {b.plan.position, 2},
+                                                             .low = {b.plan.low, 2},
+                                                             .step_values = {b.plan.step_values, 0}};
+        b.dispatch(kEffect, p.forces ? "force" : "", uses, {p.springs}, p.springs);
     }
     if (p.solids > 0)
     {
-        const Use uses[] = {{p.solid_table, 8},   {p.solid_rules, 12}, {p.solid_state, 6},
-                            {p.solid_records, 4}, {b.plan.position, 4}, {b.plan.low, 4},
-                            {b.plan.step_values, 0}};
-        b.dispatch(kEffect, "plastic_solid", "", uses, kernels::plastic_solid::Params{p.solids}, p.solids);
+        const kernels::plastic_solid::Bindings<Use> uses = {.table = {p.solid_table, 8},
+                                                            .rule = {p.solid_rules, 12},
+                                                            .state = {p.solid_state, 6},
+                                                            .solid = {p.solid_records, 4},
+                                                            .position = {b.plan.position, 4},
+                                                            .low = {b.plan.low, 4},
+                                                            .step_values = {b.plan.step_values, 0}};
+        b.dispatch(kEffect, "", uses, {p.solids}, p.solids);
     }
 }
 

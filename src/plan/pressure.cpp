@@ -107,11 +107,14 @@ void record_pressure(PlanBuilder& b, const Moment& moment)
     if (s.groups == 0)
         return;
     record_surface_sums(b, kEffect, s, false);
-    const Use push[] = {{s.table, 2},     {s.values},  {s.gradient}, {s.partials}, {b.plan.step_values, 0},
-                        {b.plan.velocity}, {b.plan.events, 0}};
-    b.dispatch(kEffect, "pressure", "", push,
-               kernels::pressure::Params{s.groups, moment.substep + 1 == b.plan.substeps}, s.groups,
-               s.vertices);
+    const kernels::pressure::Bindings<Use> push = {.table = {s.table, 2},
+                                                   .surface = {s.values},
+                                                   .gradient = {s.gradient},
+                                                   .partials = {s.partials},
+                                                   .step_values = {b.plan.step_values, 0},
+                                                   .velocity = {b.plan.velocity},
+                                                   .events = {b.plan.events, 0}};
+    b.dispatch(kEffect, "", push, {s.groups, moment.substep + 1 == b.plan.substeps}, s.groups, s.vertices);
 }
 
 } // namespace taut

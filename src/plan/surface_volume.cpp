@@ -129,15 +129,14 @@ void add_surface_tables(PlanBuilder& b, std::string_view effect, const SurfaceTa
 void record_surface_sums(PlanBuilder& b, std::string_view effect, const SurfaceBuffers& s, bool further)
 {
     const auto each = static_cast<std::uint32_t>(b.plan.buffers[s.corners].bytes / 4 / s.vertices + 1);
-    const Use sums[] = {{s.table, 2},
-                        {s.corners, each},
-                        {b.plan.position, 1 + each},
-                        {b.plan.low, 1 + each},
-                        {b.plan.delta, 1 + each},
-                        {s.gradient},
-                        {s.partials}};
-    b.dispatch(effect, "surface_volume_sum", "", sums,
-               kernels::surface_volume_sum::Params{s.groups, further}, s.groups, s.vertices);
+    const kernels::surface_volume_sum::Bindings<Use> sums = {.table = {s.table, 2},
+                                                             .corner = {s.corners, each},
+                                                             .position = {b.plan.position, 1 + each},
+                                                             .low = {b.plan.low, 1 + each},
+                                                             .delta = {b.plan.delta, 1 + each},
+                                                             .gradient = {s.gradient},
+                                                             .partials = {s.partials}};
+    b.dispatch(effect, "", sums, {s.groups, further}, s.groups, s.vertices);
 }
 
 void prepare_surface_volume(PlanBuilder& b)
@@ -171,14 +170,17 @@ void record_surface_volume(PlanBuilder& b, const Moment& moment)
     if (s.groups == 0)
         return;
     record_surface_sums(b, kEffect, s, moment.iteration > 0);
-    std::vector<Use> moved = {
-        {s.table, 2},   {s.values},        {s.gradient}, {s.partials}, {b.plan.step_values, 0},
-        {b.plan.delta}, {b.plan.events, 0}};
+    kernels::surface_volume_apply::Bindings<Use> moved = {.table = {s.table, 2},
+                                                          .surface = {s.values},
+                                                          .gradient = {s.gradient},
+                                                          .partials = {s.partials},
+                                                          .step_values = {b.plan.step_values, 0},
+                                                          .delta = {b.plan.delta},
+                                                          .events = {b.plan.events, 0}};
     const bool kept = s.multiplier != kNoBuffer;
     if (kept)
-        moved.push_back({s.multiplier});
-    b.dispatch(kEffect, "surface_volume_apply", kept ? "kept" : "", moved,
-               kernels::surface_volume_apply::Params{s.groups, s.surfaces, moment.iteration, moment.last},
+        moved.multiplier = {s.multiplier};
+    b.dispatch(kEffect, kept ? "kept" : "", moved, {s.groups, s.surfaces, moment.iteration, moment.last},
                s.groups, s.vertices);
 }
 

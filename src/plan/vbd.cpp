@@ -133,13 +133,19 @@ void record_acceleration(PlanBuilder& b, std::uint32_t iteration)
     if (iteration > 0)
     {
         const auto bodies = static_cast<std::uint32_t>(b.scene.bodies.size());
-        const Use uses[] = {{f.body, 2}, {b.plan.position}, {b.plan.delta}, {f.newest}, {f.progress, 0}};
-        b.dispatch("vbd_accelerate", "vbd_progress", "", uses,
-                   kernels::vbd_progress::Params{bodies, iteration == 1}, bodies, n);
+        const kernels::vbd_progress::Bindings<Use> uses = {.start = {f.body, 2},
+                                                           .position = {b.plan.position},
+                                                           .delta = {b.plan.delta},
+                                                           .newest = {f.newest},
+                                                           .progress = {f.progress, 0}};
+        b.dispatch("vbd_accelerate", "", uses, {bodies, iteration == 1}, bodies, n);
     }
-    const Use uses[] = {{b.plan.delta}, {f.newest}, {f.older}, {f.support}, {f.progress, 0}};
-    b.dispatch("vbd_accelerate", "vbd_accelerate", "", uses,
-               kernels::vbd_accelerate::Params{n, f.omega[iteration]}, n);
+    const kernels::vbd_accelerate::Bindings<Use> uses = {.delta = {b.plan.delta},
+                                                         .newest = {f.newest},
+                                                         .older = {f.older},
+                                                         .support = {f.support},
+                                                         .progress = {f.progress, 0}};
+    b.dispatch("vbd_accelerate", "", uses, {n, f.omega[iteration]}, n);
 }
 
 } // namespace
@@ -203,14 +209,17 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
     if (!f.omega.empty())
         record_acceleration(b, moment.iteration);
     const std::uint32_t near = 1 + f.near();
-    std::vector<Use> uses = {{f.row, f.row_words()}, {f.ends, f.springs_each},
-                             {b.plan.position, near},
-                             {b.plan.predicted}, {b.plan.delta, near}, {b.plan.events, 0}};
+    kernels::vbd_solve::Bindings<Use> uses = {.row = {f.row, f.row_words()},
+                                              .end = {f.ends, f.springs_each},
+                                              .position = {b.plan.position, near},
+                                              .predicted = {b.plan.predicted},
+                                              .delta = {b.plan.delta, near},
+                                              .events = {b.plan.events, 0}};
     if (f.corners != kNoBuffer)
-        uses.push_back({f.corners, f.corners_each()});
+        uses.corner = {f.corners, f.corners_each()};
     const bool damped = f.damped || f.elastic; // elastic rows have one variant, with dampers
     if (damped)
-        uses.push_back({b.plan.low, f.damped ? 1 + f.springs_each : 1});
+        uses.low = {b.plan.low, f.damped ? 1 + f.springs_each : 1};
     std::string kinds = f.elastic ? "elastic" : f.volumes ? "volumes" : f.hinges ? "hinges" : "";
     if (damped && !f.elastic)
         kinds += kinds.empty() ? "damped" : "_damped";
@@ -220,7 +229,7 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
             std::string(run.grouped ? "tail" : "") + (run.grouped && !kinds.empty() ? "_" : "") + kinds;
         const kernels::vbd_solve::Params params{run.first, run.rows, moment.last,
                                                 static_cast<float>(b.scene.method.relaxation)};
-        b.dispatch("vbd_solve", "vbd_solve", variant, uses, params, run.grouped ? 1 : run.rows, run.rows);
+        b.dispatch("vbd_solve", variant, uses, params, run.grouped ? 1 : run.rows, run.rows);
     }
 }
 

@@ -51,13 +51,16 @@ void record_rise(PlanBuilder& b, bool ended)
 {
     const BlockBuffers& f = *b.blocks;
     const std::uint32_t near = 1 + f.near();
-    std::vector<Use> uses = {{f.row, f.row_words()}, {f.ends, f.springs_each}, {b.plan.position, near},
-                             {b.plan.low, near},     {b.plan.predicted},       {b.plan.delta, near},
-                             {f.sums, 0}};
+    kernels::vbd_rise::Bindings<Use> uses = {.row = {f.row, f.row_words()},
+                                             .end = {f.ends, f.springs_each},
+                                             .position = {b.plan.position, near},
+                                             .low = {b.plan.low, near},
+                                             .predicted = {b.plan.predicted},
+                                             .delta = {b.plan.delta, near},
+                                             .sums = {f.sums, 0}};
     if (f.corners != kNoBuffer)
-        uses.push_back({f.corners, f.corners_each()});
-    b.dispatch("vbd_start", "vbd_rise", variant_of(f), uses,
-               kernels::vbd_rise::Params{f.groups, ended ? 1u : 0u, f.table}, f.groups, f.rows);
+        uses.corner = {f.corners, f.corners_each()};
+    b.dispatch("vbd_start", variant_of(f), uses, {f.groups, ended ? 1u : 0u, f.table}, f.groups, f.rows);
 }
 
 /// No start above the fallback.
@@ -67,9 +70,12 @@ void record_guard(PlanBuilder& b)
     if (f.sums == kNoBuffer)
         return;
     record_rise(b, false);
-    const Use uses[] = {{f.row, 1}, {b.plan.low}, {f.sums, 0}, {b.plan.delta}, {b.plan.step_values, 0}};
-    b.dispatch("vbd_start", "vbd_choose", "", uses,
-               kernels::vbd_choose::Params{f.groups, f.table, f.row_words()}, f.groups, f.rows);
+    const kernels::vbd_choose::Bindings<Use> uses = {.row = {f.row, 1},
+                                                     .low = {b.plan.low},
+                                                     .sums = {f.sums, 0},
+                                                     .delta = {b.plan.delta},
+                                                     .step_values = {b.plan.step_values, 0}};
+    b.dispatch("vbd_start", "", uses, {f.groups, f.table, f.row_words()}, f.groups, f.rows);
 }
 
 /// No end that makes energy.
@@ -79,9 +85,9 @@ void record_limit(PlanBuilder& b)
     if (f.sums == kNoBuffer)
         return;
     record_rise(b, true);
-    const Use uses[] = {{f.row, 1}, {b.plan.low}, {f.sums, 0}, {b.plan.delta}};
-    b.dispatch("vbd_start", "vbd_limit", "", uses,
-               kernels::vbd_limit::Params{f.groups, f.table, f.row_words()}, f.groups, f.rows);
+    const kernels::vbd_limit::Bindings<Use> uses = {
+        .row = {f.row, 1}, .low = {b.plan.low}, .sums = {f.sums, 0}, .delta = {b.plan.delta}};
+    b.dispatch("vbd_start", "", uses, {f.groups, f.table, f.row_words()}, f.groups, f.rows);
 }
 
 void record_shift(PlanBuilder& b)
@@ -90,18 +96,21 @@ void record_shift(PlanBuilder& b)
     if (f.sums == kNoBuffer || !f.loose)
         return;
     const std::uint32_t words = f.row_words();
-    std::vector<Use> sum = {{f.row, 1}, {b.plan.predicted}, {b.plan.delta}, {f.sums, 0}, {b.plan.position}};
-    std::vector<Use> uses = {{f.row, 1}, {f.sums, 0}, {b.plan.delta}, {b.plan.position}};
+    kernels::vbd_drift::Bindings<Use> sum = {.row = {f.row, 1},
+                                             .predicted = {b.plan.predicted},
+                                             .delta = {b.plan.delta},
+                                             .sums = {f.sums, 0},
+                                             .position = {b.plan.position}};
+    kernels::vbd_shift::Bindings<Use> uses = {
+        .row = {f.row, 1}, .sums = {f.sums, 0}, .delta = {b.plan.delta}, .position = {b.plan.position}};
     const bool contact = f.seen != kNoBuffer;
     if (contact)
     {
-        sum.push_back({f.solved});
-        uses.push_back({f.seen, 0});
+        sum.push = {f.solved};
+        uses.seen = {f.seen, 0};
     }
-    b.dispatch("vbd_start", "vbd_drift", contact ? "contact" : "", sum,
-               kernels::vbd_drift::Params{f.groups, f.table, words}, f.groups, f.rows);
-    b.dispatch("vbd_start", "vbd_shift", contact ? "contact" : "", uses,
-               kernels::vbd_shift::Params{f.groups, f.table, words}, f.groups, f.rows);
+    b.dispatch("vbd_start", contact ? "contact" : "", sum, {f.groups, f.table, words}, f.groups, f.rows);
+    b.dispatch("vbd_start", contact ? "contact" : "", uses, {f.groups, f.table, words}, f.groups, f.rows);
 }
 
 } // namespace
@@ -162,19 +171,26 @@ void record_vbd_start(PlanBuilder& b, const Moment&)
     if (f.rows == 0)
         return;
     const bool previous = b.scene.method.start == "previous", contact = f.touched != kNoBuffer;
-    std::vector<Use> uses = {{b.plan.position}, {b.plan.predicted}, {b.plan.delta}, {b.plan.step_values, 0}};
+    kernels::vbd_start::Bindings<Use> uses = {.position = {b.plan.position},
+                                              .predicted = {b.plan.predicted},
+                                              .delta = {b.plan.delta},
+                                              .step_values = {b.plan.step_values, 0}};
     if (previous)
-        uses.push_back({b.plan.low});
+        uses.low = {b.plan.low};
     if (adaptive(b))
-        uses.push_back({f.share});
+        uses.share = {f.share};
     if (contact)
-        uses.insert(uses.end(), {{f.support}, {f.touched}, {f.seen, 2}});
-    b.dispatch("vbd_start", "vbd_start",
+    {
+        uses.support = {f.support};
+        uses.touched = {f.touched};
+        uses.seen = {f.seen, 2};
+    }
+    b.dispatch("vbd_start",
                previous      ? "previous"
                : contact     ? "contact"
                : adaptive(b) ? "adaptive"
                              : "",
-               uses, kernels::vbd_start::Params{b.plan.vertex_count}, b.plan.vertex_count);
+               uses, {b.plan.vertex_count}, b.plan.vertex_count);
     record_guard(b);
 }
 
@@ -187,9 +203,8 @@ void record_vbd_end(PlanBuilder& b, const Moment&)
     record_shift(b);
     if (f.solved == kNoBuffer)
         return;
-    const Use uses[] = {{b.plan.delta}, {f.solved}};
-    b.dispatch("vbd_start", "vbd_mark", "", uses, kernels::vbd_mark::Params{b.plan.vertex_count},
-               b.plan.vertex_count);
+    const kernels::vbd_mark::Bindings<Use> uses = {.delta = {b.plan.delta}, .solved = {f.solved}};
+    b.dispatch("vbd_start", "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 void record_vbd_share(PlanBuilder& b, const Moment&)
@@ -197,12 +212,18 @@ void record_vbd_share(PlanBuilder& b, const Moment&)
     const BlockBuffers& f = *b.blocks;
     if (f.rows == 0 || !adaptive(b))
         return;
-    std::vector<Use> uses = {
-        {b.plan.predicted}, {b.plan.delta}, {f.support}, {f.share}, {b.plan.step_values, 0}};
+    kernels::vbd_share::Bindings<Use> uses = {.predicted = {b.plan.predicted},
+                                              .delta = {b.plan.delta},
+                                              .support = {f.support},
+                                              .share = {f.share},
+                                              .step_values = {b.plan.step_values, 0}};
     if (f.solved != kNoBuffer)
-        uses.insert(uses.end(), {{f.solved}, {f.touched, 0}});
-    b.dispatch("vbd_start", "vbd_share", f.solved != kNoBuffer ? "contact" : "", uses,
-               kernels::vbd_share::Params{b.plan.vertex_count}, b.plan.vertex_count);
+    {
+        uses.solved = {f.solved};
+        uses.touched = {f.touched, 0};
+    }
+    b.dispatch("vbd_start", f.solved != kNoBuffer ? "contact" : "", uses, {b.plan.vertex_count},
+               b.plan.vertex_count);
 }
 
 } // namespace taut

@@ -101,13 +101,19 @@ void record_wind(PlanBuilder& b, const Moment& moment)
     const std::uint32_t triangles = b.wind_triangle_count;
     if (triangles == 0)
         return;
-    const Use pressure[] = {{b.wind_triangles},      {b.plan.position, 3}, {b.plan.velocity, 3},
-                            {b.plan.step_values, 0}, {b.plan.wind, 0},     {b.wind_impulse}};
-    b.dispatch("wind", "wind_pressure", "", pressure,
-               kernels::wind_pressure::Params{triangles, moment.substep, b.plan.substeps}, triangles);
-    const Use gather[] = {{b.wind_start}, {b.wind_incident, 6}, {b.wind_impulse, 6}, {b.plan.position},
-                          {b.plan.velocity}};
-    b.dispatch("wind", "wind", "", gather, kernels::wind::Params{b.plan.vertex_count}, b.plan.vertex_count);
+    const kernels::wind_pressure::Bindings<Use> pressure = {.triangle = {b.wind_triangles},
+                                                            .position = {b.plan.position, 3},
+                                                            .velocity = {b.plan.velocity, 3},
+                                                            .step_values = {b.plan.step_values, 0},
+                                                            .wind = {b.plan.wind, 0},
+                                                            .impulse = {b.wind_impulse}};
+    b.dispatch("wind", "", pressure, {triangles, moment.substep, b.plan.substeps}, triangles);
+    const kernels::wind::Bindings<Use> gather = {.first = {b.wind_start},
+                                                 .incident = {b.wind_incident, 6},
+                                                 .impulse = {b.wind_impulse, 6},
+                                                 .position = {b.plan.position},
+                                                 .velocity = {b.plan.velocity}};
+    b.dispatch("wind", "", gather, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 } // namespace taut
