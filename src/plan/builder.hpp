@@ -4,7 +4,6 @@
 #include "taut/plan/methods.hpp"
 #include "taut/plan/plan.hpp"
 #include "taut/runtime/base/bindings.hpp"
-#include "taut/runtime/base/registry.hpp"
 #include "taut/runtime/paper_device.hpp"
 
 #include <glm/vec4.hpp>
@@ -114,15 +113,6 @@ public:
         const KernelInfo& kernel = Bindings<Use>::info(variant, plan.precision);
         add_dispatch(effect, kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
                      count, count, {group_counts, offset, 12});
-    }
-
-    template <typename Params>
-    void dispatch(std::string_view effect, std::string_view kernel, std::string_view variant,
-                  std::span<const Use> uses, const Params& params, std::uint32_t count,
-                  std::uint64_t elements = 0)
-    {
-        add_dispatch(effect, find_kernel(kernel, variant, plan.precision), uses,
-                     std::as_bytes(std::span(&params, 1)), count, elements == 0 ? count : elements);
     }
 
     /// Where src/linear makes its matrices and solvers, as on a device. Its buffers become the plan's.

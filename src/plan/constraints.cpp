@@ -101,19 +101,17 @@ void add_damping(PlanBuilder& b, ConstraintSet& set, const std::vector<StretchEl
 
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 {
-    const bool keep = set.multipliers != kNoBuffer;
+    const kernels::hub::Bindings<Use> uses = {.constraint = {set.buffer},
+                                              .position = {b.plan.position, 2},
+                                              .delta = {b.plan.delta, 2},
+                                              .step_values = {b.plan.step_values, 0},
+                                              .events = {b.plan.events, 0},
+                                              .multiplier = {set.multipliers}};
     for (std::size_t h = 0; h + 1 < set.hub_start.size(); ++h)
     {
-        std::vector<Use> uses = {{set.buffer},
-                                 {b.plan.position, 2},
-                                 {b.plan.delta, 2},
-                                 {b.plan.step_values, 0},
-                                 {b.plan.events, 0}};
-        if (keep)
-            uses.push_back({set.multipliers});
         const std::uint32_t size = set.hub_start[h + 1] - set.hub_start[h];
-        b.dispatch(set.kind, "hub", keep ? "lambda" : "", uses,
-                   kernels::hub::Params{set.hub_start[h], size, moment.iteration == 0, moment.last}, 1, size);
+        b.dispatch(set.kind, uses.multiplier.is_set() ? "lambda" : "", uses,
+                   {set.hub_start[h], size, moment.iteration == 0, moment.last}, 1, size);
     }
 }
 
@@ -135,20 +133,6 @@ void add_set(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> tabl
                                        std::uint64_t(set.count) * each * b.real_size());
     add_colour_table(b, set, std::move(table));
     b.plan.constraints.push_back(set);
-}
-
-std::vector<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                         bool grouped)
-{
-    std::vector<Use> uses = {{set.buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
-                             {b.plan.step_values, 0}, {b.plan.events, 0}};
-    if (grouped)
-        uses.push_back({set.table});
-    if (set.multipliers != kNoBuffer)
-        uses.push_back({set.multipliers});
-    if (set.damping != kNoBuffer)
-        uses.push_back({set.damping});
-    return uses;
 }
 
 Colouring grid_edge_colouring(std::span<const std::array<std::uint32_t, 2>> edges, std::uint32_t columns)
@@ -223,7 +207,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "distance"))
     {
-        record_colours<kernels::distance::Params>(b, *set, 2, moment);
+        record_colours<kernels::distance::Bindings>(b, *set, 2, moment);
         record_hubs(b, *set, moment);
     }
 }
@@ -231,7 +215,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 void record_bending(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "bending"))
-        record_colours<kernels::bending::Params>(b, *set, 4, moment);
+        record_colours<kernels::bending::Bindings>(b, *set, 4, moment);
 }
 
 } // namespace taut

@@ -35,8 +35,8 @@ constexpr std::uint32_t kLeastChebyshev = 8;   ///< iterations below which the w
 
 constexpr std::string_view kJacobi = "pbd_jacobi";
 
-/// Passes of one sweep over the colours of a set. `Params` is {first, count, share, report}.
-template <typename Params>
+/// Passes of one sweep over the colours of a set. Params is {first, count, share, report}.
+template <template <typename> typename Bindings>
 void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_each, double stiffness,
                   const Moment& moment)
 {
@@ -46,22 +46,24 @@ void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_
     const auto share =
         static_cast<float>(pbd_share(stiffness, b.plan.iterations) * b.scene.method.relaxation);
     const std::uint32_t report = moment.last;
-    const Use alone[] = {{set->buffer}, {b.plan.position, vertices_each}, {b.plan.delta, vertices_each},
-                         {b.plan.events, 0}};
-    std::vector<Use> grouped(std::begin(alone), std::end(alone));
-    grouped.push_back({set->table});
+    const Bindings<Use> alone = {.constraint = {set->buffer},
+                                 .position = {b.plan.position, vertices_each},
+                                 .delta = {b.plan.delta, vertices_each},
+                                 .events = {b.plan.events, 0}};
+    Bindings<Use> grouped = alone;
+    grouped.table = {set->table};
     std::uint32_t range = first_run_range(*set);
     for (const Run& run : runs_of(b, *set))
     {
         const std::uint32_t first = set->colour_start[run.begin], size = set->colour_start[run.end] - first;
         if (run.grouped())
-            b.dispatch(kind, kind, "tail", grouped, Params{range, 1, share, report}, 1, size);
+            b.dispatch(kind, "tail", grouped, {range, 1, share, report}, 1, size);
         else
-            b.dispatch(kind, kind, "", alone, Params{first, size, share, report}, size);
+            b.dispatch(kind, "", alone, {first, size, share, report}, size);
         range += run.grouped() ? 2 : 0;
     }
     if (set->small_bodies > 0)
-        b.dispatch(kind, kind, "tail", grouped, Params{set->small_range, set->small_bodies, share, report},
+        b.dispatch(kind, "tail", grouped, {set->small_range, set->small_bodies, share, report},
                    set->small_bodies, set->small_constraints);
 }
 
@@ -69,12 +71,14 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 {
     const MethodSettings& m = b.scene.method;
     const auto share = static_cast<float>(pbd_share(m.stretch, b.plan.iterations) * m.relaxation);
-    const Use uses[] = {{set.buffer}, {b.plan.position, 2}, {b.plan.delta, 2}, {b.plan.events, 0}};
+    const kernels::pbd_hub::Bindings<Use> uses = {.constraint = {set.buffer},
+                                                  .position = {b.plan.position, 2},
+                                                  .delta = {b.plan.delta, 2},
+                                                  .events = {b.plan.events, 0}};
     for (std::size_t h = 0; h + 1 < set.hub_start.size(); ++h)
     {
         const std::uint32_t size = set.hub_start[h + 1] - set.hub_start[h];
-        b.dispatch(set.kind, "pbd_hub", "", uses,
-                   kernels::pbd_hub::Params{set.hub_start[h], size, share, moment.last}, 1, size);
+        b.dispatch(set.kind, "", uses, {set.hub_start[h], size, share, moment.last}, 1, size);
     }
 }
 
@@ -175,24 +179,30 @@ Shares shares_of(const PlanBuilder& b)
 
 void record_slots(PlanBuilder& b, const Shares& shares, std::uint32_t report)
 {
-    const Use springs[] = {{b.pbd.springs}, {b.plan.position, 2}, {b.plan.delta, 2}, {b.plan.events, 0},
-                           {b.pbd.spring_slots}};
-    b.dispatch(kJacobi, "pbd_stretch", "slots", springs,
-               kernels::pbd_stretch::Params{0, b.pbd.spring_count, shares.stretch, report},
+    const kernels::pbd_stretch::Bindings<Use> springs = {.constraint = {b.pbd.springs},
+                                                         .position = {b.plan.position, 2},
+                                                         .delta = {b.plan.delta, 2},
+                                                         .events = {b.plan.events, 0},
+                                                         .correction = {b.pbd.spring_slots}};
+    b.dispatch(kJacobi, "slots", springs, {0, b.pbd.spring_count, shares.stretch, report},
                b.pbd.spring_count);
     if (b.pbd.hinges != kNoBuffer)
     {
-        const Use hinges[] = {{b.pbd.hinges}, {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.events, 0},
-                              {b.pbd.hinge_slots, 4}};
-        b.dispatch(kJacobi, "pbd_bend", "slots", hinges,
-                   kernels::pbd_bend::Params{0, b.pbd.hinge_count, shares.bend, report}, b.pbd.hinge_count);
+        const kernels::pbd_bend::Bindings<Use> hinges = {.constraint = {b.pbd.hinges},
+                                                         .position = {b.plan.position, 4},
+                                                         .delta = {b.plan.delta, 4},
+                                                         .events = {b.plan.events, 0},
+                                                         .correction = {b.pbd.hinge_slots, 4}};
+        b.dispatch(kJacobi, "slots", hinges, {0, b.pbd.hinge_count, shares.bend, report}, b.pbd.hinge_count);
     }
     if (b.pbd.volumes != kNoBuffer)
     {
-        const Use volumes[] = {{b.pbd.volumes}, {b.plan.position, 4}, {b.plan.delta, 4}, {b.plan.events, 0},
-                               {b.pbd.volume_slots, 4}};
-        b.dispatch(kJacobi, "pbd_volume", "slots", volumes,
-                   kernels::pbd_volume::Params{0, b.pbd.volume_count, shares.volume, report},
+        const kernels::pbd_volume::Bindings<Use> volumes = {.constraint = {b.pbd.volumes},
+                                                            .position = {b.plan.position, 4},
+                                                            .delta = {b.plan.delta, 4},
+                                                            .events = {b.plan.events, 0},
+                                                            .correction = {b.pbd.volume_slots, 4}};
+        b.dispatch(kJacobi, "slots", volumes, {0, b.pbd.volume_count, shares.volume, report},
                    b.pbd.volume_count);
     }
 }
@@ -273,19 +283,19 @@ void prepare_pbd_volume(PlanBuilder& b)
 
 void record_pbd_stretch(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep<kernels::pbd_stretch::Params>(b, "pbd_stretch", 2, b.scene.method.stretch, moment);
+    record_sweep<kernels::pbd_stretch::Bindings>(b, "pbd_stretch", 2, b.scene.method.stretch, moment);
     if (const ConstraintSet* set = find_set(b.plan, "pbd_stretch"))
         record_hubs(b, *set, moment);
 }
 
 void record_pbd_bend(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep<kernels::pbd_bend::Params>(b, "pbd_bend", 4, b.scene.method.bend, moment);
+    record_sweep<kernels::pbd_bend::Bindings>(b, "pbd_bend", 4, b.scene.method.bend, moment);
 }
 
 void record_pbd_volume(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep<kernels::pbd_volume::Params>(b, "pbd_volume", 4, b.scene.method.volume, moment);
+    record_sweep<kernels::pbd_volume::Bindings>(b, "pbd_volume", 4, b.scene.method.volume, moment);
 }
 
 void prepare_pbd_jacobi(PlanBuilder& b)
@@ -324,28 +334,31 @@ void record_pbd_jacobi(PlanBuilder& b, const Moment& moment)
     const std::uint32_t n = b.plan.vertex_count, report = moment.last;
     const std::uint32_t listed = 8 + (hinges ? 16 : 0) + (volumes ? 16 : 0);
     const Shares shares = shares_of(b);
-    std::vector<Use> uses = {{b.plan.position}, {b.plan.delta}, {p.other}};
-    const auto add = [&](std::uint32_t of_springs, std::uint32_t of_hinges, std::uint32_t of_volumes) {
-        uses.insert(uses.end(), {{of_springs, 8}, {p.at, listed}});
-        if (volumes)
-            uses.push_back({of_volumes, 16});
-        if (hinges)
-            uses.push_back({of_hinges, 16});
-    };
     if (m.scheme == "constraint_centric")
     {
         record_slots(b, shares, report);
-        add(p.spring_slots, p.hinge_slots, p.volume_slots);
-        b.dispatch(kJacobi, "pbd_average", variant, uses,
-                   kernels::pbd_average::Params{n, relaxation, omega, p.hinges_at, p.volumes_at}, n);
+        const kernels::pbd_average::Bindings<Use> uses = {.position = {b.plan.position},
+                                                          .delta = {b.plan.delta},
+                                                          .next = {p.other},
+                                                          .spring_correction = {p.spring_slots, 8},
+                                                          .at = {p.at, listed},
+                                                          .hinge_correction = {p.hinge_slots, 16},
+                                                          .volume_correction = {p.volume_slots, 16}};
+        b.dispatch(kJacobi, variant, uses, {n, relaxation, omega, p.hinges_at, p.volumes_at}, n);
     }
     else
     {
-        uses.push_back({b.plan.events, 0});
-        add(p.springs, p.hinges, p.volumes);
-        b.dispatch(kJacobi, "pbd_node", variant, uses,
-                   kernels::pbd_node::Params{n, shares.stretch, shares.bend, shares.volume, relaxation, omega,
-                                             report, p.hinges_at, p.volumes_at},
+        const kernels::pbd_node::Bindings<Use> uses = {.position = {b.plan.position},
+                                                       .delta = {b.plan.delta},
+                                                       .next = {p.other},
+                                                       .events = {b.plan.events, 0},
+                                                       .spring = {p.springs, 8},
+                                                       .at = {p.at, listed},
+                                                       .hinge = {p.hinges, 16},
+                                                       .tetrahedron = {p.volumes, 16}};
+        b.dispatch(kJacobi, variant, uses,
+                   {n, shares.stretch, shares.bend, shares.volume, relaxation, omega, report, p.hinges_at,
+                    p.volumes_at},
                    n);
     }
     std::swap(b.plan.delta, b.pbd.other);
