@@ -73,13 +73,17 @@ public:
             {1 / kInverseStep, kInverseStep, 0, 0, 0, 1, 1e15f, 0}};
         step_ = upload(step);
         events_ = device_->make_buffer(16, "events");
+        const taut::kernels::distance::Bindings<taut::Recorder::Binding> bindings = {
+            .constraint = constraint_,
+            .position = position_,
+            .delta = delta_,
+            .step_values = step_,
+            .events = events_};
         taut::Recorder recorder(device_);
         for (std::size_t c = 0; c + 1 < p.colour_start.size(); ++c)
         {
             const std::uint32_t first = p.colour_start[c], count = p.colour_start[c + 1] - first;
-            recorder.dispatch(taut::kernels::distance::info(),
-                              {constraint_, position_, delta_, step_, events_},
-                              taut::kernels::distance::Params{first, count, 1, 0}, count);
+            recorder.dispatch(bindings, {first, count, 1, 0}, count, {});
         }
         recording_ = recorder.finish();
     }

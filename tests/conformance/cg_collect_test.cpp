@@ -71,8 +71,8 @@ TEST_CASE("cg_collect in pairs of floats keeps 44 bits of a thousand additions o
         const auto device = test_device(selector);
         const BufferPtr base = device->make_buffer(rows * 8, "base"), x = device->make_buffer(rows * 4, "x");
         Recorder recorder(device);
-        recorder.dispatch(kernels::cg_collect::info("pair", Precision::float32), {base, x},
-                          kernels::cg_collect::Params{rows, 256, 1}, 1);
+        recorder.dispatch(kernels::cg_collect::Bindings<Recorder::Binding>{.base = base, .x = x},
+                          {rows, 256, 1}, 1, {"pair"});
         const auto recording = recorder.finish();
         std::vector<long double> exact(rows, 0), largest(rows, 0);
         Random random(77);

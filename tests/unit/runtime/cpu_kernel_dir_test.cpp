@@ -54,7 +54,9 @@ TEST_CASE("the native executor refuses a kernel for which TAUT_KERNEL_DIR holds 
     const BufferPtr velocity = device->make_buffer(1024, "velocity"), step = device->make_buffer(32, "step");
     const auto compile = [&] {
         Recorder recorder(device);
-        recorder.dispatch(kernels::damping::info(), {velocity, step}, kernels::damping::Params{64}, 64);
+        recorder.dispatch(
+            kernels::damping::Bindings<Recorder::Binding>{.velocity = velocity, .step_values = step}, {64},
+            64, {});
         recorder.finish();
     };
     folder.add("predict.comp");
