@@ -5,6 +5,7 @@
 #include "taut/report/method_settings.hpp"
 #include "taut/scene/keys.hpp"
 #include "taut/scene/settings.hpp"
+#include "taut/scene/tables.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -65,7 +66,7 @@ TEST_CASE("every key of a method is read by one at least", "[method_keys]")
     Words known = {"type", "substeps", "precision"};
     for (std::size_t k = 0; k < kMethodNames.size(); ++k)
         known.merge(read_by(static_cast<MethodKind>(k)));
-    const auto& keys = scene_file::keys_of("method").keys;
+    const auto keys = scene_file::names(scene_file::kMethodTable);
     CHECK(known == Words(keys.begin(), keys.end()));
 }
 

@@ -3,6 +3,7 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
 #include "taut/scene/scene.hpp"
+#include "taut/scene/tables.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -37,12 +38,12 @@ TEST_CASE("every key of the parser has a row in docs/scene.md, under its object"
 {
     const std::string text = page();
     REQUIRE(!text.empty());
-    for (const scene_file::KeySet& set : scene_file::all_keys())
+    for (const scene_file::Table* table : scene_file::all_tables())
     {
-        const std::string rows = section(text, set.object);
-        INFO("## `" << set.object << "`");
+        const std::string rows = section(text, table->name);
+        INFO("## `" << table->name << "`");
         CHECK(!rows.empty());
-        for (const std::string_view key : set.keys)
+        for (const std::string_view key : scene_file::names(*table))
         {
             INFO(key);
             CHECK(rows.find("\n| `" + std::string(key) + "` |") != std::string::npos);
@@ -53,14 +54,14 @@ TEST_CASE("every key of the parser has a row in docs/scene.md, under its object"
 TEST_CASE("every row of docs/scene.md is a key of the parser")
 {
     const std::string text = page();
-    for (const scene_file::KeySet& set : scene_file::all_keys())
+    for (const scene_file::Table* table : scene_file::all_tables())
     {
-        const std::string rows = section(text, set.object);
+        const std::string rows = section(text, table->name);
         for (std::size_t at = rows.find("\n| `"); at != std::string::npos; at = rows.find("\n| `", at + 1))
         {
             const std::string key = rows.substr(at + 4, rows.find('`', at + 4) - at - 4);
-            INFO(set.object << ": " << key);
-            CHECK(std::find(set.keys.begin(), set.keys.end(), key) != set.keys.end());
+            INFO(table->name << ": " << key);
+            CHECK(table->find(key));
         }
     }
 }
