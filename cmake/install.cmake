@@ -40,6 +40,11 @@ install(FILES kernels/shared/layouts.h kernels/shared/portable.glsl
 install(TARGETS taut EXPORT taut-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 if(TARGET taut-cli)
     install(TARGETS taut-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    # What the program itself says of scenes, for editors.
+    set(taut_schema ${PROJECT_BINARY_DIR}/scene.schema.json)
+    add_custom_command(OUTPUT ${taut_schema} COMMAND taut-cli schema > ${taut_schema} DEPENDS taut-cli VERBATIM)
+    add_custom_target(taut_schema ALL DEPENDS ${taut_schema})
+    install(FILES ${taut_schema} DESTINATION ${CMAKE_INSTALL_DATADIR}/taut)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT taut-targets NAMESPACE taut:: DESTINATION ${taut_cmake_dir})

@@ -61,6 +61,9 @@ constexpr Key kScene[] = {
     object<&Scene::wind>("wind", "air that cloth moves in; none: no wind effect", kWindTable),
     list<&Scene::bodies>("bodies", "what moves; none is a scene, too", kBodyTable),
     list<&Scene::colliders>("colliders", "what bodies run into", kColliderTable),
+    ignored<Scene>("$schema",
+                   "where an editor finds the [schema](program.md#taut-schema); Taut does not open it")
+        .ranges("any text"),
 };
 
 constexpr Key kAccept[] = {
