@@ -1,5 +1,6 @@
 // The scene file. Defaults are those of the C++ types: a key that is missing leaves them alone.
 
+#include "taut/scene/check_table.hpp"
 #include "taut/scene/field.hpp"
 #include "taut/scene/file_text.hpp"
 #include "taut/scene/json_text.hpp"
@@ -31,7 +32,9 @@ std::vector<SceneIssue> check_file(const std::filesystem::path& file)
     Scene scene;
     Field::attempt([&] { read_table(Field(tree, name, {}, &issues), scene_file::kSceneTable, &scene); });
     if (issues.empty())
-        issues = check(scene);
+        return check(scene);
+    for (SceneIssue& issue : scene_file::check_keys(scene))
+        issues.push_back(std::move(issue));
     return issues;
 }
 

@@ -141,6 +141,26 @@ TEST_CASE("check lists every member that cannot be read, by field")
                                           "bodies[1]", "bodies[2].springs[0]", "colliders[0].sphere.radius"});
 }
 
+TEST_CASE("check lists values out of range beside keys that cannot be read, each by its field")
+{
+    const Folder folder;
+    const std::string scene = folder.file("scene.json", R"({"taut": 1, "damping": -1,
+        "method": {"substeps": 2000, "stretch": -1, "bend": "soft"},
+        "bodies": [{"grid": {}, "material": {"densty": 1, "thickness": -1}},
+                   {"grid": {}, "material": {"thickness": -1}}, 5],
+        "colliders": [{"sphere": {"radius": 0}}, {"sphere": {"radius": "wide"}, "friction": -1}]})");
+    const Result result = folder.taut({"check", scene, "--json"});
+    CHECK(result.status == 2);
+    std::set<std::string> fields;
+    const auto issues = program::parse(result.out)["issues"];
+    for (const auto& issue : issues)
+        fields.insert(issue["field"].get<std::string>());
+    CHECK(fields == std::set<std::string>{
+                        "damping", "method.substeps", "method.stretch", "method.bend", "bodies[0].material",
+                        "bodies[0].material.thickness", "bodies[1].material.thickness", "bodies[2]",
+                        "colliders[0].sphere.radius", "colliders[1].sphere.radius", "colliders[1].friction"});
+}
+
 TEST_CASE("schema prints a JSON Schema, and the tables of the pages")
 {
     const Folder folder;
