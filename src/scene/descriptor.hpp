@@ -1,7 +1,7 @@
 #pragma once
 // Rows that describe the keys of the scene file. Reading, checking, the JSON Schema and the tables of the
 // pages all follow the rows (tables.hpp lists them), so that a key stands in two places: its row and its
-// member.
+// member. docs/how-to/add-a-scene-key.md walks through it.
 
 #include "taut/scene/method_kind.hpp"
 #include "taut/scene/scene.hpp"
