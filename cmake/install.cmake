@@ -8,7 +8,7 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 # What a program may use, and nothing else: a header that is not here can change without notice. The test
 # install_prefix compiles each alone.
 set(taut_public_headers
-    scene/scene.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
+    scene/scene.hpp scene/method_kind.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
     plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/solid.hpp plan/surface.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp
     linear/device_matrix.hpp linear/stencil.hpp linear/preconditioner.hpp linear/aggregation.hpp linear/multigrid.hpp
@@ -40,6 +40,11 @@ install(FILES kernels/shared/layouts.h kernels/shared/portable.glsl
 install(TARGETS taut EXPORT taut-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 if(TARGET taut-cli)
     install(TARGETS taut-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    # What the program itself says of scenes, for editors.
+    set(taut_schema ${PROJECT_BINARY_DIR}/scene.schema.json)
+    add_custom_command(OUTPUT ${taut_schema} COMMAND taut-cli schema > ${taut_schema} DEPENDS taut-cli VERBATIM)
+    add_custom_target(taut_schema ALL DEPENDS ${taut_schema})
+    install(FILES ${taut_schema} DESTINATION ${CMAKE_INSTALL_DATADIR}/taut)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT taut-targets NAMESPACE taut:: DESTINATION ${taut_cmake_dir})

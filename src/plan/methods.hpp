@@ -2,6 +2,7 @@
 // The table of methods: how a step advances. A method is a row; what it adds to a step are rows of the table
 // of effects (builder.hpp) that name it.
 
+#include "taut/scene/method_kind.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <cstdint>
@@ -10,25 +11,8 @@ namespace taut {
 
 struct DeviceTraits;
 
-/// In the order of kMethodNames.
-enum class MethodKind
-{
-    mass_spring,
-    implicit_euler,
-    implicit_constraints,
-    acad,
-    pbd,
-    xpbd,
-    vbd
-};
-
 /// The kind of a scene's method.type. Throws Error{unsupported} for a word that is not in kMethodNames.
 MethodKind method_of(const Scene& scene);
-
-/// Sets of methods, for the rows of effects.
-using MethodSet = std::uint32_t;
-constexpr MethodSet only(MethodKind kind) { return MethodSet{1} << static_cast<unsigned>(kind); }
-inline constexpr MethodSet kAllMethods = (MethodSet{1} << kMethodNames.size()) - 1;
 
 /// Substeps of a time step, and the longest that a substep may become later, s; 0 = any length.
 struct Substeps

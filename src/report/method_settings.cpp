@@ -1,6 +1,8 @@
 #include "taut/report/method_settings.hpp"
 
+#include "taut/scene/key_text.hpp"
 #include "taut/scene/keys.hpp"
+#include "taut/scene/tables.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -10,57 +12,9 @@ namespace taut {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr MethodSet kSolvers =
-    only(MethodKind::implicit_euler) | only(MethodKind::implicit_constraints) | only(MethodKind::acad);
-constexpr MethodSet kConstraints = only(MethodKind::implicit_constraints) | only(MethodKind::acad);
-
-struct Setting
-{
-    const char* key;
-    MethodSet methods; ///< that read it
-    Json (*value)(const MethodSettings&);
-};
-
-Json compliance(const MethodSettings& m)
-{
-    return m.constraint_compliance < 0 ? Json("material") : Json(m.constraint_compliance);
-}
-
-// clang-format off
-constexpr Setting kSettings[] = {
-    // The others refuse what is not "semi_implicit".
-    {"integrator", only(MethodKind::mass_spring) | kConstraints,
-     [](const MethodSettings& m) { return Json(m.integrator); }},
-    {"stability", only(MethodKind::mass_spring) | kConstraints,
-     [](const MethodSettings& m) { return Json(m.stability); }},
-    {"scheme", only(MethodKind::mass_spring) | only(MethodKind::pbd),
-     [](const MethodSettings& m) { return Json(m.scheme); }},
-    {"stretch", only(MethodKind::pbd), [](const MethodSettings& m) { return Json(m.stretch); }},
-    {"bend", only(MethodKind::pbd), [](const MethodSettings& m) { return Json(m.bend); }},
-    {"volume", only(MethodKind::pbd), [](const MethodSettings& m) { return Json(m.volume); }},
-    {"relaxation", only(MethodKind::pbd) | only(MethodKind::vbd),
-     [](const MethodSettings& m) { return Json(m.relaxation); }},
-    {"linear_iterations", kSolvers, [](const MethodSettings& m) { return Json(m.linear_iterations); }},
-    {"linear_tolerance", kSolvers, [](const MethodSettings& m) { return Json(m.linear_tolerance); }},
-    {"linear_operator", only(MethodKind::implicit_euler) | only(MethodKind::implicit_constraints),
-     [](const MethodSettings& m) { return Json(m.linear_operator); }},
-    {"line_search", only(MethodKind::implicit_euler),
-     [](const MethodSettings& m) { return Json(m.line_search); }},
-    {"constrained", kConstraints, [](const MethodSettings& m) { return Json(m.constrained); }},
-    {"constraint_compliance", kConstraints, compliance},
-    {"activate_strain", only(MethodKind::acad),
-     [](const MethodSettings& m) { return Json(m.activate_strain); }},
-    {"release_strain", only(MethodKind::acad),
-     [](const MethodSettings& m) { return Json(m.release_strain); }},
-    {"release", only(MethodKind::acad), [](const MethodSettings& m) { return Json(m.release); }},
-    {"target", only(MethodKind::acad), [](const MethodSettings& m) { return Json(m.target); }},
-    {"compress", only(MethodKind::acad), [](const MethodSettings& m) { return Json(m.compress); }},
-    {"start", only(MethodKind::vbd), [](const MethodSettings& m) { return Json(m.start); }},
-    {"spectral_radius", only(MethodKind::vbd) | only(MethodKind::pbd),
-     [](const MethodSettings& m) { return Json(m.spectral_radius); }},
-};
-// clang-format on
+using scene_file::Key;
+using scene_file::kMethodTable;
+using scene_file::value_of;
 
 /// What the method of these settings reads and is not as by default.
 Json details(const MethodSettings& settings)
@@ -69,9 +23,10 @@ Json details(const MethodSettings& settings)
     MethodSettings usual;
     usual.release_strain = settings.activate_strain; // as a scene has it that says nothing
     Json out = Json::object();
-    for (const Setting& setting : kSettings)
-        if ((setting.methods & method) && setting.value(settings) != setting.value(usual))
-            out[setting.key] = setting.value(settings);
+    for (const Key& key : kMethodTable.keys)
+        if ((key.readers & method) && key.name != "iterations")
+            if (Json value = value_of(key, &settings); value != value_of(key, &usual))
+                out[std::string(key.name)] = std::move(value);
     return out;
 }
 
@@ -133,10 +88,10 @@ bool reads_iterations(MethodKind kind) { return kind != MethodKind::mass_spring;
 
 std::vector<std::string_view> keys_read(MethodKind kind)
 {
-    std::vector<std::string_view> out = {"iterations"}; // mass_spring: of the volume within a surface
-    for (const Setting& setting : kSettings)
-        if (setting.methods & only(kind))
-            out.push_back(setting.key);
+    std::vector<std::string_view> out;
+    for (const Key& key : kMethodTable.keys)
+        if (key.readers & only(kind))
+            out.push_back(key.name);
     return out;
 }
 
@@ -148,16 +103,17 @@ std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::v
         return out;
     const std::vector<std::string_view> read =
         keys_read(static_cast<MethodKind>(type - kMethodNames.begin()));
-    const auto among = [](const auto& keys, const std::string& key) {
-        return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+    const auto reads = [&](const std::string& name) {
+        const Key* key = kMethodTable.find(name);
+        return key && (key->readers == 0 || std::find(read.begin(), read.end(), name) != read.end());
     };
-    constexpr std::string_view kCommon[] = {"type", "substeps", "precision"};
     for (const std::string& key : given)
-        if (!among(kCommon, key) && !among(read, key))
+        if (!reads(key))
             out.push_back({false, "method." + key,
                            "method \"" + settings.type +
                                "\" does not read it; take it out (beside type, substeps and precision it "
-                               "reads " + listed(read) + ")"});
+                               "reads " +
+                               listed(read) + ")"});
     return out;
 }
 

@@ -19,11 +19,11 @@ std::string Checker::join(std::string_view member) const
     return path_.empty() ? std::string(member) : path_ + '.' + std::string(member);
 }
 
-Checker Checker::at(std::string_view member) const { return {issues_, join(member)}; }
+Checker Checker::at(std::string_view member) const { return {issues_, join(member), scope_}; }
 
 Checker Checker::at(std::string_view member, std::size_t index) const
 {
-    return {issues_, join(member) + '[' + std::to_string(index) + ']'};
+    return {issues_, join(member) + '[' + std::to_string(index) + ']', scope_};
 }
 
 void Checker::error(std::string_view member, const std::string& text, ErrorCode code) const
@@ -36,12 +36,24 @@ void Checker::warning(std::string_view member, const std::string& text) const
     issues_.push_back({false, join(member), text, ErrorCode::bad_input});
 }
 
-bool Checker::finite(std::string_view member, double value, std::string_view unit) const
+namespace {
+
+/// " (N/m)", or the note that a number without a unit has.
+std::string in_brackets(std::string_view unit)
+{
+    if (unit.empty())
+        return {};
+    return unit.starts_with('(') ? ' ' + std::string(unit) : " (" + std::string(unit) + ')';
+}
+
+} // namespace
+
+bool Checker::finite(std::string_view member, double value, std::string_view unit, ErrorCode code) const
 {
     if (std::abs(value) <= kMaxValue)
         return true;
-    error(member, "is " + shown(value) + "; it must be finite, at most 1e30 in magnitude" +
-                      (unit.empty() ? "" : " (" + std::string(unit) + ")"));
+    error(member, "is " + shown(value) + "; it must be finite, at most 1e30 in magnitude" + in_brackets(unit),
+          code);
     return false;
 }
 
@@ -49,29 +61,9 @@ bool Checker::finite(std::string_view member, const glm::dvec3& value, std::stri
 {
     if (std::abs(value.x) <= kMaxValue && std::abs(value.y) <= kMaxValue && std::abs(value.z) <= kMaxValue)
         return true;
-    error(member, "is " + shown(value) + "; each number must be finite, at most 1e30 in magnitude (" +
-                      std::string(unit) + ")");
+    error(member, "is " + shown(value) + "; each number must be finite, at most 1e30 in magnitude" +
+                      in_brackets(unit));
     return false;
-}
-
-void Checker::positive(std::string_view member, double value, std::string_view unit) const
-{
-    if (finite(member, value, unit) && !(value > 0))
-        error(member, "is " + shown(value) + "; it must be greater than 0" +
-                          (unit.empty() ? "" : " " + std::string(unit)));
-}
-
-void Checker::not_negative(std::string_view member, double value, std::string_view unit) const
-{
-    if (finite(member, value, unit) && value < 0)
-        error(member, "is " + shown(value) + "; it must be 0 or more " + std::string(unit));
-}
-
-void Checker::range(std::string_view member, std::uint32_t value, std::uint32_t low, std::uint32_t high) const
-{
-    if (value < low || value > high)
-        error(member, "is " + std::to_string(value) + "; it must be from " + std::to_string(low) + " to " +
-                          std::to_string(high));
 }
 
 void Checker::word(std::string_view member, const std::string& value,

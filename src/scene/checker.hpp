@@ -2,6 +2,7 @@
 // Collects what is wrong with a scene: one place for the wording of ranges.
 
 #include "taut/runtime/base/shown.hpp"
+#include "taut/scene/descriptor.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <span>
@@ -11,19 +12,29 @@
 
 namespace taut::scene_file {
 
-/// Largest magnitude of any value: more does not fit the float arithmetic of the kernels.
-inline constexpr double kMaxValue = 1e30;
 /// Most vertices of a generated body; a typing error should not fill the machine's memory.
 inline constexpr double kMaxVertices = 1 << 26;
 
 using taut::shown;
 std::string shown(const glm::dvec3& value);
 
+/// How much is looked at.
+enum class Scope
+{
+    scene,  ///< everything
+    meshes, ///< bodies have theirs already: not where they came from, but the meshes
+    keys    ///< each key by itself: others could not be read
+};
+
 /// Appends issues whose fields start with a path.
 class Checker
 {
 public:
-    Checker(std::vector<SceneIssue>& issues, std::string path) : issues_(issues), path_(std::move(path)) {}
+    Checker(std::vector<SceneIssue>& issues, std::string path, Scope scope = Scope::scene)
+        : issues_(issues),
+          path_(std::move(path)),
+          scope_(scope)
+    {}
 
     /// A checker for a member ("material") or an element ("pins", 3).
     Checker at(std::string_view member) const;
@@ -33,30 +44,48 @@ public:
     void warning(std::string_view member, const std::string& text) const;
 
     /// Finite, and at most kMaxValue in magnitude.
-    bool finite(std::string_view member, double value, std::string_view unit) const;
+    bool finite(std::string_view member, double value, std::string_view unit,
+                ErrorCode code = ErrorCode::bad_input) const;
     bool finite(std::string_view member, const glm::dvec3& value, std::string_view unit) const;
-    void positive(std::string_view member, double value, std::string_view unit) const;
-    void not_negative(std::string_view member, double value, std::string_view unit) const;
-    void range(std::string_view member, std::uint32_t value, std::uint32_t low, std::uint32_t high) const;
     void word(std::string_view member, const std::string& value,
               std::span<const std::string_view> known) const;
+
+    Scope scope() const { return scope_; }
 
 private:
     std::string join(std::string_view member) const;
 
     std::vector<SceneIssue>& issues_;
     std::string path_;
+    Scope scope_;
 };
 
 /// Indices of pins, springs, masses and start positions against the number of vertices.
 void check_counts(const Body& body, std::size_t vertex_count, const Checker& out);
 
-/// Words and ranges of a shape, and of a body's material. `solid`: it has tetrahedra.
-void check_shape(const Shape& shape, const Checker& out);
-void check_material(const Material& material, bool solid, const Checker& out);
+/// Elements of a mesh against its vertices. `kind` says where it came from.
+void check_mesh(const Mesh& mesh, ShapeKind kind, const Checker& out);
 
-/// Words and ranges of the method's settings, and of the wind.
+// What tables ask for beside the ranges of their keys.
+void check_scene(const Scene& scene, const Checker& out);
 void check_method(const MethodSettings& method, const Checker& out);
-void check_wind(const Wind& wind, const Checker& out);
+void check_body(const Body& body, const Checker& out);
+void check_grid(const Shape& shape, const Checker& out);
+void check_box(const Shape& shape, const Checker& out);
+void check_ball(const Shape& shape, const Checker& out);
+void check_cloth(const Material& material, const Checker& out);
+void check_solid(const Material& material, const Checker& out);
+void check_pin(const Pin& pin, const Checker& out);
+void check_pin_box(const Pin& pin, const Checker& out);
+void check_spring(const Body::Spring& spring, const Checker& out);
+void check_collider(const Collider& collider, const Checker& out);
+
+/// An axis that something is turned about: it must have a direction.
+void check_axis(const glm::dvec3& axis, double degrees, const Checker& out);
+template <class Turned>
+void check_turn(const Turned& turned, const Checker& out)
+{
+    check_axis(turned.rotate_axis, turned.rotate_degrees, out);
+}
 
 } // namespace taut::scene_file

@@ -1,6 +1,7 @@
 #include "taut/scene/field.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/descriptor.hpp"
 #include "taut/scene/keys.hpp"
 
 #include <algorithm>
@@ -20,6 +21,15 @@ std::string shown(const nlohmann::json& value)
         return "a list of " + std::to_string(value.size());
     const std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+/// What to say to one who writes a key that means something elsewhere; empty if nothing is known.
+std::string_view advice(const Table& table, std::string_view key)
+{
+    for (const Stranger& stranger : table.strangers)
+        if (stranger.name == key)
+            return stranger.advice;
+    return {};
 }
 
 } // namespace
@@ -54,41 +64,34 @@ void Field::fail(const std::string& text) const
 
 void Field::refuse(const std::string& right) const { fail("is " + shown(*value_) + "; " + right); }
 
-const Field& Field::object(std::string_view kind)
+const Field& Field::object(const Table& table)
 {
-    const KeySet& known = keys_of(kind);
+    const std::vector<std::string_view> known = names(table);
     if (!value_->is_object())
-        refuse("it must be an object with the keys " + listing(known.keys));
+        refuse("it must be an object with the keys " + listing(known));
     for (const auto& item : value_->items())
     {
-        if (std::find(known.keys.begin(), known.keys.end(), item.key()) != known.keys.end())
+        if (table.find(item.key()))
             continue;
-        const std::string_view hint = meant(kind, item.key());
-        const std::string close = nearest(item.key(), known.keys);
+        const std::string_view hint = advice(table, item.key());
+        const std::string close = nearest(item.key(), known);
         const std::string right = !hint.empty()   ? std::string(hint)
-                                  : close.empty() ? "it may have " + listing(known.keys)
+                                  : close.empty() ? "it may have " + listing(known)
                                                   : "did you mean \"" + close + "\"?";
         attempt([&] { fail("has the unknown key " + shown(item.key()) + "; " + right); });
     }
-    kind_ = known.object;
+    table_ = &table;
     return *this;
 }
 
 std::optional<Field> Field::find(std::string_view key) const
 {
     // A key that is read but not in the table would be refused in every file: a fault of ours.
-    assert(std::count(keys_of(kind_).keys.begin(), keys_of(kind_).keys.end(), key) == 1);
+    assert(table_ && table_->find(key));
     const auto member = value_->find(std::string(key));
     if (member == value_->end())
         return std::nullopt;
     return Field(*member, *file_, (path_.empty() ? "" : path_ + ".") + std::string(key), issues_);
-}
-
-Field Field::need(std::string_view key) const
-{
-    if (const auto member = find(key))
-        return *member;
-    fail("lacks the key \"" + std::string(key) + "\"");
 }
 
 double Field::number() const
@@ -137,36 +140,6 @@ glm::dvec3 Field::vector() const
         refuse("it must be three numbers [x, y, z]");
     const std::vector<Field> part = elements();
     return {part[0].number(), part[1].number(), part[2].number()};
-}
-
-void Field::read(std::string_view key, double& out) const
-{
-    if (const auto member = find(key))
-        attempt([&] { out = member->number(); });
-}
-
-void Field::read(std::string_view key, std::uint32_t& out) const
-{
-    if (const auto member = find(key))
-        attempt([&] { out = member->count(); });
-}
-
-void Field::read(std::string_view key, bool& out) const
-{
-    if (const auto member = find(key))
-        attempt([&] { out = member->boolean(); });
-}
-
-void Field::read(std::string_view key, std::string& out) const
-{
-    if (const auto member = find(key))
-        attempt([&] { out = member->text(); });
-}
-
-void Field::read(std::string_view key, glm::dvec3& out) const
-{
-    if (const auto member = find(key))
-        attempt([&] { out = member->vector(); });
 }
 
 } // namespace taut::scene_file

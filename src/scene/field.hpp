@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "taut/runtime/base/error.hpp"
@@ -17,6 +16,8 @@
 #include <vector>
 
 namespace taut::scene_file {
+
+struct Table;
 
 /// What a reader throws once it has put a mistake on a list; attempt() goes on behind it.
 struct Listed
@@ -43,13 +44,11 @@ public:
             attempt([&] { read(element); });
     }
 
-    /// Refuses anything but an object whose keys are all in keys_of(kind).
-    const Field& object(std::string_view kind);
+    /// Refuses anything but an object whose keys are all in the table, which must outlive the view.
+    const Field& object(const Table& table);
 
     /// The member of an object, if the file has it.
     std::optional<Field> find(std::string_view key) const;
-    /// The member; its absence is an error.
-    Field need(std::string_view key) const;
 
     double number() const;
     /// Whole, 0..2^32-1. `right`: what to say where it is not, in place of that.
@@ -61,13 +60,6 @@ public:
 
     bool is_text() const { return value_->is_string(); }
 
-    /// Reads the member into `out` if it is there, else leaves the default.
-    void read(std::string_view key, double& out) const;
-    void read(std::string_view key, std::uint32_t& out) const;
-    void read(std::string_view key, bool& out) const;
-    void read(std::string_view key, std::string& out) const;
-    void read(std::string_view key, glm::dvec3& out) const;
-
     /// "FILE: PATH is FOUND; RIGHT"
     [[noreturn]] void refuse(const std::string& right) const;
     /// "FILE: PATH TEXT"
@@ -77,7 +69,7 @@ private:
     const nlohmann::json* value_;
     const std::string* file_;
     std::string path_;
-    std::string_view kind_;
+    const Table* table_ = nullptr;
     std::vector<SceneIssue>* issues_;
 };
 

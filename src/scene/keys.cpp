@@ -1,111 +1,17 @@
 #include "taut/scene/keys.hpp"
 
+#include "taut/scene/descriptor.hpp"
+
 #include <algorithm>
-#include <array>
-#include <cassert>
 
 namespace taut::scene_file {
 
-namespace {
-
-KeySet method_keys()
+std::vector<std::string_view> names(const Table& table)
 {
-    return {"method",
-            {"type",
-             "substeps",
-             "iterations",
-             "precision",
-             "integrator",
-             "stability",
-             "scheme",
-             "stretch",
-             "bend",
-             "volume",
-             "relaxation",
-             "linear_iterations",
-             "linear_tolerance",
-             "linear_operator",
-             "line_search",
-             "constrained",
-             "constraint_compliance",
-             "activate_strain",
-             "release_strain",
-             "release",
-             "target",
-             "compress",
-             "start",
-             "spectral_radius"}};
-}
-
-} // namespace
-
-std::span<const KeySet> all_keys()
-{
-    static const std::vector<KeySet> sets = {
-        {"scene",
-         {"taut", "name", "timestep", "duration", "gravity", "damping", "max_speed", "depenetration_speed",
-          "external_forces", "method", "accept", "wind", "bodies", "colliders"}},
-        method_keys(),
-        {"accept", {"stretch", "residual", "inverted"}},
-        {"wind", {"density", "velocity", "keys"}},
-        {"wind key", {"time", "velocity"}},
-        {"body",
-         {"name", "grid", "chain", "mesh", "weld_distance", "box", "ball", "tetrahedra", "material",
-          "transform", "velocity", "pins", "springs", "vertex_masses", "start_positions", "embedded"}},
-        {"grid", {"cells", "size", "diagonals", "network"}},
-        {"network", {"structural", "shear", "bend"}},
-        {"chain", {"links", "length", "width"}},
-        {"material",
-         {"density", "stretch_stiffness", "bending_stiffness", "thickness", "stretch_damping", "strain_limit",
-          "attachment_slack", "tear_strain", "drag", "friction_drag", "volume_stiffness", "pressure",
-          "pressure_law", "plastic_yield", "plastic_creep", "plastic_limit"}},
-        {"solid box", {"cells", "size", "split"}},
-        {"ball", {"cells", "radius"}},
-        {"solid material",
-         {"density", "youngs_modulus", "poissons_ratio", "model", "volume_stiffness", "volume",
-          "bending_stiffness", "thickness", "stretch_damping", "strain_limit", "attachment_slack", "drag",
-          "friction_drag", "pressure", "pressure_law", "plastic_yield", "plastic_creep", "plastic_limit"}},
-        {"transform", {"translate", "rotate", "scale"}},
-        {"rotate", {"axis", "degrees"}},
-        {"pin", {"vertices", "box", "corner", "corners", "edge", "edges", "face", "faces", "motion"}},
-        {"box", {"min", "max"}},
-        {"keyframe", {"time", "translate", "rotate"}},
-        {"keyframe rotate", {"axis", "degrees", "centre"}},
-        {"spring", {"a", "b", "rest_length", "compliance"}},
-        {"collider", {"name", "plane", "sphere", "capsule", "cuboid", "friction", "motion"}},
-        {"plane", {"point", "normal"}},
-        {"sphere", {"centre", "radius"}},
-        {"capsule", {"from", "to", "radius"}},
-        {"cuboid", {"centre", "half_size", "rotate"}},
-    };
-    return sets;
-}
-
-const KeySet& keys_of(std::string_view object)
-{
-    const auto sets = all_keys();
-    const auto found =
-        std::find_if(sets.begin(), sets.end(), [&](const KeySet& s) { return s.object == object; });
-    assert(found != sets.end());
-    return *found;
-}
-
-std::string_view meant(std::string_view object, std::string_view key)
-{
-    constexpr std::string_view solid =
-        "a solid is as stiff as \"youngs_modulus\" (Pa) and \"poissons_ratio\" say";
-    constexpr std::string_view cloth =
-        "cloth is as stiff as \"stretch_stiffness\" (N/m) and \"bending_stiffness\" (N m) say";
-    constexpr std::array<std::array<std::string_view, 3>, 4> known = {{
-        {"solid material", "stretch_stiffness", solid},
-        {"solid material", "tear_strain", "solids do not tear"},
-        {"material", "youngs_modulus", cloth},
-        {"material", "poissons_ratio", cloth},
-    }};
-    for (const auto& [kind, wrong, text] : known)
-        if (kind == object && wrong == key)
-            return text;
-    return {};
+    std::vector<std::string_view> out;
+    for (const Key& key : table.keys)
+        out.push_back(key.name);
+    return out;
 }
 
 namespace {

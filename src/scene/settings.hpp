@@ -19,8 +19,9 @@ Scene parse_scene(std::string_view json, const std::filesystem::path& directory,
 Scene resolve_file(const std::filesystem::path& file, std::span<const std::string> settings,
                    std::vector<SceneIssue>* found = nullptr);
 
-/// All that is wrong with a scene file: every member that cannot be read, or, where all can, what check()
-/// says. Throws Error{io} where the file cannot be read, Error{bad_input} where it is not JSON.
+/// All that is wrong with a scene file: every key that cannot be read, and what check() says; where there is
+/// such a key, check() looks at each of the others by itself. Throws Error{io} where the file cannot be read,
+/// Error{bad_input} where it is not JSON.
 std::vector<SceneIssue> check_file(const std::filesystem::path& file);
 
 /// Whether one of them is an error, not a warning.

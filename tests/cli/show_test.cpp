@@ -141,6 +141,41 @@ TEST_CASE("check lists every member that cannot be read, by field")
                                           "bodies[1]", "bodies[2].springs[0]", "colliders[0].sphere.radius"});
 }
 
+TEST_CASE("check lists values out of range beside keys that cannot be read, each by its field")
+{
+    const Folder folder;
+    const std::string scene = folder.file("scene.json", R"({"taut": 1, "damping": -1,
+        "method": {"substeps": 2000, "stretch": -1, "bend": "soft"},
+        "bodies": [{"grid": {}, "material": {"densty": 1, "thickness": -1}},
+                   {"grid": {}, "material": {"thickness": -1}}, 5],
+        "colliders": [{"sphere": {"radius": 0}}, {"sphere": {"radius": "wide"}, "friction": -1}]})");
+    const Result result = folder.taut({"check", scene, "--json"});
+    CHECK(result.status == 2);
+    std::set<std::string> fields;
+    const auto issues = program::parse(result.out)["issues"];
+    for (const auto& issue : issues)
+        fields.insert(issue["field"].get<std::string>());
+    CHECK(fields == std::set<std::string>{
+                        "damping", "method.substeps", "method.stretch", "method.bend", "bodies[0].material",
+                        "bodies[0].material.thickness", "bodies[1].material.thickness", "bodies[2]",
+                        "colliders[0].sphere.radius", "colliders[1].sphere.radius", "colliders[1].friction"});
+}
+
+TEST_CASE("schema prints a JSON Schema, and the tables of the pages")
+{
+    const Folder folder;
+    const Result result = folder.taut({"schema"});
+    CHECK(result.status == 0);
+    CHECK(result.err.empty());
+    const auto schema = program::parse(result.out);
+    CHECK(schema["$schema"] == "https://json-schema.org/draft/2020-12/schema");
+    CHECK(schema["properties"]["timestep"]["maximum"] == 1);
+    const Result tables = folder.taut({"schema", "--markdown"});
+    CHECK(tables.status == 0);
+    CHECK(tables.out.rfind("<!-- scene -->\n", 0) == 0);
+    CHECK(tables.out.find("| `timestep` | time between two frames | s | 1/60 |") != std::string::npos);
+}
+
 TEST_CASE("check names the box whose tetrahedra have no volume, and a timestep that is too short")
 {
     const Folder folder;
@@ -194,7 +229,7 @@ TEST_CASE("version and help go to standard output with status 0")
     CHECK(version.out.rfind("taut ", 0) == 0);
     const Result help = folder.taut({"--help"});
     CHECK(help.status == 0);
-    for (const char* command : {"run", "plan", "cost", "solve", "check", "devices"})
+    for (const char* command : {"run", "plan", "cost", "solve", "check", "schema", "devices"})
         CHECK(help.out.find(command) != std::string::npos);
     const Result run_help = folder.taut({"run", "--help"});
     CHECK(run_help.status == 0);

@@ -6,6 +6,12 @@ if(NOT output MATCHES "${VERSION}")
     message(FATAL_ERROR "taut --version printed: ${output}")
 endif()
 
+file(READ ${PREFIX}/${DATADIR}/taut/scene.schema.json schema)
+string(JSON draft GET "${schema}" "$schema")
+if(NOT draft MATCHES "2020-12")
+    message(FATAL_ERROR "the installed schema is of: ${draft}")
+endif()
+
 # Every installed header compiles alone: the tree holds no header that cannot be used.
 file(GLOB_RECURSE headers RELATIVE ${PREFIX}/include ${PREFIX}/include/taut/*.hpp)
 if(NOT "taut/world/world.hpp" IN_LIST headers OR "taut/scene/checker.hpp" IN_LIST headers)

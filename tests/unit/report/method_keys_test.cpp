@@ -1,14 +1,14 @@
-// The table of keys that methods read against the pages and scenes that speak of them.
+// The table of keys that methods read against the scenes that speak of them.
 
 #include "support/catch.hpp"
 
 #include "taut/report/method_settings.hpp"
 #include "taut/scene/keys.hpp"
 #include "taut/scene/settings.hpp"
+#include "taut/scene/tables.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 using namespace taut;
@@ -16,32 +16,6 @@ using namespace taut;
 namespace {
 
 using Words = std::set<std::string>;
-
-/// What stands between backquotes.
-Words quoted(const std::string& text)
-{
-    Words out;
-    for (std::size_t at = text.find('`'); at != std::string::npos;)
-    {
-        const std::size_t end = text.find('`', at + 1);
-        out.insert(text.substr(at + 1, end - at - 1));
-        at = text.find('`', end + 1);
-    }
-    return out;
-}
-
-/// The last column of a method's row in docs/methods.md.
-Words documented(const std::string& method)
-{
-    std::ifstream page(std::string(TAUT_SOURCE_DIR) + "/docs/methods.md");
-    for (std::string line; std::getline(page, line);)
-        if (line.rfind("| `" + method + "` |", 0) == 0 || line.rfind("| [`" + method + "`](", 0) == 0)
-        {
-            const std::size_t last = line.rfind('|'), before = line.rfind('|', last - 1);
-            return quoted(line.substr(before, last - before));
-        }
-    return {};
-}
 
 Words read_by(MethodKind kind)
 {
@@ -51,21 +25,12 @@ Words read_by(MethodKind kind)
 
 } // namespace
 
-TEST_CASE("docs/methods.md lists for each method exactly the keys that it reads", "[method_keys]")
-{
-    for (std::size_t k = 0; k < kMethodNames.size(); ++k)
-    {
-        CAPTURE(kMethodNames[k]);
-        CHECK(documented(std::string(kMethodNames[k])) == read_by(static_cast<MethodKind>(k)));
-    }
-}
-
 TEST_CASE("every key of a method is read by one at least", "[method_keys]")
 {
     Words known = {"type", "substeps", "precision"};
     for (std::size_t k = 0; k < kMethodNames.size(); ++k)
         known.merge(read_by(static_cast<MethodKind>(k)));
-    const auto& keys = scene_file::keys_of("method").keys;
+    const auto keys = scene_file::names(scene_file::kMethodTable);
     CHECK(known == Words(keys.begin(), keys.end()));
 }
 

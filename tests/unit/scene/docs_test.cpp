@@ -1,9 +1,11 @@
 #include "support/catch.hpp"
 
 #include "taut/runtime/base/error.hpp"
-#include "taut/scene/keys.hpp"
 #include "taut/scene/scene.hpp"
+#include "taut/scene/schema.hpp"
+#include "taut/scene/tables.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -14,60 +16,78 @@ namespace {
 
 const std::filesystem::path kRoot = TAUT_SOURCE_DIR;
 
-std::string page()
+std::string page(const char* name)
 {
-    std::ifstream stream(kRoot / "docs" / "scene.md");
+    std::ifstream stream(kRoot / "docs" / name);
     std::ostringstream text;
     text << stream.rdbuf();
     return text.str();
 }
 
-/// The section of docs/scene.md under the heading "## `object`".
-std::string section(const std::string& text, std::string_view object)
+/// What stands from each "<!-- NAME -->" to the next "<!-- end -->", in order.
+std::vector<std::string> tables_in(const std::string& text)
 {
-    const std::size_t begin = text.find("\n## `" + std::string(object) + "`");
-    if (begin == std::string::npos)
-        return {};
-    return text.substr(begin, text.find("\n## ", begin + 1) - begin);
+    std::vector<std::string> out;
+    const std::string begin = "\n<!-- ", end = "\n<!-- end -->\n";
+    for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at))
+    {
+        const std::size_t last = text.find(end, at) + end.size() - 1;
+        out.push_back(text.substr(at, last - at));
+        at = last;
+    }
+    return out;
 }
 
 } // namespace
 
-TEST_CASE("every key of the parser has a row in docs/scene.md, under its object")
+TEST_CASE("the pages have the tables of the program (docs/update_tables.sh puts them there)")
 {
-    const std::string text = page();
-    REQUIRE(!text.empty());
-    for (const scene_file::KeySet& set : scene_file::all_keys())
+    std::vector<std::string> shown = tables_in(page("scene.md"));
+    for (std::string& table : tables_in(page("methods.md")))
+        shown.push_back(std::move(table));
+    const std::vector<std::string> made = tables_in("\n" + scene_file::tables_as_markdown());
+    REQUIRE(shown.size() == made.size());
+    REQUIRE(made.size() == scene_file::all_tables().size() + 1);
+    for (std::size_t i = 0; i < made.size(); ++i)
+        CHECK(shown[i] == made[i]);
+}
+
+TEST_CASE("each table stands under the heading of its object")
+{
+    const std::string text = page("scene.md");
+    for (const scene_file::Table* table : scene_file::all_tables())
     {
-        const std::string rows = section(text, set.object);
-        INFO("## `" << set.object << "`");
-        CHECK(!rows.empty());
-        for (const std::string_view key : set.keys)
-        {
-            INFO(key);
-            CHECK(rows.find("\n| `" + std::string(key) + "` |") != std::string::npos);
-        }
+        const std::string name(table->name);
+        INFO(name);
+        const std::size_t heading = text.find("\n## `" + name + "`\n");
+        REQUIRE(heading != std::string::npos);
+        CHECK(text.find("\n<!-- " + name + " -->\n") < text.find("\n## ", heading + 1));
     }
 }
 
-TEST_CASE("every row of docs/scene.md is a key of the parser")
+TEST_CASE("rows have a sentence, and what they name is there")
 {
-    const std::string text = page();
-    for (const scene_file::KeySet& set : scene_file::all_keys())
-    {
-        const std::string rows = section(text, set.object);
-        for (std::size_t at = rows.find("\n| `"); at != std::string::npos; at = rows.find("\n| `", at + 1))
+    for (const scene_file::Table* table : scene_file::all_tables())
+        for (const scene_file::Key& key : table->keys)
         {
-            const std::string key = rows.substr(at + 4, rows.find('`', at + 4) - at - 4);
-            INFO(set.object << ": " << key);
-            CHECK(std::find(set.keys.begin(), set.keys.end(), key) != set.keys.end());
+            INFO(table->name << ": " << key.name);
+            CHECK(!key.what.empty());
+            CHECK(std::count_if(table->keys.begin(), table->keys.end(),
+                                [&](const auto& other) { return other.name == key.name; }) == 1);
+            const std::string_view file = key.page.substr(0, key.page.find('#'));
+            CHECK((key.page.empty() || std::filesystem::exists(kRoot / "docs" / file)));
+            CHECK((key.beside.empty() || key.beside == "solids" || table->find(key.beside)));
+            if (key.kind != scene_file::Kind::object && key.kind != scene_file::Kind::objects)
+                continue;
+            const auto all = scene_file::all_tables();
+            CHECK(std::any_of(all.begin(), all.end(),
+                              [&](const scene_file::Table* t) { return t->name == key.table->name; }));
         }
-    }
 }
 
 TEST_CASE("the examples in docs/scene.md are scenes without a fault")
 {
-    const std::string text = page(), fence = "```json\n";
+    const std::string text = page("scene.md"), fence = "```json\n";
     int examples = 0;
     for (std::size_t at = text.find(fence); at != std::string::npos;
          at = text.find(fence, at + 1), ++examples)

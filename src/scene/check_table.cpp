@@ -1,0 +1,152 @@
+#include "taut/scene/check_table.hpp"
+
+#include "taut/scene/key_text.hpp"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace taut::scene_file {
+namespace {
+
+template <class T>
+const T& as(const void* member)
+{
+    return *static_cast<const T*>(member);
+}
+
+/// Values that a file cannot say, and that stand for something in the struct.
+bool stands_for_something(const Key& key, double value)
+{
+    if (key.has_unset && value == key.unset)
+        return true;
+    return !key.word.empty() &&
+           (value == key.word_value || (key.limits.too_low(key.word_value) && value < key.limits.low));
+}
+
+void check_number(const Key& key, std::string_view member, double value, const Checker& out)
+{
+    if (stands_for_something(key, value) || !out.finite(member, value, key.unit_text, key.error))
+        return;
+    if (!key.limits.contains(value))
+        out.error(member, "is " + with_unit(value, key) + "; it must be " + limits_text(key), key.error);
+}
+
+void check_count(const Key& key, std::uint32_t value, const Checker& out)
+{
+    if (stands_for_something(key, value) || key.limits.contains(value))
+        return;
+    const bool open = key.limits.high == kMaxCount;
+    out.error(key.name, "is " + std::to_string(value) + "; it must be " +
+                            (open ? shown(key.limits.low) + " or more"
+                                  : "from " + shown(key.limits.low) + " to " + shown(key.limits.high, 10)));
+}
+
+/// Numbers of one key: each within its limits.
+template <class Vector>
+void check_parts(const Key& key, const Vector& value, const Checker& out)
+{
+    std::string whole;
+    bool good = true;
+    for (int i = 0; i < Vector::length(); ++i)
+    {
+        good = good && key.limits.contains(value[i]);
+        whole += (i == 0 ? "[" : ", ") + shown(value[i]);
+    }
+    if (good)
+        return;
+    Key low = key;
+    if (key.limits.high >= kMaxCount)
+        low.limits.high = kMaxValue;
+    out.error(key.name, "is " + whole + "]; " + (Vector::length() == 2 ? "both" : "each") + " must be " +
+                            limits_text(low) + (low.limits.has_high() ? "" : ", and finite"));
+}
+
+void check_vector(const Key& key, std::string_view member, const glm::dvec3& value, const Checker& out)
+{
+    const bool finite = out.finite(member, value, key.is_direction ? "any length but 0" : unit_of(key));
+    if (finite && key.is_direction && !(glm::length(value) > 0))
+        out.error(member, "is " + shown(value) + "; it must have a direction, for example [0, 1, 0]");
+    if (finite && key.limits.has_low())
+        check_parts(key, value, out);
+}
+
+void check_objects(const Key& key, const void* list, const Checker& out)
+{
+    const Key* time = nullptr;
+    for (const Key& k : key.table->keys)
+        if (k.is_ascending && out.scope() != Scope::keys)
+            time = &k;
+    const auto at = [&](const void* element) { return as<double>(time->at(const_cast<void*>(element))); };
+    for (std::size_t i = 0; i < key.access.size(list); ++i)
+    {
+        const void* element = key.access.element(list, i);
+        const Checker each = out.at(key.name, i);
+        check_table(*key.table, element, each);
+        if (!time || i == 0 || !(std::abs(at(element)) <= kMaxValue))
+            continue;
+        const double last = at(key.access.element(list, i - 1));
+        if (!(at(element) > last))
+            each.error(time->name, "is " + shown(at(element)) + " s, and the key before it stands at " +
+                                       shown(last) + " s; times must ascend");
+    }
+}
+
+void check_text(const Key& key, const std::string& value, const Checker& out)
+{
+    if (!key.word_sets[0].words.empty())
+        out.word(key.name, value, key.word_sets[0].words);
+}
+
+void check_key(const Key& key, const void* object, const Checker& out)
+{
+    if ((key.present && !key.present(object)) || (key.is_source && out.scope() == Scope::meshes) || !key.at)
+        return;
+    const void* member = key.at(const_cast<void*>(object)); // only finds it
+    switch (key.kind)
+    {
+    case Kind::number: return check_number(key, key.name, as<double>(member), out);
+    case Kind::count: return check_count(key, as<std::uint32_t>(member), out);
+    case Kind::text: return check_text(key, as<std::string>(member), out);
+    case Kind::vector: return check_vector(key, key.name, as<glm::dvec3>(member), out);
+    case Kind::number_pair: return check_parts(key, as<glm::dvec2>(member), out);
+    case Kind::count_pair: return check_parts(key, as<glm::uvec2>(member), out);
+    case Kind::count_triple: return check_parts(key, as<glm::uvec3>(member), out);
+    case Kind::numbers: // an element that could not be read has left its place to the next
+        if (out.scope() == Scope::keys)
+            return;
+        for (std::size_t i = 0; i < as<std::vector<double>>(member).size(); ++i)
+            check_number(key, "", as<std::vector<double>>(member)[i], out.at(key.name, i));
+        return;
+    case Kind::vectors:
+        if (out.scope() == Scope::keys)
+            return;
+        for (std::size_t i = 0; i < as<std::vector<glm::dvec3>>(member).size(); ++i)
+            check_vector(key, "", as<std::vector<glm::dvec3>>(member)[i], out.at(key.name, i));
+        return;
+    case Kind::object:
+    {
+        const bool solid = key.solids && key.solids(object);
+        return check_table(solid ? *key.solid_table : *key.table, member, out.at(key.name));
+    }
+    case Kind::objects: return check_objects(key, member, out);
+    case Kind::version:
+    case Kind::boolean:
+    case Kind::file:
+    case Kind::counts:
+    case Kind::texts:
+    case Kind::ignored: return; // the tables' own checks look at these
+    }
+}
+
+} // namespace
+
+void check_table(const Table& table, const void* object, const Checker& out)
+{
+    for (const Key& key : table.keys)
+        check_key(key, object, out);
+    if (table.check && out.scope() != Scope::keys)
+        table.check(object, out);
+}
+
+} // namespace taut::scene_file

@@ -1,0 +1,166 @@
+#include "taut/scene/read_table.hpp"
+
+#include "taut/scene/key_text.hpp"
+#include "taut/scene/keys.hpp"
+
+namespace taut::scene_file {
+namespace {
+
+template <class T>
+T& as(void* member)
+{
+    return *static_cast<T*>(member);
+}
+
+double read_number(const Field& value, const Key& key)
+{
+    if (key.word.empty())
+        return value.number();
+    if (value.is_text() && value.text() == key.word)
+        return key.word_value;
+    if (value.is_text())
+        value.refuse("it must be a number" +
+                     (key.unit_text.empty() ? "" : " in " + std::string(key.unit_text)) + " or \"" +
+                     std::string(key.word) + '"');
+    const double number = value.number();
+    if (key.limits.too_low(number)) // the struct may mean the word by it
+        value.refuse("it must be " + low_text(key) + ", or \"" + std::string(key.word) + '"');
+    return number;
+}
+
+std::uint32_t read_count(const Field& value, const Key& key)
+{
+    if (key.word.empty())
+        return value.count();
+    const std::string right =
+        "it must be a whole number from " + std::to_string(std::uint32_t(key.limits.low)) + " to " +
+        std::to_string(std::uint32_t(key.limits.high)) + ", or \"" + std::string(key.word) + '"';
+    if (value.is_text() && value.text() == key.word)
+        return static_cast<std::uint32_t>(key.word_value);
+    const std::uint32_t count = value.count(right);
+    if (key.limits.too_low(count))
+        value.refuse(right);
+    return count;
+}
+
+/// The elements of a list of a fixed length.
+std::vector<Field> read_parts(const Field& value, const Key& key, std::size_t count, std::string_view what)
+{
+    std::vector<Field> parts = value.elements();
+    if (parts.size() != count)
+        value.refuse("it must be " + std::string(count == 2 ? "two " : "three ") + std::string(what) + ' ' +
+                     std::string(key.parts) +
+                     (key.unit_text.empty() ? "" : " in " + std::string(key.unit_text)));
+    return parts;
+}
+
+template <class Vector>
+void read_counts(const Field& value, const Key& key, Vector& out)
+{
+    const auto parts = read_parts(value, key, std::size_t(Vector::length()), "whole numbers");
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        out[int(i)] = parts[i].count();
+}
+
+void read_texts(const Field& value, const Key& key, std::vector<std::string>& out)
+{
+    if (key.is_single)
+        out.push_back(value.text());
+    else
+        value.each([&](const Field& text) { out.push_back(text.text()); });
+}
+
+/// An element that cannot be read keeps its place, so that the next ones have the numbers of the file.
+void read_objects(const Field& value, const Key& key, void* list)
+{
+    value.each([&](const Field& element) { read_table(element, *key.table, key.access.append(list)); });
+}
+
+void read_value(const Field& value, const Key& key, void* member)
+{
+    switch (key.kind)
+    {
+    case Kind::number: as<double>(member) = read_number(value, key); return;
+    case Kind::count: as<std::uint32_t>(member) = read_count(value, key); return;
+    case Kind::version: as<int>(member) = static_cast<int>(value.count()); return;
+    case Kind::boolean: as<bool>(member) = value.boolean(); return;
+    case Kind::text: as<std::string>(member) = value.text(); return;
+    case Kind::file: as<std::filesystem::path>(member) = value.text(); return;
+    case Kind::vector: as<glm::dvec3>(member) = value.vector(); return;
+    case Kind::number_pair:
+    {
+        const auto parts = read_parts(value, key, 2, "numbers");
+        as<glm::dvec2>(member) = {parts[0].number(), parts[1].number()};
+        return;
+    }
+    case Kind::count_pair: return read_counts(value, key, as<glm::uvec2>(member));
+    case Kind::count_triple: return read_counts(value, key, as<glm::uvec3>(member));
+    case Kind::counts:
+        return value.each(
+            [&](const Field& v) { as<std::vector<std::uint32_t>>(member).push_back(v.count()); });
+    case Kind::numbers:
+        return value.each([&](const Field& v) { as<std::vector<double>>(member).push_back(v.number()); });
+    case Kind::vectors:
+        return value.each([&](const Field& v) { as<std::vector<glm::dvec3>>(member).push_back(v.vector()); });
+    case Kind::texts: return read_texts(value, key, as<std::vector<std::string>>(member));
+    case Kind::object: return read_table(value, *key.table, member);
+    case Kind::objects: return read_objects(value, key, member);
+    case Kind::ignored: value.text(); return;
+    }
+}
+
+/// The choices that the object has; refuses a number of them that the table does not allow.
+std::vector<const Key*> choose(const Field& field, const Table& table)
+{
+    std::vector<const Key*> chosen;
+    std::vector<std::string_view> all;
+    for (const Key& key : table.keys)
+    {
+        if (!key.is_choice)
+            continue;
+        all.push_back(key.name);
+        if (field.find(key.name))
+            chosen.push_back(&key);
+    }
+    if (table.choice != Choice::exactly_one)
+        return chosen; // what names nothing is told with what names an empty list, by check()
+    if (chosen.size() > 1)
+        field.fail("has both \"" + std::string(chosen[0]->name) + "\" and \"" + std::string(chosen[1]->name) +
+                   "\"; keep one");
+    if (chosen.empty())
+        field.fail("needs one of " + listing(all));
+    return chosen;
+}
+
+void read_key(const Field& field, const Key& key, const std::vector<const Key*>& chosen, void* object)
+{
+    const auto value = field.find(key.name);
+    if (!value && key.is_needed)
+        field.fail("lacks the key \"" + std::string(key.name) + '"' +
+                   (key.advice.empty() ? "" : "; " + std::string(key.advice)));
+    if (key.own)
+        return key.own(field, object);
+    if (!value)
+        return;
+    if (const auto* table_choice = chosen.empty() ? nullptr : chosen[0];
+        table_choice && !key.beside.empty() && key.beside != table_choice->name)
+        value->fail("stands beside \"" + std::string(table_choice->name) + "\"; it belongs to \"" +
+                    std::string(key.beside) + "\" only");
+    if (key.begin)
+        key.begin(object);
+    read_value(*value, key, key.at ? key.at(object) : nullptr);
+}
+
+} // namespace
+
+void read_table(Field field, const Table& table, void* object)
+{
+    field.object(table);
+    if (table.begin)
+        table.begin(object);
+    const auto chosen = choose(field, table);
+    for (const Key& key : table.keys)
+        Field::attempt([&] { read_key(field, key, chosen, object); });
+}
+
+} // namespace taut::scene_file
