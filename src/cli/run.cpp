@@ -357,6 +357,7 @@ void add_run(CLI::App& app, Command& chosen)
     add_device_option(*command, options->simulation.device,
                       ", hybrid (the native CPU and the best other device at once), hybrid:DEVICE, "
                       "hybrid:DEVICE+DEVICE");
+    add_costs_option(*command);
     command
         ->add_option("--split", options->simulation.split,
                      "What --device hybrid divides: bodies (default), or vertices, which also cuts a single "
