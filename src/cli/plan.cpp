@@ -130,7 +130,7 @@ int show_plan(const PlanCommand& options)
     }
     else if (const auto costs = fixed_costs())
         set_costs(traits, *costs);
-    const Plan plan = make_plan(scene, traits);
+    const Plan plan = naming(options.scene, [&] { return make_plan(scene, traits); });
     std::cout << (options.json ? to_text(to_json(options, plan, name, traits))
                                : to_table(plan) + costs_text(traits, !name.empty()));
     return kDone;

@@ -298,7 +298,8 @@ void draw(const RunCommand& options, const World& world, const std::shared_ptr<D
 
 RunResult simulate(const RunCommand& options, const Scene& scene, const InterruptGuard& guard)
 {
-    const std::unique_ptr<Simulation> simulation = open_simulation(options.simulation, scene);
+    const std::unique_ptr<Simulation> simulation =
+        naming(options.scene, [&] { return open_simulation(options.simulation, scene); });
     const std::uint64_t frames = frame_count(options, scene);
     make_folder(options.folder);
     forget_older_run(options.folder);

@@ -70,6 +70,7 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
     {
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
         const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped());
+        b.stands_for(run.end - run.begin);
         if (run.grouped())
             b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 1, first_iteration, report}, 1, size);
         else
@@ -77,9 +78,12 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
         range += run.grouped() ? 2 : 0;
     }
     if (set.small_bodies > 0)
+    {
+        stand_for_small(b, set);
         b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true),
                    Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
                    set.small_constraints);
+    }
 }
 
 } // namespace taut

@@ -92,6 +92,38 @@ TEST_CASE("costs that an option fixes are no longer measured, nor kept")
     }
 }
 
+TEST_CASE("whether a scene has too many passes does not depend on the device's costs")
+{
+    const Folder folder;
+    const auto scene = [&](const std::string& method, int cells, const std::string& most) {
+        const std::string n = std::to_string(cells);
+        return folder.file("cloth.json", R"({"taut": 1, "bodies": [{"grid": {"cells": [)" + n + ", " + n +
+                                             R"(]}}], "method": {"type": ")" + method +
+                                             R"(", "substeps": 1000, )" + R"("iterations": )" + most + "}}");
+    };
+    for (const char* method : {"xpbd", "pbd", "vbd"})
+        for (const int cells : {4, 40})
+        {
+            const std::string file = scene(method, cells, "1000");
+            INFO(method << " " << cells);
+            const Result check = folder.taut({"check", file, "--json"});
+            CHECK(check.status == 2);
+            const auto issue = program::parse(check.out)["issues"].back();
+            CHECK(issue["field"] == "method.substeps");
+            for (const char* costs : {"1,1000000,1,1000000", "1000000,1,1,1"})
+            {
+                const Result plan = folder.taut({"plan", file, "--device-costs", costs});
+                CHECK(plan.status == 2);
+                CHECK(plan.err.find(file + ": method.substeps " + issue["text"].get<std::string>()) !=
+                      std::string::npos);
+            }
+        }
+    const std::string file = scene("xpbd", 4, "20"); // some 300,000 passes
+    CHECK(folder.taut({"check", file}).status == 0);
+    for (const char* costs : {"1,1000000,1,1000000", "1000000,1,1,1"})
+        CHECK(folder.taut({"plan", file, "--device-costs", costs}).status == 0);
+}
+
 TEST_CASE("files that are not the program's own are refused in the places of what it keeps")
 {
     const Folder folder;
