@@ -62,11 +62,12 @@ std::vector<SceneIssue> find_issues(const std::string& file)
     std::vector<SceneIssue> issues;
     try
     {
-        issues = check_file(file);
+        Scene scene;
+        std::vector<std::string> given;
+        issues = check_file(file, &scene, &given);
         if (any_error(issues))
             return issues;
-        const Scene scene = load_scene(file);
-        for (const SceneIssue& unread : unread_keys(scene.method, given_method_keys(file, {})))
+        for (const SceneIssue& unread : unread_keys(scene.method, given))
             issues.push_back(unread);
         add_resolved(scene, issues);
     }

@@ -327,18 +327,34 @@ Scene read_scene(Field field)
     return scene;
 }
 
+/// What a scene has of its file's place.
+void place(Scene& scene, const std::filesystem::path& file)
+{
+    scene.directory = file.parent_path();
+    if (scene.name.empty())
+        scene.name = file.stem().string();
+}
+
 } // namespace
 
-std::vector<SceneIssue> check_file(const std::filesystem::path& file)
+std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* scene,
+                                   std::vector<std::string>* method_keys)
 {
     const std::string name = file.string();
     const std::string text = scene_file::read_file(file, scene_file::kMaxSceneBytes);
     std::vector<SceneIssue> issues;
     const nlohmann::json tree = scene_file::parse_json(text, name);
-    Scene scene;
-    Field::attempt([&] { scene = read_scene(Field(tree, name, {}, &issues)); });
+    Scene found;
+    Field::attempt([&] { found = read_scene(Field(tree, name, {}, &issues)); });
     if (issues.empty())
-        issues = check(scene);
+        issues = check(found);
+    if (method_keys)
+        *method_keys = scene_file::keys_of(tree, "method");
+    if (scene)
+    {
+        *scene = std::move(found);
+        place(*scene, file);
+    }
     return issues;
 }
 
@@ -358,8 +374,7 @@ Scene load_scene(const std::filesystem::path& file, std::span<const std::string>
 {
     Scene scene = parse_scene(scene_file::read_file(file, scene_file::kMaxSceneBytes), file.parent_path(),
                               file.string(), settings);
-    if (scene.name.empty())
-        scene.name = file.stem().string();
+    place(scene, file);
     return scene;
 }
 
