@@ -57,10 +57,12 @@ void check_times(const Scene& scene, const Checker& out)
         out.error("timestep",
                   "is " + shown(scene.timestep) + " s; it must be greater than 0 s and at most 1 s",
                   ErrorCode::bad_timestep);
-    else if (scene.timestep / std::max(scene.method.substeps, 1u) < kMinSubstep)
+    else if (const std::uint32_t n = std::max(scene.method.substeps, 1u); scene.timestep / n < kMinSubstep)
         out.error("timestep",
-                  "is " + shown(scene.timestep) + " s in " + std::to_string(scene.method.substeps) +
-                      " substeps; a substep must be at least 1e-15 s",
+                  "is " + shown(scene.timestep) + " s" +
+                      (n > 1 ? " in " + std::to_string(n) + " substeps; a substep"
+                             : "; a substep, and so a time step,") +
+                      " must be at least 1e-15 s",
                   ErrorCode::bad_timestep);
     out.not_negative("duration", scene.duration, "s");
     if (good && scene.duration <= kMaxValue && scene.duration / scene.timestep > kMaxSteps)

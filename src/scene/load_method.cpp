@@ -15,6 +15,16 @@ void read_substeps(const Field& method, std::uint32_t& out)
         substeps->refuse(std::string(right));
 }
 
+/// Of a member whose range is smaller than that of whole numbers. check() says the same of whole ones beyond
+/// it.
+void read_count(const Field& method, std::string_view key, std::string_view right, std::uint32_t& out)
+{
+    Field::attempt([&] {
+        if (const auto count = method.find(key))
+            out = count->count(right);
+    });
+}
+
 } // namespace
 
 void read_method(Field field, MethodSettings& method)
@@ -22,7 +32,7 @@ void read_method(Field field, MethodSettings& method)
     field.object("method");
     field.read("type", method.type);
     Field::attempt([&] { read_substeps(field, method.substeps); });
-    field.read("iterations", method.iterations);
+    read_count(field, "iterations", "it must be a whole number from 1 to 1000", method.iterations);
     field.read("precision", method.precision);
     field.read("integrator", method.integrator);
     field.read("stability", method.stability);
@@ -31,7 +41,8 @@ void read_method(Field field, MethodSettings& method)
     field.read("bend", method.bend);
     field.read("volume", method.volume);
     field.read("relaxation", method.relaxation);
-    field.read("linear_iterations", method.linear_iterations);
+    read_count(field, "linear_iterations", "it must be a whole number from 1 to 100000",
+               method.linear_iterations);
     field.read("linear_tolerance", method.linear_tolerance);
     field.read("linear_operator", method.linear_operator);
     field.read("line_search", method.line_search);
