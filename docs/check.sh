@@ -1,19 +1,28 @@
 #!/bin/sh
-# What the pages conclude is what their tables say: exit status 0 when all of it holds. In CI.
+# What the pages conclude is what their tables say, and the tables of a page are the CSV files beside it: exit status 0
+# when all of it holds. In CI.
 #
 #   docs/check.sh [PAGE...]      cloth, solids, hybrid, linear, acad, accuracy; all without
 set -eu
 cd "$(dirname "$0")"
+. ./put.sh
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+bad=0
 [ $# -gt 0 ] || set -- cloth solids hybrid linear acad accuracy
 for page in "$@"; do
     case $page in
         accuracy) sh accuracy/check.sh ;;
-        cloth) awk -f claims.awk -f cloth/claims.awk cloth.md cloth/*.csv \
+        cloth) check_tables cloth.md cloth || bad=1
+            awk -f claims.awk -f cloth/claims.awk cloth.md cloth/*.csv \
             ../tests/bench/results/bullet.csv ../tests/bench/results/size.csv ;;
-        acad) awk -f claims.awk -f methods/acad/claims.awk methods/acad.md methods/acad/compress.csv \
+        acad) check_tables methods/acad.md methods/acad || bad=1
+            awk -f claims.awk -f methods/acad/claims.awk methods/acad.md methods/acad/compress.csv \
             ../tests/bench/results/acad.csv ;;
         hybrid) awk -f claims.awk -f hybrid/claims.awk hybrid.md ../tests/bench/results/split.csv ;;
         linear) awk -f claims.awk -f linear/claims.awk linear.md ../tests/bench/results/linear_*.csv ;;
-        *) awk -f claims.awk -f "$page/claims.awk" "$page.md" "$page"/*.csv ;;
+        *) check_tables "$page.md" "$page" || bad=1
+            awk -f claims.awk -f "$page/claims.awk" "$page.md" "$page"/*.csv ;;
     esac
 done
+exit $bad

@@ -5,7 +5,8 @@
 # Conclusions are the paragraphs of a page that begin with "**What it shows.**". PAGE/claims.awk defines
 # claims(), which calls claim(TEXT, TRUTH) for every conclusion: the text must stand in such a paragraph, and the
 # truth, formed from the tables, must hold. No digit of the paragraphs may be left outside a text: a number that
-# nothing is held against cannot be written. name(TEXT) is for digits that are none, as in a citation.
+# nothing is held against cannot be written. name(TEXT) is for digits that are none, as in a citation. `whole` (-v whole=1)
+# takes every line of the page for a conclusion; `digits` is what counts as a number.
 #
 #   v(TABLE, ROW, COLUMN)   a number; the row by its first field, or by the first two or three with blanks between.
 #                           The table is the file's name without .csv
@@ -79,8 +80,8 @@ FNR == 1 {
     sub(/\.csv$/, "", table)
 }
 files == 1 && /^\*\*What it shows\.\*\*/ { showing = 1 }
-files == 1 && /^$/ { showing = 0; }
-files == 1 { sub(/^ *(- )?/, ""); if (showing) shown = shown " " $0; next } # lists too
+files == 1 && /^$/ { showing = 0 }
+files == 1 { sub(/^ *(- )?/, ""); if (showing || whole) shown = shown " " $0; next } # lists too
 /^#/ { next }
 !(table in rows) { columns = cells($0); rows[table] = 0; for (i = 1; i <= columns; ++i) head[i] = cell[i]; next }
 {
@@ -92,9 +93,10 @@ files == 1 { sub(/^ *(- )?/, ""); if (showing) shown = shown " " $0; next } # li
 }
 END {
     claims()
-    while (match(shown, /[^|]*[0-9][^|]*/)) {
+    if (digits == "") digits = "[0-9]"
+    while (match(shown, "[^|]*(" digits ")[^|]*")) {
         rest = substr(shown, RSTART, RLENGTH)
-        match(rest, /[0-9]/)
+        match(rest, digits)
         fail("nothing is held against \"..." substr(rest, RSTART > 60 ? RSTART - 60 : 1, 100) "...\"")
         shown = substr(shown, 1, index(shown, rest) - 1)
     }

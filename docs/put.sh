@@ -1,4 +1,4 @@
-# For the update.sh of the pages.
+# For the update.sh of the pages, and for check.sh: check_tables.
 #
 # put PAGE PART FILE: what stands between "<!-- PART -->" and "<!-- end -->" of a page becomes the
 # text of a file. `scratch` is the caller's folder.
@@ -34,4 +34,21 @@ figure()
     cp "$scratch/$name/compare.csv" "${page%.md}/$name.csv"
     case "${curves:-}" in *" $name "*) cp "$scratch/$name/compare_series.svg" "${page%.md}/$name.svg" ;; esac
     put "$page" "$name" "$scratch/$name/compare.md"
+}
+
+# check_tables PAGE FOLDER: every part NAME of a page for which FOLDER has NAME.csv is that table, cell by cell. Status 1
+# with the lines that differ ("<" of the CSV, ">" of the page), or when no part has a table. `scratch` as for put.
+check_tables()
+{
+    compared=0 differing=0
+    for name in $(sed -n 's/^<!-- \([a-z0-9_]*\) -->$/\1/p' "$1"); do
+        [ -f "$2/$name.csv" ] || continue
+        compared=$((compared + 1))
+        awk -f table.awk -f claims.awk "$2/$name.csv" > "$scratch/of_csv"
+        sed -n "/^<!-- $name -->\$/,/^<!-- end -->\$/p" "$1" | grep '^|' | sed 2d > "$scratch/of_page"
+        diff "$scratch/of_csv" "$scratch/of_page" >&2 ||
+            { echo "$1: the table \"$name\" is not $2/$name.csv" >&2; differing=1; }
+    done
+    [ $compared -gt 0 ] || { echo "$1 has no table of $2" >&2; return 1; }
+    return $differing
 }

@@ -17,12 +17,25 @@ function setting(at) {
     return substeps[at] (substeps[at] == 1 ? " substep" : " substeps") \
            (method[at] == "mass_spring" ? "" : " x " iterations[at]) (details[at] == "" ? "" : ", " details[at])
 }
-# The cheapest point of a problem (and method, unless empty) for a tolerance; 0 = none.
-function cheapest(problem, name, tolerance,    p, best) {
+# Whether a point moves another material than the scene's: as the study says, else (studies of before) by the method.
+# There acad counts as the scene's own, which it is up to its strain.
+function foreign(p) { return other[p] == "" ? method[p] == "pbd" : other[p] }
+# The cheapest point of a problem (and method, unless empty) for a tolerance; 0 = none. `own`: with the scene's material.
+function cheapest(problem, name, tolerance, own_only,    p, best) {
     best = 0
     for (p = first[problem]; p <= last[problem]; ++p)
-        if ((name == "" || method[p] == name) && error[p] != "" && error[p] + own[p] <= tolerance)
+        if ((name == "" || method[p] == name) && error[p] != "" && error[p] + own[p] <= tolerance && !(own_only && foreign(p)))
             if (!best || cost[p] < cost[best]) best = p
+    return best
+}
+# The cheapest of the other methods that have the scene's material.
+function runner_up(problem, p, tolerance,    m, q, best) {
+    best = 0
+    for (m = 1; m <= method_count; ++m) {
+        if (methods[m] == method[p]) continue
+        q = cheapest(problem, methods[m], tolerance, 1)
+        if (q && (!best || cost[q] < cost[best])) best = q
+    }
     return best
 }
 function refused_all(problem, name,    p, any) {
@@ -32,7 +45,7 @@ function refused_all(problem, name,    p, any) {
     return any
 }
 function row(problem, name, tolerance,    p) {
-    p = cheapest(problem, name, tolerance)
+    p = cheapest(problem, name, tolerance, 0)
     if (p) return short(cost[p]) " (" short(sweeps[p]) ")"
     return refused_all(problem, name) ? "R" : "-"
 }
@@ -59,6 +72,7 @@ FNR == 1 {
     cost[points] = cell[column["cpu_ms_per_simulated_second"]] + 0
     sweeps[points] = cell[column["sweeps"]]
     reason[points] = cell[column["reason"]]
+    other[points] = column["other_material"] ? cell[column["other_material"]] : ""
     floor[points] = column["floor"] ? cell[column["floor"]] : ""
     details[points] = cell[column["details"]]; refused[points] = cell[column["refused"]]
     if (column["ratio"]) ratio[points] = cell[column["ratio"]]
@@ -78,21 +92,23 @@ function table(tolerance,    i, m, line) {
     }
 }
 function is_problem(name) { return name !~ /^(precision|ratio_mass|ratio_stiffness)$/ }
-# The cheapest point of all methods, its error over the bound, and what the best other method costs.
-function say_cheapest(problem, tolerance,    p, q, m, other) {
-    p = cheapest(problem, "", tolerance)
-    if (!p) return "none"
-    other = 0
-    for (m = 1; m <= method_count; ++m) {
-        if (methods[m] == method[p]) continue
-        q = cheapest(problem, methods[m], tolerance)
-        if (q && (!other || cost[q] < cost[other])) other = q
-    }
+# The cheapest point of all methods, its error over the bound, and what the best other method costs. Where the cheapest is
+# of another material it says so, and the cheapest with the scene's own follows.
+function say_point(problem, p, tolerance,    q) {
+    q = runner_up(problem, p, tolerance)
     return method[p] ", " setting(p) ", " short(cost[p]) " ms (" short(error[p] / tolerance) " of the bound; " \
-           (other ? method[other] " " short(cost[other] / cost[p]) " x" : "no other") ")"
+           (q ? method[q] " " short(cost[q] / cost[p]) " x" : "no other") ")"
+}
+function say_cheapest(problem, tolerance,    p, q) {
+    p = cheapest(problem, "", tolerance, 0)
+    if (!p) return "none"
+    if (!foreign(p)) return say_point(problem, p, tolerance)
+    q = cheapest(problem, "", tolerance, 1)
+    return "of another material: " method[p] ", " setting(p) ", " short(cost[p]) " ms (" short(error[p] / tolerance) \
+           " of the bound); of the scene's own: " (q ? say_point(problem, q, tolerance) : "none")
 }
 # Where the explicit limit lies, and what it is worth to be below it.
-function say_explicit(problem,    p, least, most, one, other, m, q, why) {
+function say_explicit(problem,    p, least, most, one, q, why) {
     least = 0; most = 0; why = ""
     for (p = first[problem]; p <= last[problem]; ++p) {
         if (method[p] != "mass_spring" || details[p] != "") continue
@@ -101,15 +117,11 @@ function say_explicit(problem,    p, least, most, one, other, m, q, why) {
         if (refused[p] != "" && why == "") why = refused[p]
     }
     if (!least) return "mass_spring has no point" (why == "" ? "" : " (" why ")")
-    one = cheapest(problem, "mass_spring", 0.01); other = 0
-    for (m = 1; m <= method_count; ++m) {
-        if (methods[m] == "mass_spring") continue
-        q = cheapest(problem, methods[m], 0.01)
-        if (q && (!other || cost[q] < cost[other])) other = q
-    }
+    one = cheapest(problem, "mass_spring", 0.01, 1)
+    if (one) q = runner_up(problem, one, 0.01)
     p = "the limit is met from " least " substep" (least == 1 ? "" : "s") " on" (most ? " (" most " are refused)" : "")
-    if (one && other) return p "; for 1 % mass_spring costs " short(cost[one]) " ms, the best other method, " \
-        method[other] ", " short(cost[other]) " ms: " short(cost[other] / cost[one]) " times as much"
+    if (one && q) return p "; for 1 % mass_spring costs " short(cost[one]) " ms, the best other method, " \
+        method[q] ", " short(cost[q]) " ms: " short(cost[q] / cost[one]) " times as much"
     if (one) return p "; for 1 % mass_spring costs " short(cost[one]) " ms, no other method gets there"
     return p "; within 1 % it is not"
 }
@@ -141,10 +153,28 @@ function say_ratio(problem, name,    p, held, above, gap, gaps, text) {
     if (gap) text = text "; nothing at " gaps (refused[gap] != "" ? " (refused: " refused[gap] ")" : ": " reason[gap])
     return text
 }
+# What a linear solve that stops early does to a motion: the same setting with and without, at the most substeps.
+function say_early(    i, p, q, best, with, problem, shown) {
+    for (i = 1; i <= problem_count; ++i) {
+        problem = problems[i]
+        best = 0
+        if (!is_problem(problem) || metric[problem] != "e_traj") continue
+        for (p = first[problem]; p <= last[problem]; ++p)
+            for (q = first[problem]; q <= last[problem]; ++q)
+                if (details[p] == "" && details[q] ~ /^linear_tolerance [0-9.e-]+$/ && method[p] == method[q] &&
+                    substeps[p] == substeps[q] && iterations[p] == iterations[q] && error[p] != "" && error[q] != "" &&
+                    (!best || substeps[p] + 0 > substeps[best] + 0)) { best = p; with = q }
+        if (!best) continue
+        if (!shown++) print "\n### What a linear solve that stops early does to a motion\n"
+        print "- " problem ", " method[best] ", " setting(best) ": " short(100 * error[best]) " %; with " details[with] " " \
+              short(100 * error[with]) " %."
+    }
+}
 END {
     print "### Which method is cheapest: scene by bound\n"
     print "The method, its setting, CPU ms per simulated second; in brackets its error over the bound, and how many times"
-    print "dearer the best other method is.\n"
+    print "dearer the best other method with the scene's material is. pbd has a stiffness of its own: a small error of it says"
+    print "that the two materials look alike in that scene.\n"
     print "| problem | metric, reference | 10 % | 1 % | 0.1 % |\n|---|---|---|---|---|"
     for (i = 1; i <= problem_count; ++i) {
         p = problems[i]
@@ -160,6 +190,7 @@ END {
         print "\n### What each precision buys\n"
         for (m = 1; m <= method_count; ++m) print "- " methods[m] ": " say_precision(methods[m]) "."
     }
+    say_early()
     split("ratio_mass ratio_stiffness", sweeps_of, " ")
     for (i = 1; i <= 2; ++i) {
         p = sweeps_of[i]

@@ -51,6 +51,16 @@ Header header_for(const VkPhysicalDeviceProperties& device, std::span<const std:
 
 } // namespace
 
+bool is_pipeline_cache(const std::string& path)
+{
+    if (!is_free_for_file(path))
+        return false;
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, kMagic.size()> found;
+    file.read(found.data(), found.size());
+    return std::equal(found.begin(), found.begin() + file.gcount(), kMagic.begin());
+}
+
 std::vector<std::byte> load_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperties& device)
 {
     constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;
@@ -80,7 +90,7 @@ bool save_pipeline_cache(const std::string& path, const VkPhysicalDeviceProperti
 {
     try
     {
-        if (!is_free_for_file(path))
+        if (!is_pipeline_cache(path)) // also of what came there since the device was opened
             return false;
         const Header header = header_for(device, contents);
         std::string text(sizeof(Header) + contents.size(), '\0');

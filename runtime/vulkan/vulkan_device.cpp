@@ -130,8 +130,12 @@ void require_place(const std::string& cache_path)
         throw Error(ErrorCode::io, "pipeline_cache = " + cache_path + ": there is no folder " +
                                        folder.string() + "; make it first");
     if (!is_free_for_file(cache_path))
-        throw Error(ErrorCode::io,
-                    "pipeline_cache = " + cache_path + ": a folder or a pipe stands there; name a file");
+        throw Error(ErrorCode::io, "pipeline_cache = " + cache_path + ": there is " +
+                                       kind_of_file(cache_path) + "; name a file");
+    if (!is_pipeline_cache(cache_path))
+        throw Error(ErrorCode::io, "pipeline_cache = " + cache_path +
+                                       ": the file is no pipeline cache of Taut (it does not begin with " +
+                                       "\"TAUTPIPE\") and is left as it is; name another file, or remove it");
 }
 
 } // namespace

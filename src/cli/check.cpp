@@ -14,24 +14,15 @@
 namespace taut::cli {
 namespace {
 
-/// What the plan has to say, for a device that groups colours and for one that does not.
-void add_plan(const Scene& resolved, std::vector<SceneIssue>& issues)
+/// What was thrown, by field where the message begins with one: "method.substeps is 1000".
+SceneIssue issue_of(const Error& error)
 {
-    for (const PlanWarning& warning : make_plan(resolved).warnings)
-        issues.push_back({false, "", warning.sentence()});
-    DeviceTraits apart; // dispatches that cost nothing are never grouped
-    apart.dispatch_ns = 0;
-    PlanOptions options;
-    options.small_bodies = PlanOptions::SmallBodies::never;
-    try
-    {
-        make_plan(resolved, apart, options);
-    }
-    catch (const Error& error)
-    {
-        issues.push_back(
-            {false, "", std::string("where a device takes a dispatch a colour: ") + error.what()});
-    }
+    const std::string text = error.what();
+    const std::size_t end = text.find(" is ");
+    const std::string field = text.substr(0, end);
+    const bool named = end != std::string::npos && field.find('.') != std::string::npos &&
+                       field.find(' ') == std::string::npos;
+    return named ? SceneIssue{true, field, text.substr(end + 1)} : SceneIssue{true, "", text};
 }
 
 /// What resolving and planning find beyond `issues`, which stay first. resolve() repeats what check() said.
@@ -51,7 +42,8 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         found = check_resolved(resolved);
         take();
         if (!any_error(issues))
-            add_plan(resolved, issues);
+            for (const PlanWarning& warning : make_plan(resolved).warnings)
+                issues.push_back({false, "", warning.sentence()});
     }
     catch (const Error& error)
     {
@@ -59,7 +51,7 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
             throw;
         take();
         if (!any_error(issues))
-            issues.push_back({true, "", error.what()});
+            issues.push_back(issue_of(error));
     }
 }
 
@@ -70,11 +62,12 @@ std::vector<SceneIssue> find_issues(const std::string& file)
     std::vector<SceneIssue> issues;
     try
     {
-        issues = check_file(file);
+        Scene scene;
+        std::vector<std::string> given;
+        issues = check_file(file, &scene, &given);
         if (any_error(issues))
             return issues;
-        const Scene scene = load_scene(file);
-        for (const SceneIssue& unread : unread_keys(scene.method, given_method_keys(file, {})))
+        for (const SceneIssue& unread : unread_keys(scene.method, given))
             issues.push_back(unread);
         add_resolved(scene, issues);
     }

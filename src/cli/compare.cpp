@@ -183,6 +183,7 @@ void add_compare(CLI::App& app, Command& chosen)
         "\"label: method.type=acad; method.substeps=20\", once a variant; device=D names its device");
     command->add_option("--set", options->settings, "A value of the scene for all variants: gravity=[0,0,0]");
     add_device_option(*command, options->device);
+    add_costs_option(*command);
     command->add_option("--frames", options->frames, "Time steps to run (default: the scene's duration)")
         ->check(whole_number(0));
     command->add_option("--out", options->folder,

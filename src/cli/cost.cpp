@@ -242,6 +242,7 @@ void add_cost(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<CostCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
+    add_costs_option(*command);
     command
         ->add_option("--methods", options->methods,
                      "To try, or \"all\" (default: xpbd); without lists each by its own design, in float")

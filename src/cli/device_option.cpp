@@ -1,10 +1,12 @@
 #include "taut/cli/device_option.hpp"
 
+#include "taut/cli/numbers.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/world/kept_traits.hpp"
 
 #include <cstdlib>
 #include <filesystem>
+#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -18,7 +20,7 @@ std::string environment(const char* name)
 }
 
 /// The file that `variable` names, else `name` in the program's cache folder. Empty when nothing should be
-/// kept ("off"), or when there is no place for it: what is kept never stops a run.
+/// kept ("off"), or when there is no place for it, which never stops a run.
 std::string kept_file(const char* variable, const char* name)
 {
     const std::string chosen = environment(variable);
@@ -45,6 +47,20 @@ void add_device_option(CLI::App& command, std::string& selector, const std::stri
     command.add_option("--device", selector,
                        "auto, vulkan, vulkan:1, part of a name, opengl, opengl:spirv, cpu, cpu:serial" +
                            further + " (default: TAUT_DEVICE, else auto)");
+}
+
+void add_costs_option(CLI::App& command)
+{
+    command
+        .add_option_function<std::vector<double>>(
+            "--device-costs",
+            [](const std::vector<double>& ns) {
+                fix_costs(DeviceCosts{ns[0], ns[1], ns[2], ns[3]});
+            },
+            "What the plan weighs, ns: DISPATCH,BARRIER,ELEMENT,LANE (default: as measured once and kept)")
+        ->delimiter(',')
+        ->expected(4)
+        ->check(number_between(0, 1e12, Ends::open, " (ns)"));
 }
 
 std::shared_ptr<Device> open_device(const std::string& selector)

@@ -48,7 +48,8 @@ std::string costs_text(const DeviceTraits& traits, bool measured)
     return "costs: a dispatch " + ns(traits.dispatch_ns) + ", a barrier in a group " +
            ns(traits.group_barrier_ns) + ", an element " + ns(traits.element_ns) + ", in one group alone " +
            ns(traits.lane_element_ns) +
-           (!measured      ? " (assumed; --device measures)"
+           (fixed_costs()  ? " (as given)"
+            : !measured    ? " (assumed; --device measures)"
             : file.empty() ? " (measured now)"
                            : " (from " + file + ")") +
            "\n";
@@ -127,7 +128,9 @@ int show_plan(const PlanCommand& options)
         traits = measure_traits(*device);
         name = device->info().name;
     }
-    const Plan plan = make_plan(scene, traits);
+    else if (const auto costs = fixed_costs())
+        set_costs(traits, *costs);
+    const Plan plan = naming(options.scene, [&] { return make_plan(scene, traits); });
     std::cout << (options.json ? to_text(to_json(options, plan, name, traits))
                                : to_table(plan) + costs_text(traits, !name.empty()));
     return kDone;
@@ -142,6 +145,7 @@ void add_plan(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<PlanCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
+    add_costs_option(*command);
     command->add_option("--set", options->settings, "A value of the scene: method.type=implicit_euler");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return show_plan(*options); }; });

@@ -298,7 +298,8 @@ void draw(const RunCommand& options, const World& world, const std::shared_ptr<D
 
 RunResult simulate(const RunCommand& options, const Scene& scene, const InterruptGuard& guard)
 {
-    const std::unique_ptr<Simulation> simulation = open_simulation(options.simulation, scene);
+    const std::unique_ptr<Simulation> simulation =
+        naming(options.scene, [&] { return open_simulation(options.simulation, scene); });
     const std::uint64_t frames = frame_count(options, scene);
     make_folder(options.folder);
     forget_older_run(options.folder);
@@ -357,6 +358,7 @@ void add_run(CLI::App& app, Command& chosen)
     add_device_option(*command, options->simulation.device,
                       ", hybrid (the native CPU and the best other device at once), hybrid:DEVICE, "
                       "hybrid:DEVICE+DEVICE");
+    add_costs_option(*command);
     command
         ->add_option("--split", options->simulation.split,
                      "What --device hybrid divides: bodies (default), or vertices, which also cuts a single "

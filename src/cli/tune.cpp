@@ -172,6 +172,7 @@ void add_tune(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<TuneCommand>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     add_device_option(*command, options->device);
+    add_costs_option(*command);
     command
         ->add_option("--error", options->error,
                      "Bound on the error, 0.01 is 1 % (default: 0.01, or the first looser one that has a "

@@ -17,7 +17,7 @@ namespace {
 constexpr double kWayOut = 0.25;
 
 /// A recording keeps every pass of a time step; beyond this it would fill the memory before it ran.
-constexpr std::size_t kMaxPasses = std::size_t(1) << 20;
+constexpr std::int64_t kMaxPasses = std::int64_t(1) << 20;
 
 /// Grids keep their rows, which parity colours want; other meshes follow a space-filling curve.
 std::vector<std::uint32_t> body_order(const Body& body)
@@ -135,14 +135,18 @@ EffectCost& PlanBuilder::cost_of(std::string_view effect)
 
 void PlanBuilder::check_pass_count() const
 {
-    if (plan.passes.size() >= kMaxPasses)
-        throw Error(ErrorCode::limit,
-                    "a time step of more than " + std::to_string(kMaxPasses) + " passes; use fewer than " +
-                        std::to_string(plan.substeps) + " substeps or " + std::to_string(plan.iterations) +
-                        " iterations" +
-                        (plan.solvers.empty() ? ""
-                                              : ", or fewer linear_iterations than " +
-                                                    std::to_string(scene.method.linear_iterations)));
+    if (static_cast<std::int64_t>(plan.passes.size()) + apart_ < kMaxPasses)
+        return;
+    const bool iterates = plan.iterations > 1;
+    throw Error(ErrorCode::limit,
+                "method.substeps is " + std::to_string(plan.substeps) +
+                    (iterates ? " and method.iterations is " + std::to_string(plan.iterations) : "") +
+                    ": a time step of more than " + std::to_string(kMaxPasses) +
+                    " passes, one a colour of constraints, however a device groups them; use fewer substeps" +
+                    (iterates ? " or iterations" : "") +
+                    (plan.solvers.empty() ? ""
+                                          : ", or fewer linear_iterations than " +
+                                                std::to_string(scene.method.linear_iterations)));
 }
 
 void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,

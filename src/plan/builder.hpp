@@ -163,6 +163,10 @@ public:
     std::uint32_t wind_triangle_count = 0, attachment_count = 0, tearing_count = 0;
     ConstraintSet limits; ///< springs of strain limits, rest_length the greatest
 
+    /// Before a dispatch that stands for so many: the limit of passes is one of the scene, and holds alike
+    /// whether a device groups colours or not.
+    void stands_for(std::uint32_t passes) { apart_ += std::int64_t(passes) - 1; }
+
 private:
     void add_dispatch(std::string_view effect, const KernelInfo& kernel, std::span<const Use> uses,
                       std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements,
@@ -171,6 +175,7 @@ private:
     void add_pass(std::string_view effect, Dispatch pass);
     EffectCost& cost_of(std::string_view effect);
 
+    std::int64_t apart_ = 0; ///< passes beyond those of the plan, if no colours were grouped
     std::shared_ptr<PaperDevice> paper_;
     std::map<const Buffer*, std::uint32_t> adopted_; ///< plan number of a buffer on paper
     std::map<std::uint32_t, BufferPtr> papers_;      ///< the other way

@@ -84,6 +84,7 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
     {
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
         const Bindings<Use> uses = uses_of<Bindings>(b, set, vertices_each, run.grouped());
+        b.stands_for(run.end - run.begin);
         if (run.grouped())
             b.dispatch(set.kind, grouped, uses, {range, 1, first_iteration, report}, 1, size);
         else
@@ -91,9 +92,12 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
         range += run.grouped() ? 2 : 0;
     }
     if (set.small_bodies > 0)
+    {
+        stand_for_small(b, set);
         b.dispatch(set.kind, grouped, uses_of<Bindings>(b, set, vertices_each, true),
                    {set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
                    set.small_constraints);
+    }
 }
 
 } // namespace taut

@@ -145,6 +145,12 @@ inline std::vector<Run> runs_of(const PlanBuilder& b, const ConstraintSet& set)
     return runs;
 }
 
+/// Before the dispatch of the small bodies, who would share the colours of the large ones.
+inline void stand_for_small(PlanBuilder& b, const ConstraintSet& set)
+{
+    b.stands_for(std::max(set.small_colours, set.colour_count()) - set.colour_count());
+}
+
 /// Adds the device's table of colours, where groups that run several of them need one. `table`: as lay_out
 /// leaves it.
 inline void add_colour_table(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table)

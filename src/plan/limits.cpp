@@ -160,6 +160,7 @@ void record_strain_limit(PlanBuilder& b, const Moment&)
     for (const Run& run : runs_of(b, set))
     {
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
+        b.stands_for(run.end - run.begin);
         if (run.grouped())
             b.dispatch(kStrain, "tail", grouped, {range, 1}, 1, size);
         else
@@ -167,8 +168,11 @@ void record_strain_limit(PlanBuilder& b, const Moment&)
         range += run.grouped() ? 2 : 0;
     }
     if (set.small_bodies > 0)
+    {
+        stand_for_small(b, set);
         b.dispatch(kStrain, "tail", grouped, {set.small_range, set.small_bodies}, set.small_bodies,
                    set.small_constraints);
+    }
 }
 
 void prepare_attachment(PlanBuilder& b)

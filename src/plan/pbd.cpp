@@ -56,6 +56,7 @@ void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_
     for (const Run& run : runs_of(b, *set))
     {
         const std::uint32_t first = set->colour_start[run.begin], size = set->colour_start[run.end] - first;
+        b.stands_for(run.end - run.begin);
         if (run.grouped())
             b.dispatch(kind, "tail", grouped, {range, 1, share, report}, 1, size);
         else
@@ -63,8 +64,11 @@ void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_
         range += run.grouped() ? 2 : 0;
     }
     if (set->small_bodies > 0)
+    {
+        stand_for_small(b, *set);
         b.dispatch(kind, "tail", grouped, {set->small_range, set->small_bodies, share, report},
                    set->small_bodies, set->small_constraints);
+    }
 }
 
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)

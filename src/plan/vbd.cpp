@@ -102,13 +102,12 @@ std::vector<BlockBuffers::Run> runs_of(const PlanBuilder& b,
             trips += more;
             rows += size_of(colours[end++]);
         }
-        const bool grouped = end - c >= 2;
-        if (!grouped)
+        if (end - c < 2)
         {
             end = c + 1;
             rows = size_of(colours[c]);
         }
-        runs.push_back({row, static_cast<std::uint32_t>(rows), grouped});
+        runs.push_back({row, static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(end - c)});
         row += static_cast<std::uint32_t>(rows);
         c = end;
     }
@@ -226,10 +225,11 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
     for (const BlockBuffers::Run& run : f.runs)
     {
         const std::string variant =
-            std::string(run.grouped ? "tail" : "") + (run.grouped && !kinds.empty() ? "_" : "") + kinds;
+            std::string(run.grouped() ? "tail" : "") + (run.grouped() && !kinds.empty() ? "_" : "") + kinds;
         const kernels::vbd_solve::Params params{run.first, run.rows, moment.last,
                                                 static_cast<float>(b.scene.method.relaxation)};
-        b.dispatch("vbd_solve", variant, uses, params, run.grouped ? 1 : run.rows, run.rows);
+        b.stands_for(run.colours);
+        b.dispatch("vbd_solve", variant, uses, params, run.grouped() ? 1 : run.rows, run.rows);
     }
 }
 

@@ -15,8 +15,8 @@ struct BlockBuffers
     /// Consecutive colours that one pass does: one of its own, or several small ones in one group.
     struct Run
     {
-        std::uint32_t first = 0, rows = 0;
-        bool grouped = false;
+        std::uint32_t first = 0, rows = 0, colours = 1;
+        bool grouped() const { return colours >= 2; }
     };
     std::vector<Run> runs;
     std::uint32_t rows = 0;                          ///< vertices that move

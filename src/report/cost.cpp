@@ -7,6 +7,7 @@
 #include "taut/report/cost_design.hpp"
 #include "taut/report/cost_reference.hpp"
 #include "taut/report/method_settings.hpp"
+#include "taut/report/tune_parts.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
@@ -130,6 +131,7 @@ public:
         if (!at_rest() && out_.reference.verified)
             out_.frames = out_.reference.frames.size() - 1;
         choose_metric();
+        facts_ = tuning::scene_facts(model_, out_.reference);
         const std::vector<MethodSettings> all = settings_to_try(scene_, options_);
         for (const MethodSettings& settings : all)
         {
@@ -166,6 +168,7 @@ private:
         out.iterations = settings.iterations;
         out.precision = settings.precision == "float" ? Precision::float32 : Precision::float64;
         out.settings = settings;
+        out.other_material = tuning::other_material(facts_, settings);
         out.sweeps = static_cast<double>(out.substeps) * out.iterations / scene_.timestep;
         if (out_.interrupted)
         {
@@ -275,6 +278,7 @@ private:
     std::shared_ptr<Device> device_;
     Scene scene_;
     PhysicalModel model_;
+    tuning::SceneFacts facts_;
     ErrorWeights weights_;
     std::vector<Timed> timed_;
     CostStudy out_;

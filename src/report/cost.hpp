@@ -93,6 +93,8 @@ struct CostPoint
     /// The word of the Error by which the method refused: "unsupported", "unstable_timestep", ...; else
     /// empty.
     std::string refused;
+    /// What of the scene's material the method replaces by one of its own, as `tune` says it; else empty.
+    std::string other_material;
     Status status = Status::completed;
     std::string reason;
     std::optional<double> error;          ///< in the metric of the study
@@ -122,6 +124,7 @@ struct CostTarget
 {
     double tolerance = 0;                ///< 0.1, 0.01, 0.001
     std::optional<std::size_t> cheapest; ///< index of the point; empty when not reached
+    std::optional<std::size_t> own;      ///< the same of those that have the scene's material
 };
 
 /// How one method fares.
@@ -175,6 +178,7 @@ double price(const CostPoint& point, CostBasis basis);
 void rank(CostStudy& study);
 
 /// Three sentences: the cheapest setting for 10 %, 1 % and 0.1 %. With several methods they name the method.
+/// Where the cheapest is of another material they say so, and name the cheapest that is not.
 std::vector<std::string> cost_sentences(const CostStudy& study);
 /// "20 substeps x 1 iteration in float"
 std::string setting_text(const CostPoint& point);

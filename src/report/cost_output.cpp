@@ -16,6 +16,8 @@ using Json = nlohmann::ordered_json;
 
 Json maybe(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+Json sentence_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
 /// Like %.*g, whatever the locale.
 std::string number(double value, int digits = 6)
 {
@@ -64,7 +66,8 @@ Json point_json(const CostStudy& study, const CostPoint& point)
     json["simulated_seconds"] = point.simulated_seconds;
     json["pareto"] = point.pareto;
     json["status"] = to_string(point.status);
-    json["refused"] = point.refused.empty() ? Json(nullptr) : Json(point.refused);
+    json["refused"] = sentence_or_null(point.refused);
+    json["other_material"] = sentence_or_null(point.other_material);
     json["reason"] = point.reason;
     return json;
 }
@@ -82,6 +85,8 @@ Json cheapest_json(const CostStudy& study, const std::vector<CostTarget>& target
         entry["error"] = *point.error;
         entry["ms_per_simulated_second"] = point.ms;
         entry["sweeps"] = point.sweeps;
+        entry["other_material"] = sentence_or_null(point.other_material);
+        entry["own_material"] = target.own ? setting_json(study.points[*target.own]) : Json(nullptr);
     }
     return json;
 }
@@ -92,7 +97,7 @@ Json methods_json(const CostStudy& study)
     for (const CostMethod& method : study.methods)
     {
         json[method.name] = {{"cheapest", cheapest_json(study, method.targets)}};
-        json[method.name]["refused"] = method.refused.empty() ? Json(nullptr) : Json(method.refused);
+        json[method.name]["refused"] = sentence_or_null(method.refused);
     }
     return json;
 }
@@ -139,7 +144,8 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
                                  point.cpu_ms ? timed(point.cpu_low) : "",
                                  point.cpu_ms ? timed(point.cpu_high) : "",
                                  std::to_string(point.repetitions),
-                                 point.floor};
+                                 point.floor,
+                                 point.other_material.empty() ? "0" : "1"};
     std::string row;
     for (const std::string& cell : cells)
         row += (row.empty() ? "" : ",") + cell;
@@ -182,7 +188,8 @@ std::string cost_csv(const CostStudy& study)
         "scene,executor,method,substeps,iterations,precision,error,error_metric,reference,"
         "reference_error,error_l,error_smoothed,ms_per_simulated_second,ms_least,"
         "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason,details,refused,"
-        "ms_quartile_1,ms_quartile_3,cpu_ms_quartile_1,cpu_ms_quartile_3,repetitions,floor\n";
+        "ms_quartile_1,ms_quartile_3,cpu_ms_quartile_1,cpu_ms_quartile_3,repetitions,floor,"
+        "other_material\n";
     for (const CostPoint& point : study.points)
         out += csv_row(study, point);
     return out;

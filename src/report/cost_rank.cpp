@@ -21,26 +21,32 @@ bool beats(const CostPoint& a, const CostPoint& b, double floor, CostBasis basis
     return ea <= eb && pa <= pb && (ea < eb || pa < pb);
 }
 
+/// The cheapest point whose error is within the tolerance, of one method or (empty) of all; with `own` only
+/// of those that have the scene's material.
+std::optional<std::size_t> cheapest_of(const CostStudy& study, const std::string& method, double tolerance,
+                                       bool own)
+{
+    const double reference = study.reference.error.value_or(0);
+    std::optional<std::size_t> out;
+    for (std::size_t i = 0; i < study.points.size(); ++i)
+    {
+        const CostPoint& point = study.points[i];
+        const bool counts =
+            (method.empty() || point.method == method) && (!own || point.other_material.empty());
+        const bool reached = counts && point.error && *point.error + reference <= tolerance;
+        if (reached && (!out || price(point, study.basis) < price(study.points[*out], study.basis)))
+            out = i;
+    }
+    return out;
+}
+
 /// The cheapest points for 10 %, 1 % and 0.1 %, of one method or (empty) of all.
-std::vector<CostTarget> targets_of(const CostStudy& study, const std::string& method, double own)
+std::vector<CostTarget> targets_of(const CostStudy& study, const std::string& method)
 {
     std::vector<CostTarget> out;
     for (const double tolerance : {0.1, 0.01, 0.001})
-    {
-        CostTarget target{tolerance, std::nullopt};
-        double least = 0;
-        for (std::size_t i = 0; i < study.points.size(); ++i)
-        {
-            const CostPoint& point = study.points[i];
-            const bool counts = method.empty() || point.method == method;
-            const bool reached = counts && point.error && *point.error + own <= tolerance;
-            if (!reached || (target.cheapest && price(point, study.basis) >= least))
-                continue;
-            target.cheapest = i;
-            least = price(point, study.basis);
-        }
-        out.push_back(target);
-    }
+        out.push_back({tolerance, cheapest_of(study, method, tolerance, false),
+                       cheapest_of(study, method, tolerance, true)});
     return out;
 }
 
@@ -78,6 +84,17 @@ std::string result_text(const CostStudy& study, const CostPoint& point)
     return (study.methods.size() > 1 ? point.method + ", " : "") + setting_text(point) +
            (details.empty() ? "" : ", " + details) + ", " + number(price(point, study.basis)) + unit + " (" +
            study.metric + " " + number(100 * *point.error) + " %)";
+}
+
+/// Of a cheapest point that does not move the scene's own material: that, and what does instead. Else empty.
+std::string material_text(const CostStudy& study, const CostTarget& target)
+{
+    const CostPoint& point = study.points[*target.cheapest];
+    if (point.other_material.empty())
+        return {};
+    return "; of another material: " + point.other_material +
+           (target.own ? "; with the scene's own " + result_text(study, study.points[*target.own])
+                       : "; with the scene's own it is not reached");
 }
 
 } // namespace
@@ -145,9 +162,9 @@ void rank(CostStudy& study)
                        });
         if (study.methods.empty() || study.methods.back().name != point.method)
             study.methods.push_back(
-                {point.method, targets_of(study, point.method, own), refusal(study, point.method)});
+                {point.method, targets_of(study, point.method), refusal(study, point.method)});
     }
-    study.targets = targets_of(study, {}, own);
+    study.targets = targets_of(study, {});
 }
 
 std::string setting_text(const CostPoint& point)
@@ -169,7 +186,8 @@ std::vector<std::string> cost_sentences(const CostStudy& study)
     {
         const std::string percent = number(100 * target.tolerance) + " %";
         if (target.cheapest)
-            out.push_back(percent + ": " + result_text(study, study.points[*target.cheapest]) + ".");
+            out.push_back(percent + ": " + result_text(study, study.points[*target.cheapest]) +
+                          material_text(study, target) + ".");
         else if (best)
             out.push_back(percent + " is not reached; the best is " + result_text(study, *best) + ".");
         else

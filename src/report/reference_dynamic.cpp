@@ -266,11 +266,15 @@ void judge(const PhysicalModel& model, std::vector<Frames>& levels, DynamicRefer
     out.verified_frames = all.verified_frames();
     out.verified = out.verified_frames == count;
     if (!out.verified)
+    {
+        const std::size_t f =
+            out.verified_frames + 1; // the one that fails, not the last: errors cancel by chance
         out.reason = "only " + std::to_string(out.verified_frames) + " of " + std::to_string(count) +
-                     " frames are verified: over all, the observed orders are " +
-                     number(all.observed(last - 2, count)) + " and " + number(all.observed(last - 1, count)) +
-                     ", not " + number(out.order) + " +- 0.15, and the last difference is " +
-                     number(all.difference(last, count));
+                     " frames are verified: up to frame " + std::to_string(f) + " the observed orders are " +
+                     number(all.observed(last - 2, f)) + " and " + number(all.observed(last - 1, f)) + ", " +
+                     number(out.order) + " +- 0.15 is asked, and the last difference is " +
+                     number(all.difference(last, f)) + ", below 0.01 is asked";
+    }
     const std::size_t judged = out.verified_frames > 0 ? out.verified_frames : count;
     for (std::size_t l = 0; l < last; ++l)
         out.orders.push_back(all.observed(l, judged));

@@ -20,10 +20,12 @@ void check_times(const Scene& scene, const Checker& out)
 {
     if (!kSceneTable.find("timestep")->limits.contains(scene.timestep))
         return;
-    if (scene.timestep / std::max(scene.method.substeps, 1u) < kMinSubstep)
+    if (const std::uint32_t n = std::max(scene.method.substeps, 1u); scene.timestep / n < kMinSubstep)
         out.error("timestep",
-                  "is " + shown(scene.timestep) + " s in " + std::to_string(scene.method.substeps) +
-                      " substeps; a substep must be at least 1e-15 s",
+                  "is " + shown(scene.timestep) + " s" +
+                      (n > 1 ? " in " + std::to_string(n) + " substeps; a substep"
+                             : "; a substep, and so a time step,") +
+                      " must be at least 1e-15 s",
                   ErrorCode::bad_timestep);
     if (scene.duration <= kMaxValue && scene.duration / scene.timestep > kMaxSteps)
         out.error(scene.timestep < kShortTimestep ? "timestep" : "duration",

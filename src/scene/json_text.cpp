@@ -139,4 +139,13 @@ json parse_json(std::string_view text, const std::string& file)
     }
 }
 
+std::vector<std::string> keys_of(const json& tree, const char* name)
+{
+    std::vector<std::string> keys;
+    if (tree.is_object() && tree.contains(name) && tree[name].is_object())
+        for (const auto& [key, value] : tree[name].items())
+            keys.push_back(key);
+    return keys;
+}
+
 } // namespace taut::scene_file

@@ -21,20 +21,37 @@ Scene read_scene(const Field& field)
     return scene;
 }
 
+/// What a scene has of its file's place.
+void place(Scene& scene, const std::filesystem::path& file)
+{
+    scene.directory = file.parent_path();
+    if (scene.name.empty())
+        scene.name = file.stem().string();
+}
+
 } // namespace
 
-std::vector<SceneIssue> check_file(const std::filesystem::path& file)
+std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* scene,
+                                   std::vector<std::string>* method_keys)
 {
     const std::string name = file.string();
     const std::string text = scene_file::read_file(file, scene_file::kMaxSceneBytes);
     std::vector<SceneIssue> issues;
     const nlohmann::json tree = scene_file::parse_json(text, name);
-    Scene scene;
-    Field::attempt([&] { read_table(Field(tree, name, {}, &issues), scene_file::kSceneTable, &scene); });
+    Scene found;
+    Field::attempt([&] { read_table(Field(tree, name, {}, &issues), scene_file::kSceneTable, &found); });
     if (issues.empty())
-        return check(scene);
-    for (SceneIssue& issue : scene_file::check_keys(scene))
-        issues.push_back(std::move(issue));
+        issues = check(found);
+    else
+        for (SceneIssue& issue : scene_file::check_keys(found))
+            issues.push_back(std::move(issue));
+    if (method_keys)
+        *method_keys = scene_file::keys_of(tree, "method");
+    if (scene)
+    {
+        *scene = std::move(found);
+        place(*scene, file);
+    }
     return issues;
 }
 
@@ -54,8 +71,7 @@ Scene load_scene(const std::filesystem::path& file, std::span<const std::string>
 {
     Scene scene = parse_scene(scene_file::read_file(file, scene_file::kMaxSceneBytes), file.parent_path(),
                               file.string(), settings);
-    if (scene.name.empty())
-        scene.name = file.stem().string();
+    place(scene, file);
     return scene;
 }
 

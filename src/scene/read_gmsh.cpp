@@ -49,7 +49,9 @@ std::string_view read_format(GmshFile& in)
     const bool whole = read.ec == std::errc() && read.ptr == version.data() + version.size();
     const bool two = whole && (number == 2 || number == 2.1 || number == 2.2);
     if (!two && !(whole && number == 4.1))
-        words.fail("the version is " + quoted(version) + "; 1.0, 2.0 to 2.2 and 4.1 are read");
+        words.fail("the version is " + quoted(version) +
+                   "; 2.0 to 2.2 and 4.1 are read, and 1.0, whose files have no " +
+                   "$MeshFormat and begin with $NOD");
     const std::string_view form = words.any_word(), size = words.any_word();
     if (form != "0" && form != "1")
         words.fail("the file type is " + quoted(form) + "; it must be 0 (text) or 1 (binary)");

@@ -44,6 +44,8 @@ void count_skipped(std::string_view word, RawMesh& mesh)
     const std::string shown = quoted(word);
     if (mesh.skipped.size() < kMostKinds || mesh.skipped.contains(shown))
         ++mesh.skipped[shown];
+    else
+        ++mesh.skipped["of further kinds"]; // "has 22 lines of further kinds"; no word stands without quotes
 }
 
 } // namespace

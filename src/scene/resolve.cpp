@@ -1,5 +1,6 @@
 // A scene made ready for planning: meshes in world space, pins as lists of vertices.
 
+#include "taut/scene/check_size.hpp"
 #include "taut/scene/checker.hpp"
 #include "taut/scene/embedding.hpp"
 #include "taut/scene/settings.hpp"
@@ -293,6 +294,7 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
         resolve_body(body, scene.directory, at);
         if (any_error(issues)) // pins may name what is not there
             continue;
+        scene_file::check_size(body, scene.method.precision == "double", at);
         std::vector<bool> held(body.mesh.positions.size(), false);
         for (std::size_t p = 0; p < body.pins.size(); ++p)
             resolve_pin(body, body.pins[p], held, at.at("pins", p));

@@ -21,11 +21,7 @@ std::vector<std::string> given_method_keys(const std::filesystem::path& file,
         scene_file::parse_json(scene_file::read_file(file, scene_file::kMaxSceneBytes), file.string());
     for (const std::string& setting : settings)
         scene_file::set_value(tree, setting, file.string());
-    std::vector<std::string> keys;
-    if (tree.is_object() && tree.contains("method") && tree["method"].is_object())
-        for (const auto& [key, value] : tree["method"].items())
-            keys.push_back(key);
-    return keys;
+    return scene_file::keys_of(tree, "method");
 }
 
 Scene resolve_file(const std::filesystem::path& file, std::span<const std::string> settings,

@@ -21,8 +21,10 @@ Scene resolve_file(const std::filesystem::path& file, std::span<const std::strin
 
 /// All that is wrong with a scene file: every key that cannot be read, and what check() says; where there is
 /// such a key, check() looks at each of the others by itself. Throws Error{io} where the file cannot be read,
-/// Error{bad_input} where it is not JSON.
-std::vector<SceneIssue> check_file(const std::filesystem::path& file);
+/// Error{bad_input} where it is not JSON. The file is parsed once: `scene` becomes what load_scene() returns
+/// where there is no error, `method_keys` what given_method_keys() does.
+std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* scene = nullptr,
+                                   std::vector<std::string>* method_keys = nullptr);
 
 /// Whether one of them is an error, not a warning.
 bool any_error(std::span<const SceneIssue> issues);

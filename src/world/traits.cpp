@@ -12,7 +12,10 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <thread>
 
 namespace taut {
 namespace {
@@ -50,13 +53,12 @@ public:
         table_ = upload<std::uint32_t>(table);
     }
 
-    /// Best of several replays, ns on the host's clock.
-    double time_dispatches(std::uint32_t dispatches, std::uint32_t springs)
+    std::unique_ptr<Recording> dispatches(std::uint32_t count, std::uint32_t springs)
     {
         Recorder recorder(device_.shared_from_this());
-        for (std::uint32_t d = 0; d < dispatches; ++d)
+        for (std::uint32_t d = 0; d < count; ++d)
             recorder.dispatch(bindings({}), {0, springs, 1, 0}, springs, {});
-        return best(*recorder.finish());
+        return recorder.finish();
     }
 
     enum Range : std::uint32_t
@@ -66,11 +68,27 @@ public:
         kLargeColour = kPhases + 7
     };
 
-    double time_tail(Range range)
+    std::unique_ptr<Recording> tail(Range range)
     {
         Recorder recorder(device_.shared_from_this());
         recorder.dispatch(bindings(table_), {range, 1, 1, 0}, 1, {"tail"});
-        return best(*recorder.finish());
+        return recorder.finish();
+    }
+
+    /// What `more` takes beyond `less`, ns on the host's clock: the best of several replays of both, in
+    /// turns, so that what disturbs the machine meets both. Not above 0 where other work drowned it.
+    double beyond(Recording& more, Recording& less)
+    {
+        double long_one = 1e30, short_one = 1e30;
+        for (int run = 0; run < 6; ++run)
+        {
+            const double a = time(more), b = time(less);
+            if (run == 0) // warms up
+                continue;
+            long_one = std::min(long_one, a);
+            short_one = std::min(short_one, b);
+        }
+        return long_one - short_one;
     }
 
 private:
@@ -92,19 +110,12 @@ private:
         return buffer;
     }
 
-    double best(Recording& recording)
+    double time(Recording& recording)
     {
-        double least = 1e30;
-        for (int run = 0; run < 6; ++run)
-        {
-            const auto from = std::chrono::steady_clock::now();
-            recording.replay();
-            device_.wait();
-            const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - from;
-            if (run > 0) // the first run warms up
-                least = std::min(least, took.count());
-        }
-        return least;
+        const auto from = std::chrono::steady_clock::now();
+        recording.replay();
+        device_.wait();
+        return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - from).count();
     }
 
     Device& device_;
@@ -113,18 +124,20 @@ private:
 
 DeviceCosts measured(Device& device)
 {
-    DeviceCosts out;
     Probe probe(device);
-    const double few = probe.time_dispatches(8, 1), many = probe.time_dispatches(72, 1);
-    out.dispatch_ns = std::max((many - few) / 64, 1.0);
-    const double short_tail = probe.time_tail(Probe::kOneColour),
-                 long_tail = probe.time_tail(Probe::kManyColours);
-    out.group_barrier_ns = std::max((long_tail - short_tail) / (Probe::kPhases - 1), 1.0);
-    const double all = probe.time_dispatches(1, Probe::kSprings), one = probe.time_dispatches(1, 1);
-    out.element_ns = std::max((all - one) / Probe::kSprings, 1e-3);
-    out.lane_element_ns =
-        std::max((probe.time_tail(Probe::kLargeColour) - short_tail) / Probe::kLaneSprings, out.element_ns);
-    return out;
+    const auto few = probe.dispatches(8, 1), many = probe.dispatches(72, 1);
+    const auto one = probe.dispatches(1, 1), all = probe.dispatches(1, Probe::kSprings);
+    const auto short_tail = probe.tail(Probe::kOneColour), long_tail = probe.tail(Probe::kManyColours);
+    const auto large_tail = probe.tail(Probe::kLargeColour);
+    return agreed_costs([&] {
+        // A driver's threads may share a core for a while, and every dispatch then waits: give them time to
+        // part.
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        return DeviceCosts{probe.beyond(*many, *few) / 64,
+                           probe.beyond(*long_tail, *short_tail) / (Probe::kPhases - 1),
+                           probe.beyond(*all, *one) / Probe::kSprings,
+                           probe.beyond(*large_tail, *short_tail) / Probe::kLaneSprings};
+    });
 }
 
 /// From the file, or measured and added to it.
@@ -161,14 +174,16 @@ DeviceTraits measure_traits(Device& device)
     const std::lock_guard lock(mutex);
     const DeviceInfo& info = device.info();
     const std::string key = info.executor + "|" + info.selector + "|" + info.name + "|" + info.driver;
-    auto found = known.find(key);
-    if (found == known.end())
-        found = known.emplace(key, costs_of(device, key)).first;
+    std::optional<DeviceCosts> costs = fixed_costs();
+    if (!costs)
+    {
+        auto found = known.find(key);
+        if (found == known.end())
+            found = known.emplace(key, costs_of(device, key)).first;
+        costs = found->second;
+    }
     DeviceTraits traits = limits_as_traits(device);
-    traits.dispatch_ns = found->second.dispatch_ns;
-    traits.group_barrier_ns = found->second.group_barrier_ns;
-    traits.element_ns = found->second.element_ns;
-    traits.lane_element_ns = found->second.lane_element_ns;
+    set_costs(traits, *costs);
     return traits;
 }
 

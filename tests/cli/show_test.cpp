@@ -67,10 +67,79 @@ TEST_CASE("costs of a device are measured once and kept: the plan is the same in
     CHECK(third["costs_ns"] ==
           nlohmann::json{{"dispatch", 1e6}, {"group_barrier", 1}, {"element", 0.5}, {"lane_element", 0.25}});
     CHECK(third["dispatches_per_step"] < first["dispatches_per_step"]); // grouped more
-    folder.file("costs.txt", "nonsense\n");
-    CHECK(plan()["dispatches_per_step"].is_number());
+    const auto fixed =
+        program::parse(folder.taut({"plan", scene, "--device-costs", "1000000,1,0.5,0.25", "--json"}).out);
+    CHECK(fixed["costs_ns"] == third["costs_ns"]);
+    CHECK(fixed["dispatches_per_step"] == third["dispatches_per_step"]); // without a device, too
     const Result readable = folder.taut({"plan", scene, "--device", "cpu:serial"});
     CHECK(readable.out.find("(from " + kept + ")") != std::string::npos);
+    setenv("TAUT_DEVICE_COSTS", before.c_str(), 1);
+}
+
+TEST_CASE("costs that an option fixes are no longer measured, nor kept")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const Result plan = folder.taut({"plan", scene, "--device", "cpu:serial", "--device-costs", "7,6,5,8"});
+    CHECK(plan.status == 0);
+    CHECK(
+        plan.out.find("a dispatch 7 ns, a barrier in a group 6 ns, an element 5 ns, in one group alone 8 ns "
+                      "(as given)") != std::string::npos);
+    for (const char* bad : {"7,6,5", "7,6,5,0", "7,6,5,x", "7,6,5,4,3"})
+    {
+        INFO(bad);
+        CHECK(folder.taut({"plan", scene, "--device-costs", bad}).status == 2);
+    }
+}
+
+TEST_CASE("whether a scene has too many passes does not depend on the device's costs")
+{
+    const Folder folder;
+    const auto scene = [&](const std::string& method, int cells, const std::string& most) {
+        const std::string n = std::to_string(cells);
+        return folder.file("cloth.json", R"({"taut": 1, "bodies": [{"grid": {"cells": [)" + n + ", " + n +
+                                             R"(]}}], "method": {"type": ")" + method +
+                                             R"(", "substeps": 1000, )" + R"("iterations": )" + most + "}}");
+    };
+    for (const char* method : {"xpbd", "pbd", "vbd"})
+        for (const int cells : {4, 40})
+        {
+            const std::string file = scene(method, cells, "1000");
+            INFO(method << " " << cells);
+            const Result check = folder.taut({"check", file, "--json"});
+            CHECK(check.status == 2);
+            const auto issue = program::parse(check.out)["issues"].back();
+            CHECK(issue["field"] == "method.substeps");
+            for (const char* costs : {"1,1000000,1,1000000", "1000000,1,1,1"})
+            {
+                const Result plan = folder.taut({"plan", file, "--device-costs", costs});
+                CHECK(plan.status == 2);
+                CHECK(plan.err.find(file + ": method.substeps " + issue["text"].get<std::string>()) !=
+                      std::string::npos);
+            }
+        }
+    const std::string file = scene("xpbd", 4, "20"); // some 300,000 passes
+    CHECK(folder.taut({"check", file}).status == 0);
+    for (const char* costs : {"1,1000000,1,1000000", "1000000,1,1,1"})
+        CHECK(folder.taut({"plan", file, "--device-costs", costs}).status == 0);
+}
+
+TEST_CASE("files that are not the program's own are refused in the places of what it keeps")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    const std::string file = folder.file("precious.txt", "a letter\n");
+    const std::string before = std::getenv("TAUT_DEVICE_COSTS") ? std::getenv("TAUT_DEVICE_COSTS") : "";
+    for (const std::string& place :
+         {file, folder.path().string(), (folder / "missing" / "costs.txt").string()})
+    {
+        setenv("TAUT_DEVICE_COSTS", place.c_str(), 1);
+        const Result result = folder.taut({"plan", scene, "--device", "cpu:serial"});
+        INFO(place);
+        CHECK(result.status == 2);
+        CHECK(result.err.find(place) != std::string::npos);
+        CHECK(program::read(file) == "a letter\n");
+    }
     setenv("TAUT_DEVICE_COSTS", before.c_str(), 1);
 }
 

@@ -3,6 +3,8 @@
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -103,4 +105,57 @@ TEST_CASE("whether a file could be written is asked without a trace")
         CHECK(error.code() == taut::ErrorCode::io);
         CHECK(std::string(error.what()).find((folder / "missing" / "a").string()) != std::string::npos);
     }
+}
+
+TEST_CASE("a device or a pipe is written to and not replaced by a file")
+{
+    const Folder folder;
+    const fs::path device = "/dev/null", pipe = folder / "pipe";
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    taut::check_writable(device);
+    taut::check_writable(pipe); // and does not wait for a reader
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    REQUIRE(reader >= 0);
+    taut::write_file(pipe, "text");
+    char text[8] = {};
+    CHECK(read(reader, text, sizeof text) == 4);
+    CHECK(std::string(text) == "text");
+    close(reader);
+    fs::create_symlink(device, folder / "link"); // the device itself would be lost to all, if this failed
+    taut::write_file(folder / "link", "text");
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(fs::is_character_file(folder / "link"));
+    CHECK(fs::is_fifo(pipe));
+    CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("a file behind a link is replaced, and the link stays")
+{
+    const Folder folder;
+    taut::write_file(folder / "a", "old");
+    fs::create_symlink("a", folder / "link");
+    taut::check_writable(folder / "link");
+    taut::write_file(folder / "link", "new");
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(text_of(folder / "a") == "new");
+    CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("a folder in the place of a file is called one, before any work and after it")
+{
+    const Folder folder;
+    fs::create_directory(folder / "taken");
+    for (const auto& act : {+[](const fs::path& file) { taut::check_writable(file); },
+                            +[](const fs::path& file) { taut::write_file(file, "text"); }})
+        try
+        {
+            act(folder / "taken");
+            FAIL("a folder was taken for a file");
+        }
+        catch (const taut::Error& error)
+        {
+            CHECK(error.code() == taut::ErrorCode::io);
+            CHECK(std::string(error.what()).find("it is a folder; name a file") != std::string::npos);
+        }
+    CHECK(folder.entries() == 1);
 }

@@ -175,6 +175,35 @@ TEST_CASE("the cheapest setting is found for each method and for all", "[methods
           "1 %: xpbd, 1 substep x 1 iteration in float, 6 ms per simulated second (e_disp 0.6 %).");
 }
 
+TEST_CASE("a cheapest setting of another material is named as one, beside the cheapest that is not",
+          "[methods]")
+{
+    std::vector<CostPoint> points{made("pbd", 5e-3, 1), made("xpbd", 6e-3, 3), made("vbd", 5e-3, 4)};
+    points[0].other_material = "pbd does not have the material's stiffness";
+    const CostStudy study = table(points);
+    CHECK(study.targets[1].cheapest == 0u);
+    CHECK(study.targets[1].own == 1u);
+    CHECK(cost_sentences(study)[1] ==
+          "1 %: pbd, 1 substep x 1 iteration in float, 1 ms per simulated second (e_disp 0.5 %); of another "
+          "material: pbd does not have the material's stiffness; with the scene's own xpbd, 1 substep x 1 "
+          "iteration in float, 3 ms per simulated second (e_disp 0.6 %).");
+    points.resize(1);
+    CHECK(cost_sentences(table(points))[1].find("with the scene's own it is not reached.") !=
+          std::string::npos);
+    const auto json = nlohmann::json::parse(cost_json(study));
+    CHECK(json["cheapest"]["0.01"]["other_material"] == points[0].other_material);
+    CHECK(json["cheapest"]["0.01"]["own_material"]["method"] == "xpbd");
+    CHECK(json["cheapest"]["0.001"].is_null());
+}
+
+TEST_CASE("a study tells which method moves another material", "[methods]")
+{
+    CostOptions options = two_methods();
+    const CostStudy study = run_cost(damped_chain(), Device::open("cpu:serial"), options);
+    for (const CostPoint& point : study.points)
+        CHECK(point.other_material.empty() == (point.method != "pbd"));
+}
+
 TEST_CASE("cheaper can mean time, process time or work", "[methods]")
 {
     std::vector<CostPoint> points{made("pbd", 5e-3, 1, 900), made("xpbd", 5e-3, 2, 600),

@@ -136,7 +136,7 @@ TEST_CASE("without a path no pipeline cache is written")
         CHECK(folder.file_count() == 0);
 }
 
-TEST_CASE("a damaged, truncated or foreign pipeline cache is ignored and rewritten")
+TEST_CASE("a damaged or truncated pipeline cache, or that of another driver, is ignored and rewritten")
 {
     const Folder folder;
     const std::string path = (folder.path / "pipelines.bin").string();
@@ -184,25 +184,30 @@ TEST_CASE("a pipeline cache in a folder that does not exist is refused when the 
     CHECK(contains(refused.text, path));
 }
 
-TEST_CASE("a folder or a pipe in the place of the pipeline cache is refused, and left alone")
+TEST_CASE("what is no pipeline cache is refused in the place of one, and left alone")
 {
     const Folder folder;
     const fs::path there = folder.path / "pipelines.bin";
-    const bool pipe = GENERATE(false, true);
-    if (pipe)
+    const std::string kind = GENERATE("a pipe", "a folder", "a letter", "TAUTPIP.");
+    if (kind == "a pipe")
         REQUIRE(mkfifo(there.c_str(), 0600) == 0);
-    else
+    else if (kind == "a folder")
         fs::create_directory(there);
+    else
+        write_text(there, kind);
+    const bool file = fs::is_regular_file(there);
     VkPhysicalDeviceProperties here{};
     CHECK(vulkan::load_pipeline_cache(there.string(), here).empty()); // and does not wait for a writer
     CHECK_FALSE(vulkan::save_pipeline_cache(there.string(), here, {}));
-    CHECK(fs::exists(there));
-    CHECK_FALSE(fs::is_regular_file(there));
-    if (list_vulkan().empty())
-        return;
-    const Refusal refused = refusal([&] { open_here(false, there.string()); });
-    CHECK(refused.code == ErrorCode::io);
-    CHECK(contains(refused.text, "name a file"));
+    CHECK(fs::is_regular_file(there) == file);
+    if (!list_vulkan().empty())
+    {
+        const Refusal refused = refusal([&] { open_here(false, there.string()); });
+        CHECK(refused.code == ErrorCode::io);
+        CHECK(contains(refused.text, file ? "is no pipeline cache of Taut" : kind + "; name a file"));
+    }
+    if (file)
+        CHECK(read_text(there) == kind);
 }
 
 TEST_CASE("an edited kernel text in TAUT_KERNEL_DIR takes the place of the built-in one")

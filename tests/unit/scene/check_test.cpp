@@ -222,6 +222,17 @@ TEST_CASE("resolve throws the first issue with its code, and counts the others")
                       "timestep is 0 s; it must be greater than 0 s and at most 1 s (and 2 other errors)");
 }
 
+TEST_CASE("a time step too short is told without substeps that nobody asked for")
+{
+    Scene scene = good_scene();
+    scene.timestep = 1e-18;
+    scene.method.substeps = 0; // automatic
+    REQUIRE(check(scene).size() >= 1);
+    CHECK(check(scene)[0].text == "is 1e-18 s; a substep, and so a time step, must be at least 1e-15 s");
+    scene.method.substeps = 4;
+    CHECK_THAT(check(scene)[0].text, Contains("in 4 substeps; a substep must be"));
+}
+
 TEST_CASE("an unknown method or word names the nearest known one")
 {
     Scene scene = good_scene();

@@ -85,6 +85,17 @@ TEST_CASE("lines of an OBJ that may mean something and are not read are counted 
     CHECK(findings.skipped == std::map<std::string, std::size_t>{{"\"l\"", 1}, {"\"stitch\"", 2}});
 }
 
+TEST_CASE("of many kinds of lines that are not read, all lines are counted")
+{
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (int kind = 10; kind < 48; ++kind)
+        text += "kind" + std::to_string(kind) + " 1\n";
+    MeshFindings findings;
+    parse(".obj", text, 0, &findings);
+    CHECK(findings.skipped.size() == 17);
+    CHECK(findings.skipped["of further kinds"] == 22);
+}
+
 TEST_CASE("coordinates keep double precision")
 {
     const Mesh mesh = parse(".obj", "v 0.1 0 0\nv 1.0000000000000002 0 0\nv 0 1 0\nf 1 2 3\n");

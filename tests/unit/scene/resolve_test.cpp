@@ -180,6 +180,47 @@ TEST_CASE("a transform that leaves the range of numbers is refused")
     CHECK_THROWS_WITH(resolve(scene_of(body)), Contains("bodies[0].transform is [-5e+39"));
 }
 
+TEST_CASE("a body whose size float cannot hold is refused, and one that it barely holds is warned of")
+{
+    const auto issue = [](double size, ShapeKind kind, const char* precision = "float") {
+        Scene scene;
+        Body body;
+        body.shape.kind = kind;
+        body.shape.box_size = glm::dvec3(size);
+        body.shape.radius = size;
+        body.shape.length = size;
+        body.shape.size = glm::dvec2(size);
+        body.material = is_solid(kind) ? solid_material() : Material{};
+        scene.method.precision = precision;
+        scene.bodies = {body};
+        std::vector<SceneIssue> found;
+        try
+        {
+            resolve(scene, &found);
+        }
+        catch (const Error&)
+        {}
+        return found.empty() ? SceneIssue{} : found.front();
+    };
+    for (const double size : {1e-20, 1e-30, 1e25})
+        for (const ShapeKind kind : {ShapeKind::box, ShapeKind::ball, ShapeKind::chain, ShapeKind::grid})
+        {
+            INFO(size << " m, shape " << static_cast<int>(kind));
+            CHECK(issue(size, kind).error);
+            CHECK_THAT(issue(size, kind).text, Contains("m would be right"));
+            CHECK(issue(size, kind, "double").text.find("whose square") == std::string::npos);
+        }
+    CHECK(issue(1e-20, ShapeKind::box).field == "bodies[0].box.size");
+    CHECK(issue(1e-30, ShapeKind::ball).field == "bodies[0].ball.radius");
+    const SceneIssue cube = issue(1e-9, ShapeKind::box);
+    CHECK_FALSE(cube.error);
+    CHECK(cube.field == "bodies[0].box.size");
+    CHECK_THAT(cube.text, Contains("2.1e-08 m and more are safe"));
+    for (const ShapeKind kind : {ShapeKind::box, ShapeKind::ball, ShapeKind::chain, ShapeKind::grid})
+        for (const double size : {1e-6, 1.0, 1e6})
+            CHECK(issue(size, kind).text.empty());
+}
+
 TEST_CASE("a scene without bodies resolves") { CHECK(resolve(Scene{}).bodies.empty()); }
 
 TEST_CASE("a mesh file is found beside the scene, checked and reported")

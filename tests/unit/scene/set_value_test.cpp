@@ -1,4 +1,5 @@
 #include "support/catch.hpp"
+#include "temporary.hpp"
 
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/settings.hpp"
@@ -39,6 +40,22 @@ TEST_CASE("settings change single values of a scene, and make objects that are m
     CHECK(scene.bodies[1].shape.links == 9);
     CHECK(scene.bodies[0].shape.network.used);
     CHECK(scene.bodies[0].shape.network.bend == 4);
+}
+
+TEST_CASE("a check of a file hands out the scene and the keys that it has read")
+{
+    const Temporary folder;
+    const auto file = folder.write("some.json", R"({"taut": 1, "bodies": [{"chain": {"links": 3}}],
+                                                    "method": {"type": "vbd", "iterations": 7}})");
+    Scene scene;
+    std::vector<std::string> keys;
+    CHECK(check_file(file, &scene, &keys).empty());
+    CHECK(keys == given_method_keys(file, {}));
+    CHECK(keys.size() == 2);
+    CHECK(scene.name == "some");
+    CHECK(scene.directory == folder.path);
+    CHECK(scene.method.iterations == 7);
+    CHECK(scene.bodies[0].shape.links == 3);
 }
 
 TEST_CASE("settings that say nothing are refused in words")
