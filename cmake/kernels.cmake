@@ -4,7 +4,9 @@
 
 include(${CMAKE_CURRENT_LIST_DIR}/kernel_rules.cmake)
 file(GLOB_RECURSE taut_kernel_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.comp)
+file(GLOB taut_element_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/elements/*.glsl)
 file(GLOB taut_kernel_shared CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/shared/*)
+list(APPEND taut_kernel_shared ${taut_element_files})
 taut_check_kernels(${taut_kernel_files})
 set(taut_generated ${PROJECT_BINARY_DIR}/generated/taut/kernels)
 set(taut_kernel_sources)
@@ -36,16 +38,19 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQU
     set(taut_lanes 1)
 endif()
 
-foreach(kernel IN LISTS taut_kernel_files)
-    cmake_path(GET kernel STEM stem)
-    list(APPEND taut_kernel_stems ${stem})
+# taut_compile_kernel(KERNEL STEM [ELEMENT]): the generated sources of one kernel, of one element where it has one.
+function(taut_compile_kernel kernel stem)
     set(outputs ${taut_generated}/${stem}.hpp ${taut_generated}/${stem}.cpp ${taut_generated}/${stem}.native.cpp)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${kernel})
+    set(read_by_both ${kernel})
+    if(ARGN)
+        list(APPEND read_by_both ${PROJECT_SOURCE_DIR}/kernels/${ARGN})
+    endif()
     file(STRINGS ${kernel} has_lanes REGEX "^//! lanes$")
     if(has_lanes)
         list(APPEND outputs ${taut_generated}/${stem}.lanes.cpp)
         set_source_files_properties(${taut_generated}/${stem}.lanes.cpp PROPERTIES
-            OBJECT_DEPENDS ${kernel} COMPILE_OPTIONS "${taut_lanes_options}")
+            OBJECT_DEPENDS "${read_by_both}" COMPILE_OPTIONS "${taut_lanes_options}")
         if(NOT taut_lanes)
             set_source_files_properties(${taut_generated}/${stem}.lanes.cpp PROPERTIES HEADER_FILE_ONLY ON)
         endif()
@@ -53,15 +58,27 @@ foreach(kernel IN LISTS taut_kernel_files)
     taut_touch(${outputs})
     add_custom_command(
         OUTPUT ${outputs}
-        COMMAND taut-kernelc ${kernel} ${PROJECT_SOURCE_DIR}/kernels ${taut_generated}
+        COMMAND taut-kernelc ${kernel} ${PROJECT_SOURCE_DIR}/kernels ${taut_generated} ${ARGN}
         ${touch}
         DEPENDS taut-kernelc ${kernel} ${taut_kernel_shared}
         COMMENT "Kernel ${stem}"
         VERBATIM)
     set_source_files_properties(${taut_generated}/${stem}.native.cpp PROPERTIES
-        OBJECT_DEPENDS ${kernel} COMPILE_DEFINITIONS TAUT_LANES=${taut_lanes}
+        OBJECT_DEPENDS "${read_by_both}" COMPILE_DEFINITIONS TAUT_LANES=${taut_lanes}
         COMPILE_OPTIONS "${taut_kernel_options}")
-    list(APPEND taut_kernel_sources ${outputs})
+    set(taut_kernel_stems ${taut_kernel_stems} ${stem} PARENT_SCOPE)
+    set(taut_kernel_sources ${taut_kernel_sources} ${outputs} PARENT_SCOPE)
+endfunction()
+
+foreach(kernel IN LISTS taut_kernel_files)
+    cmake_path(GET kernel STEM stem)
+    taut_elements_of(${kernel} elements)
+    foreach(element IN LISTS elements)
+        taut_compile_kernel(${kernel} ${stem}_${element} elements/${element}.glsl)
+    endforeach()
+    if(NOT DEFINED elements)
+        taut_compile_kernel(${kernel} ${stem})
+    endif()
 endforeach()
 
 # The registry: find_kernel(name, variant, precision).

@@ -1,9 +1,12 @@
 // taut-kernelc: the build's kernel compiler.
-//   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR     writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp, and
-//                                                     <stem>.lanes.cpp if the kernel has a line "//! lanes"
-//   taut-kernelc --includes INCLUDE_ROOT OUT_FILE     embeds kernels/shared/* as text
+//   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR [ELEMENT]
+//       writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp, and <stem>.lanes.cpp if the kernel has a line
+//       "//! lanes". With ELEMENT ("elements/spring.glsl" below INCLUDE_ROOT, or a path from the root of the
+//       file system) the kernel is compiled for it, and <stem> is <stem>_<element>
+//   taut-kernelc --includes INCLUDE_ROOT OUT_FILE
+//       embeds kernels/shared/* and kernels/elements/* as text
 
-#include "taut/runtime/compiler/compiler.hpp"
+#include "taut/runtime/compiler/variants.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -40,10 +43,10 @@ void write_text(const fs::path& path, const std::string& text)
         throw taut::Error(taut::ErrorCode::io, "cannot write " + path.string());
 }
 
-std::vector<std::string> shared_files(const fs::path& root)
+std::vector<std::string> files_of(const fs::path& root, const std::string& folder)
 {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(root / "shared"))
+    for (const auto& entry : fs::directory_iterator(root / folder))
         names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
@@ -196,10 +199,23 @@ std::string native_head(const std::string& stem, const std::string& portable)
 
 constexpr const char* kRange = "(const void* p, void* const* b, std::uint32_t begin, std::uint32_t end)";
 
+using Macros = std::vector<std::pair<std::string, std::string>>;
+
+/// Those of the variant and, for a kernel of an element, of that.
+Macros macros_of(const taut::KernelVariant& variant, const taut::ElementFile& element)
+{
+    Macros out = variant.defines;
+    if (element.path.empty())
+        return out;
+    for (const auto& define : taut::element_defines(element))
+        out.push_back(define);
+    out.emplace_back("TAUT_ELEMENT", '"' + element.path + '"');
+    return out;
+}
+
 /// The kernel as `struct Kernel` in a namespace of its own.
 void native_kernel(std::ostringstream& out, const std::string& path, const taut::CompiledKernel& k,
-                   const taut::KernelVariant& variant, const std::vector<std::string>& shared,
-                   const NativeForm& form)
+                   const Macros& macros, const std::vector<std::string>& shared, const NativeForm& form)
 {
     const std::string id = form.prefix + identifier(k);
     for (const std::string& file : shared)
@@ -210,7 +226,7 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
         });
         out << "#undef " << guard << "\n";
     }
-    for (const auto& [name, value] : variant.defines)
+    for (const auto& [name, value] : macros)
         out << "#define " << name << " " << value << "\n";
     const bool is_double = k.info.precision == taut::Precision::float64;
     const char* real = &form == &kLanes ? "taut::lanes::Real" : is_double ? "double" : "float";
@@ -226,7 +242,7 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     for (const auto& b : k.bindings)
         out << "        " << form.room << "::attach(" << b.name << ", buffers[" << b.slot << "]);\n";
     out << "    }\n};\n} // namespace " << id << "\n#undef TAUT_REAL_DOUBLE\n";
-    for (const auto& define : variant.defines)
+    for (const auto& define : macros)
         out << "#undef " << define.first << "\n";
 }
 
@@ -256,31 +272,34 @@ void lanes_entry(std::ostringstream& out, const taut::CompiledKernel& k)
         << "<lanes_" << id << "::Kernel>(p, b, begin, end);\n}\n\n";
 }
 
-void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& out_dir)
+void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& out_dir,
+             const taut::ElementFile& element)
 {
-    const std::string stem = kernel_path.stem().string();
+    const std::string stem =
+        kernel_path.stem().string() + (element.path.empty() ? "" : "_" + element.stem);
     const std::string text = read_text(kernel_path);
     const bool uses_real = text.find("real") != std::string::npos || text.find("rvec") != std::string::npos ||
                            text.find("layouts.h") != std::string::npos;
-    const auto shared = shared_files(root);
+    const auto shared = files_of(root, "shared");
     Kernels kernels;
     const bool lanes = has_lanes(text);
     std::ostringstream native, several;
     native << native_head(stem, "portable.hpp");
     several << native_head(stem, "lane_portable.hpp");
-    for (const auto& variant : taut::kernel_variants(stem, text))
+    for (const auto& variant : taut::kernel_variants(stem, text, element))
         for (const auto precision : {taut::Precision::float32, taut::Precision::float64})
         {
             if (precision == taut::Precision::float64 && !uses_real)
                 continue;
-            const auto kernel = taut::compile_kernel({stem, text, root, variant, precision});
+            const auto kernel = taut::compile_kernel({stem, text, root, variant, precision, element});
             const std::string path = fs::relative(kernel_path, root).generic_string(); // no machine's paths
-            native_kernel(native, path, *kernel, variant, shared, kScalar);
+            const Macros macros = macros_of(variant, element);
+            native_kernel(native, path, *kernel, macros, shared, kScalar);
             const bool has_form = lanes && precision == taut::Precision::float32;
             native_entry(native, *kernel, has_form);
             if (has_form)
             {
-                native_kernel(several, path, *kernel, variant, shared, kLanes);
+                native_kernel(several, path, *kernel, macros, shared, kLanes);
                 lanes_entry(several, *kernel);
             }
             kernels.push_back(kernel);
@@ -301,9 +320,10 @@ void embed_includes(const fs::path& root, const fs::path& out_file)
     out << "// Generated. Do not edit.\n#include \"taut/runtime/compiler/compiler.hpp\"\n\n"
            "namespace taut {\n\n"
         << "std::string_view builtin_include(std::string_view path)\n{\n";
-    for (const std::string& name : shared_files(root))
-        out << "    if (path == \"shared/" << name << "\")\n        return\n"
-            << literal(read_text(root / "shared" / name)) << ";\n";
+    for (const std::string folder : {"shared", "elements"})
+        for (const std::string& name : files_of(root, folder))
+            out << "    if (path == \"" << folder << "/" << name << "\")\n        return\n"
+                << literal(read_text(root / folder / name)) << ";\n";
     out << "    return {};\n}\n\n} // namespace taut\n";
     write_text(out_file, out.str());
 }
@@ -316,9 +336,12 @@ try
     if (argc == 4 && std::string_view(argv[1]) == "--includes")
         embed_includes(argv[2], argv[3]);
     else if (argc == 4)
-        compile(argv[1], argv[2], argv[3]);
+        compile(argv[1], argv[2], argv[3], {});
+    else if (argc == 5)
+        compile(argv[1], argv[2], argv[3],
+                taut::element_file(argv[4], read_text(fs::path(argv[2]) / argv[4])));
     else
-        return std::fprintf(stderr, "usage: taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR\n"), 2;
+        return std::fprintf(stderr, "usage: taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR [ELEMENT]\n"), 2;
     return 0;
 }
 catch (const std::exception& error)

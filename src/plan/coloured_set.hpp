@@ -56,8 +56,8 @@ std::vector<Use> uses_of(const PlanBuilder& builder, const ConstraintSet& set, s
 
 /// Passes of one sweep. `Params` is {first, count, first_iteration, report} for every constraint kernel.
 template <typename Params>
-void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                    const Moment& moment)
+void record_colours(PlanBuilder& b, const ConstraintSet& set, std::string_view kernel,
+                    std::uint32_t vertices_each, const Moment& moment)
 {
     const bool damped = set.damping != kNoBuffer;
     const bool keep = set.multipliers != kNoBuffer;
@@ -71,13 +71,13 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vert
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
         const std::vector<Use> uses = uses_of(b, set, vertices_each, run.grouped());
         if (run.grouped())
-            b.dispatch(set.kind, set.kind, grouped, uses, Params{range, 1, first_iteration, report}, 1, size);
+            b.dispatch(set.kind, kernel, grouped, uses, Params{range, 1, first_iteration, report}, 1, size);
         else
-            b.dispatch(set.kind, set.kind, alone, uses, Params{first, size, first_iteration, report}, size);
+            b.dispatch(set.kind, kernel, alone, uses, Params{first, size, first_iteration, report}, size);
         range += run.grouped() ? 2 : 0;
     }
     if (set.small_bodies > 0)
-        b.dispatch(set.kind, set.kind, grouped, uses_of(b, set, vertices_each, true),
+        b.dispatch(set.kind, kernel, grouped, uses_of(b, set, vertices_each, true),
                    Params{set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
                    set.small_constraints);
 }

@@ -5,7 +5,7 @@
 // Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a
 //   body moves bitwise as it would alone; runs of small colours share one group (the tail rule), and a
 //   small body among many has a group of its own, where the device's costs say so;
-//   vertices of very many distance constraints leave the colouring (kernels/constraints/hub.comp).
+//   vertices of very many distance constraints leave the colouring (kernels/methods/xpbd/xpbd_hub.comp).
 
 #include "taut/plan/constraints.hpp"
 
@@ -13,9 +13,9 @@
 #include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/kernels/bending.hpp"
-#include "taut/kernels/distance.hpp"
-#include "taut/kernels/hub.hpp"
+#include "taut/kernels/xpbd_hinge.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
+#include "taut/kernels/xpbd_hub_spring.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -112,8 +112,8 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
         if (keep)
             uses.push_back({set.multipliers});
         const std::uint32_t size = set.hub_start[h + 1] - set.hub_start[h];
-        b.dispatch(set.kind, "hub", keep ? "lambda" : "", uses,
-                   kernels::hub::Params{set.hub_start[h], size, moment.iteration == 0, moment.last}, 1, size);
+        b.dispatch(set.kind, "xpbd_hub_spring", keep ? "lambda" : "", uses,
+                   kernels::xpbd_hub_spring::Params{set.hub_start[h], size, moment.iteration == 0, moment.last}, 1, size);
     }
 }
 
@@ -223,7 +223,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "distance"))
     {
-        record_colours<kernels::distance::Params>(b, *set, 2, moment);
+        record_colours<kernels::xpbd_spring::Params>(b, *set, "xpbd_spring", 2, moment);
         record_hubs(b, *set, moment);
     }
 }
@@ -231,7 +231,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 void record_bending(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "bending"))
-        record_colours<kernels::bending::Params>(b, *set, 4, moment);
+        record_colours<kernels::xpbd_hinge::Params>(b, *set, "xpbd_hinge", 4, moment);
 }
 
 } // namespace taut

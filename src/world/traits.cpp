@@ -1,6 +1,6 @@
 // The four costs that a plan weighs, measured on the device itself with kernels that a step uses.
 
-#include "taut/kernels/distance.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
 #include "taut/world/kept_traits.hpp"
 #include "taut/world/world.hpp"
 
@@ -55,8 +55,8 @@ public:
     {
         Recorder recorder(device_.shared_from_this());
         for (std::uint32_t d = 0; d < dispatches; ++d)
-            recorder.dispatch(kernels::distance::info(), {constraint_, position_, delta_, step_, events_},
-                              kernels::distance::Params{0, springs, 1, 0}, springs);
+            recorder.dispatch(kernels::xpbd_spring::info(), {constraint_, position_, delta_, step_, events_},
+                              kernels::xpbd_spring::Params{0, springs, 1, 0}, springs);
         return best(*recorder.finish());
     }
 
@@ -70,9 +70,9 @@ public:
     double time_tail(Range range)
     {
         Recorder recorder(device_.shared_from_this());
-        recorder.dispatch(kernels::distance::info("tail"),
+        recorder.dispatch(kernels::xpbd_spring::info("tail"),
                           {constraint_, position_, delta_, step_, events_, table_},
-                          kernels::distance::Params{range, 1, 1, 0}, 1);
+                          kernels::xpbd_spring::Params{range, 1, 1, 0}, 1);
         return best(*recorder.finish());
     }
 

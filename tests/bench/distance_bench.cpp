@@ -3,7 +3,7 @@
 #include "bench.hpp"
 #include "plain.hpp"
 
-#include "taut/kernels/distance.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
 #include "taut/plan/topology.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -77,9 +77,9 @@ public:
         for (std::size_t c = 0; c + 1 < p.colour_start.size(); ++c)
         {
             const std::uint32_t first = p.colour_start[c], count = p.colour_start[c + 1] - first;
-            recorder.dispatch(taut::kernels::distance::info(),
+            recorder.dispatch(taut::kernels::xpbd_spring::info(),
                               {constraint_, position_, delta_, step_, events_},
-                              taut::kernels::distance::Params{first, count, 1, 0}, count);
+                              taut::kernels::xpbd_spring::Params{first, count, 1, 0}, count);
         }
         recording_ = recorder.finish();
     }
