@@ -1,3 +1,5 @@
+include(${CMAKE_CURRENT_LIST_DIR}/taut_elements.cmake)
+
 # taut_check_kernels(KERNELS...): stops the configuration on two kernels of one stem and on a kernel without a
 # test: tests/conformance/<stem>_test.cpp must exist; of a kernel that is compiled for elements, one a kernel,
 # <stem>_<element>_test.cpp. tests/rules/kernel_rules.cmake plants such kernels.
@@ -33,13 +35,11 @@ function(taut_elements_of kernel out)
     if(NOT method)
         return()
     endif()
-    string(REPLACE "//! each element of " "" method "${method}")
     file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/elements/*.glsl)
     set(elements)
     foreach(file IN LISTS files)
-        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-        file(STRINGS ${file} methods REGEX "^//! methods .*")
-        if("${methods} " MATCHES " ${method} ")
+        taut_is_for(${kernel} ${file} wanted)
+        if(wanted)
             cmake_path(GET file STEM element)
             list(APPEND elements ${element})
         endif()

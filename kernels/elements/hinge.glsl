@@ -9,10 +9,10 @@
 #include "shared/hinge.glsl"
 
 #define hinge_record BendingConstraint
-#define hinge_v0(c) (c).edge0
-#define hinge_v1(c) (c).edge1
-#define hinge_v2(c) (c).wing0
-#define hinge_v3(c) (c).wing1
+#define hinge_v0(e) (e).edge0
+#define hinge_v1(e) (e).edge1
+#define hinge_v2(e) (e).wing0
+#define hinge_v3(e) (e).wing1
 
 /// A wing without area has no angle.
 INLINE ElementRow hinge_row(BendingConstraint c, rvec3 e1, rvec3 e2, rvec3 e3)

@@ -7,8 +7,8 @@
 //! with dampers
 
 #define spring_record DistanceConstraint
-#define spring_v0(c) (c).a
-#define spring_v1(c) (c).b
+#define spring_v0(e) (e).a
+#define spring_v1(e) (e).b
 
 /// Coincident ends have no direction. e1: from end 0 to end 1, m.
 INLINE ElementRow spring_row(DistanceConstraint c, rvec3 e1)

@@ -8,10 +8,10 @@
 //! methods xpbd
 
 #define volume_record VolumeConstraint
-#define volume_v0(c) (c).a
-#define volume_v1(c) (c).b
-#define volume_v2(c) (c).c
-#define volume_v3(c) (c).d
+#define volume_v0(e) (e).a
+#define volume_v1(e) (e).b
+#define volume_v2(e) (e).c
+#define volume_v3(e) (e).d
 
 /// A tetrahedron collapsed to a line has no gradient; nor has one whose moving corners all lie in one plane
 /// through an edge.

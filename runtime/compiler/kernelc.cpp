@@ -88,7 +88,7 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
     std::ostringstream out;
     out << "#pragma once\n// Generated from kernels/**/" << stem << ".comp. Do not edit.\n\n"
         << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <cstddef>\n"
-           "#include <cstdint>\n#include <string_view>\n\n"
+           "#include <cstdint>\n#include <span>\n#include <string_view>\n\n"
         << "namespace taut::kernels::" << stem << " {\n\n";
     const auto& params = kernels.front()->params;
     if (!params.empty())
@@ -106,12 +106,14 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
     }
     out << "\n/// Throws Error{unsupported} when there is no such variant.\n"
         << "const KernelInfo& info(std::string_view variant = {}, "
-           "Precision precision = Precision::float32);\n\n"
+           "Precision precision = Precision::float32);\n"
+        << "/// Every variant in every precision.\nstd::span<const KernelInfo> all();\n\n"
         << "} // namespace taut::kernels::" << stem << "\n";
     return out.str();
 }
 
-void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
+/// `own`: the text of the kernel's element; what it declares itself is in no header of the host.
+void table_text(std::ostringstream& out, const taut::CompiledKernel& k, const std::string& own)
 {
     const std::string id = identifier(k);
     out << "const std::uint32_t vulkan_" << id << "[] = {" << words(k.spirv_vulkan) << "};\n"
@@ -132,12 +134,13 @@ void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
     }
     const char* real = k.info.precision == taut::Precision::float64 ? "double" : "float";
     for (const auto& m : k.layouts)
-        out << "static_assert(offsetof(layout::" << m.record << "<" << real << ">, " << m.name
-            << ") == " << m.offset << " && sizeof(layout::" << m.record << "<" << real << ">) == " << m.stride
-            << ");\n";
+        if (own.find("LAYOUT_STRUCT(" + m.record + ")") == std::string::npos)
+            out << "static_assert(offsetof(layout::" << m.record << "<" << real << ">, " << m.name
+                << ") == " << m.offset << " && sizeof(layout::" << m.record << "<" << real
+                << ">) == " << m.stride << ");\n";
 }
 
-std::string source_text(const std::string& stem, const Kernels& kernels)
+std::string source_text(const std::string& stem, const Kernels& kernels, const std::string& own)
 {
     std::ostringstream out;
     out << "// Generated. Do not edit.\n#include \"taut/kernels/" << stem << ".hpp\"\n"
@@ -149,7 +152,7 @@ std::string source_text(const std::string& stem, const Kernels& kernels)
             << "(const void*, void* const*, std::uint32_t, std::uint32_t);\n";
     out << "namespace {\n";
     for (const auto& k : kernels)
-        table_text(out, *k);
+        table_text(out, *k, own);
     out << "const KernelInfo table[] = {\n";
     for (const auto& k : kernels)
     {
@@ -308,7 +311,8 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
         *out << "} // namespace taut::kernels::" << stem << "\n";
     fs::create_directories(out_dir);
     write_text(out_dir / (stem + ".hpp"), header_text(stem, kernels));
-    write_text(out_dir / (stem + ".cpp"), source_text(stem, kernels));
+    const std::string own = element.path.empty() ? std::string() : read_text(root / element.path);
+    write_text(out_dir / (stem + ".cpp"), source_text(stem, kernels, own));
     write_text(out_dir / (stem + ".native.cpp"), native.str());
     if (lanes)
         write_text(out_dir / (stem + ".lanes.cpp"), several.str());

@@ -62,6 +62,8 @@ inline constexpr Tolerance kTolerances[] = {
     {"xpbd_hinge", 8,
      "cross products of cross products: each gradient passes some ten roundings, the angle six"},
     {"xpbd_volume", 8, "differences, cross products and their squares, a sum of four, a quotient, products"},
+    {"xpbd_cubic_spring", 8, "as xpbd_spring, and squares"},
+    {"xpbd_held_area", 8, "a cross product, a root, cross products of both, squares, quotients"},
     {"neo_hookean", 8, "F from nine products, its cofactors, sums of four squares, a 2 x 2 system"},
     {"xpbd_hub_spring", 6, "as xpbd_spring, and a tree of 64 partial sums of up to 16 terms each"},
     {"pbd_stretch", 6, "as distance"},
