@@ -8,6 +8,7 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 # What a program may use, and nothing else: a header that is not here can change without notice. The test
 # install_prefix compiles each alone.
 set(taut_public_headers
+    elements/element.hpp
     scene/scene.hpp scene/method_kind.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
     plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/solid.hpp plan/surface.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp

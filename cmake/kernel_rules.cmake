@@ -1,5 +1,8 @@
+include(${CMAKE_CURRENT_LIST_DIR}/taut_elements.cmake)
+
 # taut_check_kernels(KERNELS...): stops the configuration on two kernels of one stem and on a kernel without a
-# test: tests/conformance/<stem>_test.cpp must exist. tests/rules/kernel_rules.cmake plants such kernels.
+# test: tests/conformance/<stem>_test.cpp must exist; of a kernel that is compiled for elements, one a kernel,
+# <stem>_<element>_test.cpp. tests/rules/kernel_rules.cmake plants such kernels.
 function(taut_check_kernels)
     set(stems)
     foreach(kernel IN LISTS ARGN)
@@ -8,8 +11,38 @@ function(taut_check_kernels)
             message(FATAL_ERROR "two kernels are called ${stem}.comp: the stem must be unique")
         endif()
         list(APPEND stems ${stem})
-        if(NOT EXISTS ${PROJECT_SOURCE_DIR}/tests/conformance/${stem}_test.cpp)
-            message(FATAL_ERROR "${kernel} has no test: expected tests/conformance/${stem}_test.cpp")
+        taut_elements_of(${kernel} elements)
+        foreach(element IN LISTS elements)
+            taut_check_kernel_test(${kernel} ${stem}_${element})
+        endforeach()
+        if(NOT DEFINED elements)
+            taut_check_kernel_test(${kernel} ${stem})
         endif()
     endforeach()
+endfunction()
+
+function(taut_check_kernel_test kernel stem)
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/tests/conformance/${stem}_test.cpp)
+        message(FATAL_ERROR "${kernel} has no test: expected tests/conformance/${stem}_test.cpp")
+    endif()
+endfunction()
+
+# taut_elements_of(KERNEL OUT): the elements that a kernel is compiled for; OUT is unset for one without a line
+# "//! each element of METHOD". They are the kernels/elements/<element>.glsl whose line "//! methods" names METHOD.
+function(taut_elements_of kernel out)
+    unset(${out} PARENT_SCOPE)
+    file(STRINGS ${kernel} method REGEX "^//! each element of ")
+    if(NOT method)
+        return()
+    endif()
+    file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/elements/*.glsl)
+    set(elements)
+    foreach(file IN LISTS files)
+        taut_is_for(${kernel} ${file} wanted)
+        if(wanted)
+            cmake_path(GET file STEM element)
+            list(APPEND elements ${element})
+        endif()
+    endforeach()
+    set(${out} "${elements}" PARENT_SCOPE)
 endfunction()

@@ -129,11 +129,10 @@ mutated() {
         END { exit !done }' "$2"
 }
 
-# make_kernel KIND KERNEL N: objects of the mutant; sets `pairs` and `what`.
-# Status 1: no such sum, 2: does not compile.
+# make_kernel KIND STEM TEXT N: objects of the mutant, with another TEXT (below kernels/); sets `pairs` and
+# `what`. Status 1: no such sum, 2: does not compile.
 make_kernel() {
-    local kind=$1 text=$2 stem object source
-    stem=$(basename "$text" .comp)
+    local kind=$1 stem=$2 text=$3 object source changed
     pairs=() what=
     local folder=CMakeFiles/taut_kernels.dir/generated/taut/kernels
     object=$folder/$stem.native.cpp.o
@@ -148,17 +147,23 @@ make_kernel() {
         pairs=("$object" "$work/$stem.o")
         return
     fi
-    mutated "$kind" "$text" "$3" 3> "$work/line" > "$work/$stem.comp" || return 1
+    changed=$work/$stem.${text##*.}
+    mutated "$kind" "$root/kernels/$text" "$4" 3> "$work/line" > "$changed" || return 1
     what=$(sed 's/\/\/.*//; s/^[ \t]*//; s/[ \t]*$//; s/,/;/g' "$work/line")
     for source in native lanes; do
         object=$folder/$stem.$source.cpp.o
         [ -f "$build/$object" ] || continue
-        sed "s|\"$text\"|\"$work/$stem.comp\"|" "$build/generated/taut/kernels/$stem.$source.cpp" \
+        sed "s|\"$text\"|\"$changed\"|" "$build/generated/taut/kernels/$stem.$source.cpp" \
             > "$work/$stem.$source.cpp"
         compile "$object" "$work/$stem.$source.cpp" "$work/$stem.$source.o" \
-            -I "$(dirname "$text")" 2> "$work/errors" || return 2
+            -I "$(dirname "$root/kernels/$text")" 2> "$work/errors" || return 2
         pairs+=("$object" "$work/$stem.$source.o")
     done
+}
+
+# texts_of NATIVE: the kernel, and its element, that a generated source was made from; below kernels/.
+texts_of() {
+    sed -n 's/^#include "\(.*\.comp\)"$/\1/p; s/^#define TAUT_ELEMENT "\(.*\)"$/\1/p' "$1" | sort -u
 }
 
 # make_host FILE EXPRESSION: the object of a source changed by sed; sets `pairs`.
@@ -271,21 +276,26 @@ table() {
 
 for kind in nothing sign drop; do
     case ,$kinds, in *,$kind,*) ;; *) continue ;; esac
-    for text in "$root"/kernels/*/*.comp; do
-        stem=$(basename "$text" .comp)
+    for native in "$build"/generated/taut/kernels/*.native.cpp; do
+        stem=$(basename "$native" .native.cpp)
         # shellcheck disable=SC2053 # a pattern
         [[ $stem == $kernels ]] || continue
-        wanted "$stem:$kind" || continue
-        made=2
-        for ((n = 0; made == 2; ++n)); do # an index without its sum does not compile: the next one
-            made=0
-            make_kernel $kind "$text" $n || made=$?
+        for text in $(texts_of "$native"); do
+            name=$stem:$kind
+            [[ $text != elements/* ]] || name=$stem.element:$kind # what its element adds to a method's kernel
+            [[ $text != elements/* || $kind != nothing ]] || continue
+            wanted "$name" || continue
+            made=2
+            for ((n = 0; made == 2; ++n)); do # an index without its sum does not compile: the next one
+                made=0
+                make_kernel $kind "$stem" "$text" $n || made=$?
+            done
+            if [ $made -eq 0 ]; then
+                judge "$name" $kind
+            else
+                echo "$name: no sum that can be changed" >&2
+            fi
         done
-        if [ $made -eq 0 ]; then
-            judge "$stem:$kind" $kind
-        else
-            echo "$stem:$kind: no sum that can be changed" >&2
-        fi
     done
 done
 case ,$kinds, in

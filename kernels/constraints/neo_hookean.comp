@@ -34,7 +34,7 @@ READ_ONE(3, StepValues, step_values);
 COUNTERS(4, events);
 #if TAIL
 GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
-READ(5, uint, table);          // as in distance.comp
+READ(5, uint, table);          // as in xpbd.comp
 #else
 UPDATE(2, rvec4, delta);
 #endif

@@ -21,7 +21,7 @@ READ(0, DistanceConstraint, constraint); // rest_length: the greatest length, m
 READ(1, rvec4, position);                // xyz m, w = inverse mass 1/kg
 #if TAIL
 GROUP_UPDATE(2, rvec4, delta); // displacement since the start of the substep, m
-READ(3, uint, table);          // as in distance.comp
+READ(3, uint, table);          // as in xpbd.comp
 #else
 UPDATE(2, rvec4, delta);
 #endif

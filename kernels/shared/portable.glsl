@@ -39,6 +39,8 @@
 //   DECLARE(void f(uint a)) ... APART void f(uint a) { ... }   a function behind the kernel's body, so that
 //                                      it can hold phases; the native build never inlines it, which leaves
 //                                      a hot loop the registers
+//   INLINE f(...) { ... }              a function that the native build puts where it is called, whatever its
+//                                      size, because it hands structures on
 //   rbool, SELECT(c, a, b), ANY(c), ELEMENT, COUNT_EVENT_IF(c, name, index)   see below
 //   IS_FINITE(value)                   by its bits: drivers may take a comparison for one without NaN, and a
 //                                      difference of equals for zero
@@ -109,6 +111,7 @@ rvec3 taut_cross(rvec3 a, rvec3 b)
 #define SELECT(condition, a, b) ((condition) ? (a) : (b))
 #define ANY(condition) (condition)
 #define APART
+#define INLINE
 #define LAYOUT_STRUCT(name) struct name
 
 #ifdef VULKAN

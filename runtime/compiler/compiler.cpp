@@ -2,6 +2,7 @@
 
 #include "taut/runtime/compiler/float_rules.hpp"
 #include "taut/runtime/compiler/reflect.hpp"
+#include "taut/runtime/compiler/variants.hpp"
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -77,23 +78,32 @@ std::string with_precise(const std::string& line)
     return std::regex_replace(line, local, "$1PRECISE $2");
 }
 
-void flatten(Flat& out, const std::string& text, const std::string& file, const std::filesystem::path& root,
-             Precision precision, std::set<std::string>& seen)
+/// What a line includes; empty for other lines.
+std::string included(const std::string& line, const ElementFile& element)
+{
+    if (line.rfind("#include", 0) != 0)
+        return {};
+    if (line == "#include TAUT_ELEMENT")
+        return element.path;
+    const auto quote = line.find('"');
+    if (quote == std::string::npos)
+        return {};
+    return line.substr(quote + 1, line.find('"', quote + 1) - quote - 1);
+}
+
+void flatten(Flat& out, const std::string& text, const std::string& file, const KernelSource& source,
+             std::set<std::string>& seen)
 {
     std::istringstream lines(text);
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number)
     {
-        const auto quote = line.find('"');
-        if (line.rfind("#include", 0) != 0 || quote == std::string::npos)
-        {
-            out.add(with_precise(with_literals(line, precision)), file, number);
-            continue;
-        }
-        const std::string path = line.substr(quote + 1, line.find('"', quote + 1) - quote - 1);
-        if (seen.insert(path).second)
-            flatten(out, load_include(root, path, file + ":" + std::to_string(number)), path, root, precision,
-                    seen);
+        const std::string path = included(line, source.element);
+        if (path.empty())
+            out.add(with_precise(with_literals(line, source.precision)), file, number);
+        else if (seen.insert(path).second)
+            flatten(out, load_include(source.include_root, path, file + ":" + std::to_string(number)), path,
+                    source, seen);
     }
 }
 
@@ -107,8 +117,11 @@ Flat preamble_and_text(const KernelSource& source)
              where, 3);
     for (const auto& [name, value] : source.variant.defines)
         flat.add("#define " + name + " " + value, where, 4);
+    if (!source.element.path.empty())
+        for (const auto& [name, value] : element_defines(source.element))
+            flat.add("#define " + name + " " + value, where, 5);
     std::set<std::string> seen;
-    flatten(flat, source.text, source.name + ".comp", source.include_root, source.precision, seen);
+    flatten(flat, source.text, source.name + ".comp", source, seen);
     return flat;
 }
 
@@ -188,40 +201,6 @@ void fill_tables(CompiledKernel& kernel, const Reflection& reflection)
 }
 
 } // namespace
-
-std::vector<KernelVariant> kernel_variants(std::string_view name, std::string_view text)
-{
-    std::vector<KernelVariant> variants(1);
-    std::istringstream lines{std::string(text)};
-    std::set<std::string> macros;
-    std::string line;
-    while (std::getline(lines, line))
-    {
-        if (line.rfind("//! variant ", 0) != 0)
-            continue;
-        std::istringstream words(line.substr(12));
-        KernelVariant& variant = variants.emplace_back();
-        words >> variant.name;
-        for (std::string word; words >> word;)
-        {
-            const auto equal = word.find('=');
-            if (equal == std::string::npos)
-                refuse("kernel " + std::string(name) + ": expected MACRO=VALUE in \"" + line + "\"");
-            variant.defines.emplace_back(word.substr(0, equal), word.substr(equal + 1));
-            macros.insert(word.substr(0, equal));
-        }
-    }
-    for (KernelVariant& variant : variants)
-        for (const std::string& macro : macros)
-        {
-            bool defined = false;
-            for (const auto& [existing, value] : variant.defines)
-                defined = defined || existing == macro;
-            if (!defined)
-                variant.defines.emplace_back(macro, "0");
-        }
-    return variants;
-}
 
 std::shared_ptr<const CompiledKernel> compile_kernel(const KernelSource& source)
 {

@@ -23,13 +23,31 @@ struct KernelVariant
     std::vector<std::pair<std::string, std::string>> defines;
 };
 
+/// An element that kernels of methods are compiled for: kernels/elements/<stem>.glsl (shared/element.glsl).
+struct ElementFile
+{
+    std::string path; ///< below the include root, "elements/spring.glsl"; empty: none
+    std::string stem;
+    std::uint32_t corners = 0;          ///< 2 to 4
+    std::vector<std::string> methods;   ///< `//! methods xpbd pbd`: whose kernels it is compiled into
+    std::vector<std::string> abilities; ///< `//! with dampers`: variants that it has beyond those of all
+};
+
+/// Reads the `//!` lines. Throws Error{kernel_compilation} for a file without `//! corners 2` to 4 and
+/// `//! methods`.
+ElementFile element_file(const std::string& path, std::string_view text);
+
+/// The method of a kernel with the line `//! each element of METHOD`; empty for all others.
+std::string method_of_elements(std::string_view text);
+
 struct KernelSource
 {
-    std::string name; ///< stem
+    std::string name; ///< stem; of a kernel for one element, stem and element: "xpbd_spring"
     std::string text; ///< as in the file; `#include "shared/..."` is resolved by `include_root`
     std::filesystem::path include_root; ///< folder that holds shared/; empty: the built-in copies
     KernelVariant variant;
     Precision precision = Precision::float32;
+    ElementFile element = {}; ///< what the line `#include TAUT_ELEMENT` means
 };
 
 /// Member of a record that a buffer holds, as the shader compiler laid it out.
@@ -58,9 +76,11 @@ struct CompiledKernel
     std::vector<std::unique_ptr<std::string>> names; ///< storage behind string_views
 };
 
-/// The base variant and every `//! variant` line of a kernel text, each with all macros defined.
-/// Throws Error{kernel_compilation} for a malformed line.
-std::vector<KernelVariant> kernel_variants(std::string_view name, std::string_view text);
+/// The base variant and every `//! variant` line of a kernel text, each with all macros defined; of lines
+/// that end `with ABILITY` those of the element's abilities. Throws Error{kernel_compilation} for a malformed
+/// line.
+std::vector<KernelVariant> kernel_variants(std::string_view name, std::string_view text,
+                                           const ElementFile& element = {});
 
 /// Compiles, validates with SPIRV-Tools and reflects. Throws Error{kernel_compilation} with the
 /// compiler's words, each line naming file and line.

@@ -1,10 +1,13 @@
 // taut-kernelc: the build's kernel compiler.
-//   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR     writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp, and
-//                                                     <stem>.lanes.cpp if the kernel has a line "//! lanes"
-//   taut-kernelc --includes INCLUDE_ROOT OUT_FILE     embeds kernels/shared/* as text
+//   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR [ELEMENT]
+//       writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp, and <stem>.lanes.cpp if the kernel has a line
+//       "//! lanes". With ELEMENT ("elements/spring.glsl" below INCLUDE_ROOT, or a path from the root of the
+//       file system) the kernel is compiled for it, and <stem> is <stem>_<element>
+//   taut-kernelc --includes INCLUDE_ROOT OUT_FILE
+//       embeds kernels/shared/* and kernels/elements/* as text
 
 #include "taut/runtime/compiler/bindings_text.hpp"
-#include "taut/runtime/compiler/compiler.hpp"
+#include "taut/runtime/compiler/variants.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -41,10 +44,10 @@ void write_text(const fs::path& path, const std::string& text)
         throw taut::Error(taut::ErrorCode::io, "cannot write " + path.string());
 }
 
-std::vector<std::string> shared_files(const fs::path& root)
+std::vector<std::string> files_of(const fs::path& root, const std::string& folder)
 {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(root / "shared"))
+    for (const auto& entry : fs::directory_iterator(root / folder))
         names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
@@ -86,7 +89,7 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
     std::ostringstream out;
     out << "#pragma once\n// Generated from kernels/**/" << stem << ".comp. Do not edit.\n\n"
         << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <array>\n"
-           "#include <cstddef>\n#include <cstdint>\n#include <string_view>\n#include <utility>\n\n"
+           "#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <string_view>\n#include <utility>\n\n"
         << "namespace taut::kernels::" << stem << " {\n\n";
     const auto& params = kernels.front()->params;
     if (!params.empty())
@@ -104,12 +107,14 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
     }
     out << "\n/// Throws Error{unsupported} when there is no such variant.\n"
         << "const KernelInfo& info(std::string_view variant = {}, "
-           "Precision precision = Precision::float32);\n\n"
+           "Precision precision = Precision::float32);\n"
+        << "/// Every variant in every precision.\nstd::span<const KernelInfo> all();\n\n"
         << taut::bindings_text(stem, kernels) << "\n} // namespace taut::kernels::" << stem << "\n";
     return out.str();
 }
 
-void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
+/// `own`: the text of the kernel's element; what it declares itself is in no header of the host.
+void table_text(std::ostringstream& out, const taut::CompiledKernel& k, const std::string& own)
 {
     const std::string id = identifier(k);
     out << "const std::uint32_t vulkan_" << id << "[] = {" << words(k.spirv_vulkan) << "};\n"
@@ -130,12 +135,13 @@ void table_text(std::ostringstream& out, const taut::CompiledKernel& k)
     }
     const char* real = k.info.precision == taut::Precision::float64 ? "double" : "float";
     for (const auto& m : k.layouts)
-        out << "static_assert(offsetof(layout::" << m.record << "<" << real << ">, " << m.name
-            << ") == " << m.offset << " && sizeof(layout::" << m.record << "<" << real << ">) == " << m.stride
-            << ");\n";
+        if (own.find("LAYOUT_STRUCT(" + m.record + ")") == std::string::npos)
+            out << "static_assert(offsetof(layout::" << m.record << "<" << real << ">, " << m.name
+                << ") == " << m.offset << " && sizeof(layout::" << m.record << "<" << real
+                << ">) == " << m.stride << ");\n";
 }
 
-std::string source_text(const std::string& stem, const Kernels& kernels)
+std::string source_text(const std::string& stem, const Kernels& kernels, const std::string& own)
 {
     std::ostringstream out;
     out << "// Generated. Do not edit.\n#include \"taut/kernels/" << stem << ".hpp\"\n"
@@ -147,7 +153,7 @@ std::string source_text(const std::string& stem, const Kernels& kernels)
             << "(const void*, void* const*, std::uint32_t, std::uint32_t);\n";
     out << "namespace {\n";
     for (const auto& k : kernels)
-        table_text(out, *k);
+        table_text(out, *k, own);
     out << "const KernelInfo table[] = {\n";
     for (const auto& k : kernels)
     {
@@ -197,10 +203,23 @@ std::string native_head(const std::string& stem, const std::string& portable)
 
 constexpr const char* kRange = "(const void* p, void* const* b, std::uint32_t begin, std::uint32_t end)";
 
+using Macros = std::vector<std::pair<std::string, std::string>>;
+
+/// Those of the variant and, for a kernel of an element, of that.
+Macros macros_of(const taut::KernelVariant& variant, const taut::ElementFile& element)
+{
+    Macros out = variant.defines;
+    if (element.path.empty())
+        return out;
+    for (const auto& define : taut::element_defines(element))
+        out.push_back(define);
+    out.emplace_back("TAUT_ELEMENT", '"' + element.path + '"');
+    return out;
+}
+
 /// The kernel as `struct Kernel` in a namespace of its own.
 void native_kernel(std::ostringstream& out, const std::string& path, const taut::CompiledKernel& k,
-                   const taut::KernelVariant& variant, const std::vector<std::string>& shared,
-                   const NativeForm& form)
+                   const Macros& macros, const std::vector<std::string>& shared, const NativeForm& form)
 {
     const std::string id = form.prefix + identifier(k);
     for (const std::string& file : shared)
@@ -211,7 +230,7 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
         });
         out << "#undef " << guard << "\n";
     }
-    for (const auto& [name, value] : variant.defines)
+    for (const auto& [name, value] : macros)
         out << "#define " << name << " " << value << "\n";
     const bool is_double = k.info.precision == taut::Precision::float64;
     const char* real = &form == &kLanes ? "taut::lanes::Real" : is_double ? "double" : "float";
@@ -227,7 +246,7 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     for (const auto& b : k.bindings)
         out << "        " << form.room << "::attach(" << b.name << ", buffers[" << b.slot << "]);\n";
     out << "    }\n};\n} // namespace " << id << "\n#undef TAUT_REAL_DOUBLE\n";
-    for (const auto& define : variant.defines)
+    for (const auto& define : macros)
         out << "#undef " << define.first << "\n";
 }
 
@@ -257,31 +276,34 @@ void lanes_entry(std::ostringstream& out, const taut::CompiledKernel& k)
         << "<lanes_" << id << "::Kernel>(p, b, begin, end);\n}\n\n";
 }
 
-void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& out_dir)
+void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& out_dir,
+             const taut::ElementFile& element)
 {
-    const std::string stem = kernel_path.stem().string();
+    const std::string stem =
+        kernel_path.stem().string() + (element.path.empty() ? "" : "_" + element.stem);
     const std::string text = read_text(kernel_path);
     const bool uses_real = text.find("real") != std::string::npos || text.find("rvec") != std::string::npos ||
                            text.find("layouts.h") != std::string::npos;
-    const auto shared = shared_files(root);
+    const auto shared = files_of(root, "shared");
     Kernels kernels;
     const bool lanes = has_lanes(text);
     std::ostringstream native, several;
     native << native_head(stem, "portable.hpp");
     several << native_head(stem, "lane_portable.hpp");
-    for (const auto& variant : taut::kernel_variants(stem, text))
+    for (const auto& variant : taut::kernel_variants(stem, text, element))
         for (const auto precision : {taut::Precision::float32, taut::Precision::float64})
         {
             if (precision == taut::Precision::float64 && !uses_real)
                 continue;
-            const auto kernel = taut::compile_kernel({stem, text, root, variant, precision});
+            const auto kernel = taut::compile_kernel({stem, text, root, variant, precision, element});
             const std::string path = fs::relative(kernel_path, root).generic_string(); // no machine's paths
-            native_kernel(native, path, *kernel, variant, shared, kScalar);
+            const Macros macros = macros_of(variant, element);
+            native_kernel(native, path, *kernel, macros, shared, kScalar);
             const bool has_form = lanes && precision == taut::Precision::float32;
             native_entry(native, *kernel, has_form);
             if (has_form)
             {
-                native_kernel(several, path, *kernel, variant, shared, kLanes);
+                native_kernel(several, path, *kernel, macros, shared, kLanes);
                 lanes_entry(several, *kernel);
             }
             kernels.push_back(kernel);
@@ -290,7 +312,8 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
         *out << "} // namespace taut::kernels::" << stem << "\n";
     fs::create_directories(out_dir);
     write_text(out_dir / (stem + ".hpp"), header_text(stem, kernels));
-    write_text(out_dir / (stem + ".cpp"), source_text(stem, kernels));
+    const std::string own = element.path.empty() ? std::string() : read_text(root / element.path);
+    write_text(out_dir / (stem + ".cpp"), source_text(stem, kernels, own));
     write_text(out_dir / (stem + ".native.cpp"), native.str());
     if (lanes)
         write_text(out_dir / (stem + ".lanes.cpp"), several.str());
@@ -302,9 +325,10 @@ void embed_includes(const fs::path& root, const fs::path& out_file)
     out << "// Generated. Do not edit.\n#include \"taut/runtime/compiler/compiler.hpp\"\n\n"
            "namespace taut {\n\n"
         << "std::string_view builtin_include(std::string_view path)\n{\n";
-    for (const std::string& name : shared_files(root))
-        out << "    if (path == \"shared/" << name << "\")\n        return\n"
-            << literal(read_text(root / "shared" / name)) << ";\n";
+    for (const std::string folder : {"shared", "elements"})
+        for (const std::string& name : files_of(root, folder))
+            out << "    if (path == \"" << folder << "/" << name << "\")\n        return\n"
+                << literal(read_text(root / folder / name)) << ";\n";
     out << "    return {};\n}\n\n} // namespace taut\n";
     write_text(out_file, out.str());
 }
@@ -317,9 +341,12 @@ try
     if (argc == 4 && std::string_view(argv[1]) == "--includes")
         embed_includes(argv[2], argv[3]);
     else if (argc == 4)
-        compile(argv[1], argv[2], argv[3]);
+        compile(argv[1], argv[2], argv[3], {});
+    else if (argc == 5)
+        compile(argv[1], argv[2], argv[3],
+                taut::element_file(argv[4], read_text(fs::path(argv[2]) / argv[4])));
     else
-        return std::fprintf(stderr, "usage: taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR\n"), 2;
+        return std::fprintf(stderr, "usage: taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR [ELEMENT]\n"), 2;
     return 0;
 }
 catch (const std::exception& error)

@@ -1,5 +1,7 @@
 #include "taut/runtime/compiler/override.hpp"
 
+#include "taut/runtime/compiler/variants.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -22,30 +24,9 @@ fs::path override_root()
     return variable;
 }
 
-/// The one file of that stem below `root`, or an empty path.
-fs::path find_text(const fs::path& root, std::string_view name)
+KernelSource load(const KernelFile& found, const fs::path& root, const KernelInfo& kernel)
 {
-    const std::string wanted = std::string(name) + ".comp";
-    fs::path found;
-    std::error_code error;
-    for (fs::recursive_directory_iterator it(root, error), end; !error && it != end; it.increment(error))
-    {
-        if (it->path().filename() != wanted)
-            continue;
-        if (!found.empty())
-            throw Error(ErrorCode::kernel_compilation, "TAUT_KERNEL_DIR holds two kernels called " + wanted +
-                                                           ": " + found.string() + " and " +
-                                                           it->path().string() + "; keep one of them");
-        found = it->path();
-    }
-    if (error)
-        throw Error(ErrorCode::io,
-                    "TAUT_KERNEL_DIR=" + root.string() + " cannot be searched: " + error.message());
-    return found;
-}
-
-KernelSource load(const fs::path& path, const fs::path& root, const KernelInfo& kernel)
-{
+    const fs::path& path = found.path;
     std::ifstream file(path);
     if (!file)
         throw Error(ErrorCode::io, "cannot read the kernel " + path.string());
@@ -54,7 +35,8 @@ KernelSource load(const fs::path& path, const fs::path& root, const KernelInfo& 
     source.text.assign(std::istreambuf_iterator<char>(file), {});
     source.include_root = root;
     source.precision = kernel.precision;
-    for (KernelVariant& variant : kernel_variants(kernel.name, source.text))
+    source.element = found.element;
+    for (KernelVariant& variant : kernel_variants(kernel.name, source.text, found.element))
         if (variant.name == kernel.variant)
         {
             source.variant = std::move(variant);
@@ -115,15 +97,17 @@ std::string difference(const KernelInfo& built, const KernelInfo& edited)
 fs::path kernel_override_file(const KernelInfo& kernel)
 {
     const fs::path root = override_root();
-    return root.empty() ? fs::path() : find_text(root, kernel.name);
+    return root.empty() ? fs::path() : find_kernel_file(root, kernel.name).path;
 }
 
 std::shared_ptr<const CompiledKernel> kernel_override(const KernelInfo& kernel)
 {
-    const fs::path path = kernel_override_file(kernel);
+    const fs::path root = override_root();
+    const KernelFile found = root.empty() ? KernelFile() : find_kernel_file(root, kernel.name);
+    const fs::path& path = found.path;
     if (path.empty())
         return nullptr;
-    std::shared_ptr<const CompiledKernel> edited = compile_kernel(load(path, override_root(), kernel));
+    std::shared_ptr<const CompiledKernel> edited = compile_kernel(load(found, root, kernel));
     if (const std::string text = difference(kernel, edited->info); !text.empty())
         throw Error(ErrorCode::kernel_compilation, path.string() + " does not fit the host code: " + text +
                                                        "; rebuild to change an interface");

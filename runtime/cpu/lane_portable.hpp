@@ -88,6 +88,7 @@ TAUT_LANE void each(uint& active, uint first, uint end, Body body)
 
 #define INOUT(T) T&
 #define PRECISE
+#define INLINE TAUT_LANE
 #define LAYOUT_STRUCT(name) struct name : taut::lanes::RecordTypes
 #define REAL(x) real(x)
 #define ELEMENT taut::lanes::Index

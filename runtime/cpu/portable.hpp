@@ -230,6 +230,7 @@ inline void count_event(std::uint32_t& counter)
 #define IS_FINITE(value) std::isfinite(value)
 #define DECLARE(prototype)
 #define APART [[gnu::noinline]]
+#define INLINE [[gnu::always_inline]] inline
 #define LAYOUT_STRUCT(name) struct name
 #define REAL(x) real(x)
 #define ELEMENT uint

@@ -98,7 +98,16 @@ public:
                   const typename Bindings<Use>::Params& params, std::uint32_t count,
                   std::uint64_t elements = 0)
     {
-        const KernelInfo& kernel = Bindings<Use>::info(variant, plan.precision);
+        dispatch_by_name(effect, Bindings<Use>::info().name, variant, bindings, params, count, elements);
+    }
+
+    /// The same of another kernel with these bindings and parameters: of a method's, for another element.
+    template <template <typename> typename Bindings>
+    void dispatch_by_name(std::string_view effect, std::string_view name, std::string_view variant,
+                          const Bindings<Use>& bindings, const typename Bindings<Use>::Params& params,
+                          std::uint32_t count, std::uint64_t elements = 0)
+    {
+        const KernelInfo& kernel = find_kernel(name, variant, plan.precision);
         add_dispatch(effect, kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
                      count, elements == 0 ? count : elements);
     }

@@ -50,54 +50,9 @@ void prepare_set(PlanBuilder& b, const SetOptions& options, std::uint32_t multip
     add_set(b, set, std::move(table), options, multipliers_each);
 }
 
-/// What the passes of a set bind; multipliers and dampers where it has them.
-template <template <typename> typename Bindings>
-Bindings<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                      bool grouped)
-{
-    Bindings<Use> uses = {.constraint = {set.buffer},
-                          .position = {b.plan.position, vertices_each},
-                          .delta = {b.plan.delta, vertices_each},
-                          .step_values = {b.plan.step_values, 0},
-                          .events = {b.plan.events, 0},
-                          .multiplier = {set.multipliers}};
-    if (grouped)
-        uses.table = {set.table};
-    if constexpr (requires { uses.damping_time; })
-        uses.damping_time = {set.damping};
-    return uses;
-}
-
-/// Passes of one sweep. Params is {first, count, first_iteration, report} for every constraint kernel.
-template <template <typename> typename Bindings>
-void record_colours(PlanBuilder& b, const ConstraintSet& set, std::uint32_t vertices_each,
-                    const Moment& moment)
-{
-    const bool damped = set.damping != kNoBuffer;
-    const bool keep = set.multipliers != kNoBuffer;
-    const std::string_view alone = damped ? (keep ? "damped_lambda" : "damped") : (keep ? "lambda" : "");
-    const std::string_view grouped =
-        damped ? (keep ? "damped_tail_lambda" : "damped_tail") : (keep ? "tail_lambda" : "tail");
-    const std::uint32_t first_iteration = moment.iteration == 0, report = moment.last;
-    std::uint32_t range = first_run_range(set);
-    for (const Run& run : runs_of(b, set))
-    {
-        const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
-        const Bindings<Use> uses = uses_of<Bindings>(b, set, vertices_each, run.grouped());
-        b.stands_for(run.end - run.begin);
-        if (run.grouped())
-            b.dispatch(set.kind, grouped, uses, {range, 1, first_iteration, report}, 1, size);
-        else
-            b.dispatch(set.kind, alone, uses, {first, size, first_iteration, report}, size);
-        range += run.grouped() ? 2 : 0;
-    }
-    if (set.small_bodies > 0)
-    {
-        stand_for_small(b, set);
-        b.dispatch(set.kind, grouped, uses_of<Bindings>(b, set, vertices_each, true),
-                   {set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
-                   set.small_constraints);
-    }
-}
+/// Passes of one sweep. `kernel`: that of XPBD for the set's element; all of them have the interface of
+/// kernels::xpbd_spring.
+void record_colours(PlanBuilder& builder, const ConstraintSet& set, std::string_view kernel,
+                    std::uint32_t vertices_each, const Moment& moment);
 
 } // namespace taut

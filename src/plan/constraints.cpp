@@ -5,7 +5,7 @@
 // Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a
 //   body moves bitwise as it would alone; runs of small colours share one group (the tail rule), and a
 //   small body among many has a group of its own, where the device's costs say so;
-//   vertices of very many distance constraints leave the colouring (kernels/constraints/hub.comp).
+//   vertices of very many distance constraints leave the colouring (kernels/methods/xpbd/xpbd_hub.comp).
 
 #include "taut/plan/constraints.hpp"
 
@@ -13,9 +13,9 @@
 #include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/kernels/bending.hpp"
-#include "taut/kernels/distance.hpp"
-#include "taut/kernels/hub.hpp"
+#include "taut/kernels/xpbd_hinge.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
+#include "taut/kernels/xpbd_hub_spring.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -101,7 +101,7 @@ void add_damping(PlanBuilder& b, ConstraintSet& set, const std::vector<StretchEl
 
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 {
-    const kernels::hub::Bindings<Use> uses = {.constraint = {set.buffer},
+    const kernels::xpbd_hub_spring::Bindings<Use> uses = {.constraint = {set.buffer},
                                               .position = {b.plan.position, 2},
                                               .delta = {b.plan.delta, 2},
                                               .step_values = {b.plan.step_values, 0},
@@ -115,7 +115,53 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
     }
 }
 
+/// What the passes of a set bind; multipliers and dampers where it has them.
+kernels::xpbd_spring::Bindings<Use> uses_of(const PlanBuilder& b, const ConstraintSet& set,
+                                            std::uint32_t vertices_each, bool grouped)
+{
+    kernels::xpbd_spring::Bindings<Use> uses = {.constraint = {set.buffer},
+                                                .position = {b.plan.position, vertices_each},
+                                                .delta = {b.plan.delta, vertices_each},
+                                                .step_values = {b.plan.step_values, 0},
+                                                .events = {b.plan.events, 0},
+                                                .multiplier = {set.multipliers},
+                                                .damping_time = {set.damping}};
+    if (grouped)
+        uses.table = {set.table};
+    return uses;
+}
+
 } // namespace
+
+void record_colours(PlanBuilder& b, const ConstraintSet& set, std::string_view kernel,
+                    std::uint32_t vertices_each, const Moment& moment)
+{
+    const bool damped = set.damping != kNoBuffer;
+    const bool keep = set.multipliers != kNoBuffer;
+    const std::string_view alone = damped ? (keep ? "damped_lambda" : "damped") : (keep ? "lambda" : "");
+    const std::string_view grouped =
+        damped ? (keep ? "damped_tail_lambda" : "damped_tail") : (keep ? "tail_lambda" : "tail");
+    const std::uint32_t first_iteration = moment.iteration == 0, report = moment.last;
+    const auto uses = uses_of(b, set, vertices_each, false), group = uses_of(b, set, vertices_each, true);
+    std::uint32_t range = first_run_range(set);
+    for (const Run& run : runs_of(b, set))
+    {
+        const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
+        b.stands_for(run.end - run.begin);
+        if (run.grouped())
+            b.dispatch_by_name(set.kind, kernel, grouped, group, {range, 1, first_iteration, report}, 1, size);
+        else
+            b.dispatch_by_name(set.kind, kernel, alone, uses, {first, size, first_iteration, report}, size);
+        range += run.grouped() ? 2 : 0;
+    }
+    if (set.small_bodies > 0)
+    {
+        stand_for_small(b, set);
+        b.dispatch_by_name(set.kind, kernel, grouped, group,
+                           {set.small_range, set.small_bodies, first_iteration, report}, set.small_bodies,
+                           set.small_constraints);
+    }
+}
 
 ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t stride)
 {
@@ -207,7 +253,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "distance"))
     {
-        record_colours<kernels::distance::Bindings>(b, *set, 2, moment);
+        record_colours(b, *set, "xpbd_spring", 2, moment);
         record_hubs(b, *set, moment);
     }
 }
@@ -215,7 +261,7 @@ void record_distance(PlanBuilder& b, const Moment& moment)
 void record_bending(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "bending"))
-        record_colours<kernels::bending::Bindings>(b, *set, 4, moment);
+        record_colours(b, *set, "xpbd_hinge", 4, moment);
 }
 
 } // namespace taut

@@ -8,6 +8,7 @@
 #include "taut/kernels/plane.hpp"
 #include "taut/kernels/sphere.hpp"
 #include "taut/plan/acad.hpp"
+#include "taut/plan/added_elements.hpp"
 #include "taut/plan/builder.hpp"
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/implicit_constraints.hpp"
@@ -286,6 +287,8 @@ constexpr Effect kEffects[] = {
     {"bending", Stage::solve, any_bending, prepare_bending, record_bending, only(MethodKind::xpbd)},
     {"volume", Stage::solve, any_volume, prepare_volume, record_volume, only(MethodKind::xpbd)},
     {"neo_hookean", Stage::solve, any_solid, prepare_neo_hookean, record_neo_hookean, only(MethodKind::xpbd)},
+    {"added_elements", Stage::solve, wants_added_elements, prepare_added_elements, record_added_elements,
+     only(MethodKind::xpbd)}, // on account of each kind
     {"surface_volume", Stage::solve, any_surface_volume, prepare_surface_volume, record_surface_volume,
      kMassSpring},
     {"pbd_stretch", Stage::solve,

@@ -1,5 +1,6 @@
 #include "taut/plan/plan.hpp"
 
+#include "taut/plan/added_elements.hpp"
 #include "taut/plan/builder.hpp"
 #include "taut/plan/effect_names.hpp"
 #include "taut/plan/plasticity.hpp"
@@ -34,6 +35,7 @@ void check_settings(const Scene& scene, const DeviceTraits& traits)
     check_solids(scene);
     check_pressure(scene);
     check_plasticity(scene);
+    check_added_elements(scene);
     if (method.check != nullptr)
         method.check(scene, traits);
 }

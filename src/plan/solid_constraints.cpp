@@ -2,8 +2,6 @@
 
 #include "taut/plan/coloured_set.hpp"
 #include "taut/plan/records.hpp"
-#include "taut/kernels/neo_hookean.hpp"
-#include "taut/kernels/volume.hpp"
 
 namespace taut {
 namespace {
@@ -56,7 +54,7 @@ void prepare_volume(PlanBuilder& b)
 void record_volume(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "volume"))
-        record_colours<kernels::volume::Bindings>(b, *set, 4, moment);
+        record_colours(b, *set, "xpbd_volume", 4, moment);
 }
 
 void prepare_neo_hookean(PlanBuilder& b)
@@ -69,7 +67,7 @@ void prepare_neo_hookean(PlanBuilder& b)
 void record_neo_hookean(PlanBuilder& b, const Moment& moment)
 {
     if (const ConstraintSet* set = find_set(b.plan, "neo_hookean"))
-        record_colours<kernels::neo_hookean::Bindings>(b, *set, 4, moment);
+        record_colours(b, *set, "neo_hookean", 4, moment);
 }
 
 } // namespace taut

@@ -68,6 +68,8 @@ void measure_energy(const View& view, StepReport& out)
                 0.5 * std::pow(enclosed_volume(e.triangles, view.x) - e.rest_volume, 2) / e.compliance;
     for (const SolidElement& e : view.model.solids)
         out.potential_energy += solid_energy(e, view.x);
+    for (const AddedElement& e : view.model.added)
+        out.potential_energy += e.energy(view.x);
 }
 
 void measure_penetration(const View& view, StepReport& out)

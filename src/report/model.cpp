@@ -42,6 +42,25 @@ void append_vertices(PhysicalModel& model, const Body& body)
     model.flows.resize(model.mass.size(), body.material.plastic_yield > 0);
 }
 
+void append_added(PhysicalModel& model, const Body& body, std::uint32_t first)
+{
+    for (const Body::Elements& list : body.elements)
+    {
+        const ElementKind* kind = find_element(list.kind); // make_plan() has refused what is not known
+        const std::size_t corners = kind->corners, values = kind->values.size();
+        for (std::size_t k = 0; k < list.vertices.size() / corners; ++k)
+        {
+            AddedElement e;
+            e.kind = kind;
+            for (std::size_t c = 0; c < corners; ++c)
+                e.vertex[c] = first + list.vertices[k * corners + c];
+            const auto own = std::span(list.values).subspan(k * values, values);
+            e.values.assign(own.begin(), own.end());
+            model.added.push_back(std::move(e));
+        }
+    }
+}
+
 void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first)
 {
     std::size_t dropped = 0;
@@ -121,10 +140,19 @@ PhysicalModel make_model(const Scene& resolved)
         model.body_start.push_back(first);
         append_vertices(model, body);
         append_elements(model, body, first);
+        append_added(model, body, first);
         append_pins(model, body, first);
     }
     model.body_start.push_back(static_cast<std::uint32_t>(model.mass.size()));
     return model;
+}
+
+double AddedElement::energy(std::span<const glm::dvec3> x) const
+{
+    std::array<glm::dvec3, 4> corner{};
+    for (std::uint32_t c = 0; c < kind->corners; ++c)
+        corner[c] = x[vertex[c]];
+    return kind->energy(std::span(corner).first(kind->corners), values);
 }
 
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
@@ -157,6 +185,8 @@ double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
         if (change != 0)
             energy += 0.5 * change * change / e.compliance;
     }
+    for (const AddedElement& e : model.added)
+        energy += e.energy(x);
     return energy;
 }
 

@@ -3,12 +3,14 @@
 // errors of measure are weighed by. Written for the reader; shares nothing with kernels or world, and
 // with the plan only the formulas of plan/material.hpp and the mesh's edges and hinges.
 
+#include "taut/elements/element.hpp"
 #include "taut/plan/material.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/surface.hpp"
 #include "taut/report/gas.hpp"
 #include "taut/scene/scene.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -21,6 +23,16 @@ struct ModelPin
 {
     std::uint32_t vertex = 0;
     std::vector<Keyframe> motion; ///< pose() of `start`; empty = held
+};
+
+/// An element of a kind that the program has added: all that is known of it is its energy.
+struct AddedElement
+{
+    const ElementKind* kind = nullptr;
+    std::array<std::uint32_t, 4> vertex{}; ///< the first kind->corners
+    std::vector<double> values;
+
+    double energy(std::span<const glm::dvec3> x) const; ///< J
 };
 
 /// Vertices are scene-wide: bodies one after another, as in their meshes.
@@ -38,6 +50,7 @@ struct PhysicalModel
     std::vector<SolidElement> solids;         ///< elastic tetrahedra
     std::vector<SurfaceElement> surfaces;     ///< whose volume within is held
     std::vector<GasElement> gases;            ///< within closed surfaces
+    std::vector<AddedElement> added;          ///< of kinds that the program has added
     std::size_t dropped_hinges = 0;           ///< without an angle at rest
     std::vector<ModelPin> pins;               ///< ascending, one a vertex
     std::vector<Collider> colliders;

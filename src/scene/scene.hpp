@@ -174,6 +174,14 @@ struct Body
         SpringKind kind = SpringKind::extra; ///< set by resolve() for the springs of a network
     };
     std::vector<Spring> springs;
+    /// Elements of a kind that the program has added (elements/element.hpp), beside those of the material.
+    struct Elements
+    {
+        std::string kind;
+        std::vector<std::uint32_t> vertices; ///< the corners of one element after another
+        std::vector<double> values;          ///< ElementKind::values of one element after another
+    };
+    std::vector<Elements> elements;
     /// Solids: a fine surface (OBJ, PLY, OFF or STL, in the frame of the shape) that the tetrahedra carry
     /// along; drawn and written in place of their own. Empty: none.
     std::filesystem::path embedded_file;

@@ -1,6 +1,6 @@
 // The four costs that a plan weighs, measured on the device itself with kernels that a step uses.
 
-#include "taut/kernels/distance.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
 #include "taut/world/kept_traits.hpp"
 #include "taut/world/world.hpp"
 
@@ -92,7 +92,7 @@ public:
     }
 
 private:
-    kernels::distance::Bindings<Recorder::Binding> bindings(BufferPtr table) const
+    kernels::xpbd_spring::Bindings<Recorder::Binding> bindings(BufferPtr table) const
     {
         return {.constraint = constraint_,
                 .position = position_,

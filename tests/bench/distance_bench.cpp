@@ -3,7 +3,7 @@
 #include "bench.hpp"
 #include "plain.hpp"
 
-#include "taut/kernels/distance.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
 #include "taut/plan/topology.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -73,7 +73,7 @@ public:
             {1 / kInverseStep, kInverseStep, 0, 0, 0, 1, 1e15f, 0}};
         step_ = upload(step);
         events_ = device_->make_buffer(16, "events");
-        const taut::kernels::distance::Bindings<taut::Recorder::Binding> bindings = {
+        const taut::kernels::xpbd_spring::Bindings<taut::Recorder::Binding> bindings = {
             .constraint = constraint_,
             .position = position_,
             .delta = delta_,

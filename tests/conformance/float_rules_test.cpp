@@ -77,7 +77,7 @@ TEST_CASE("what a kernel computes is precise in the text that OpenGL compiles")
     const std::string text = kernel->glsl;
     CHECK(text.find("    PRECISE rvec3 a = rvec3(first[i])") != std::string::npos);
     CHECK(text.find("writeonly buffer name##_block { PRECISE T name[]; }") != std::string::npos);
-    const std::string shape(find_kernel("bending").glsl);
+    const std::string shape(find_kernel("xpbd_hinge").glsl);
     CHECK(shape.find("    PRECISE HingeShape hinge;") != std::string::npos);
     CHECK(shape.find("    rvec3 wing0, wing1;") != std::string::npos); // a member of a structure cannot be
 }

@@ -5,7 +5,9 @@
 #include "support/kernel_text.hpp"
 #include "taut/runtime/base/registry.hpp"
 #include "taut/runtime/base/spirv.hpp"
+#include "taut/runtime/compiler/variants.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -26,25 +28,53 @@ std::set<std::uint32_t> capabilities(std::span<const std::uint32_t> spirv)
     return found;
 }
 
+const std::filesystem::path kKernels = TAUT_SOURCE_DIR "/kernels";
+
+std::string text_of(const std::filesystem::path& path)
+{
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The names of the kernels of one text: of one that is compiled for elements, each with its own.
+std::vector<std::string> names_of(const std::filesystem::path& path)
+{
+    const std::string stem = path.stem().string(), method = method_of_elements(text_of(path));
+    if (method.empty())
+        return {stem};
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(kKernels / "elements"))
+    {
+        const ElementFile element = element_file("elements/" + entry.path().filename().string(),
+                                                 text_of(entry.path()));
+        if (std::find(element.methods.begin(), element.methods.end(), method) != element.methods.end())
+            names.push_back(stem + "_" + element.stem);
+    }
+    return names;
+}
+
 std::set<std::string> kernel_stems()
 {
     std::set<std::string> stems;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(TAUT_SOURCE_DIR "/kernels"))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kKernels))
         if (entry.path().extension() == ".comp")
-            stems.insert(entry.path().stem().string());
+            for (const std::string& name : names_of(entry.path()))
+                stems.insert(name);
     return stems;
 }
 
-std::string text_of(const std::string& stem)
+/// A kernel of the build as its file says, to be compiled in one of its variants.
+KernelSource source_of(const std::string& stem)
 {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(TAUT_SOURCE_DIR "/kernels"))
-        if (entry.path().filename() == stem + ".comp")
-        {
-            std::ifstream file(entry.path());
-            return {std::istreambuf_iterator<char>(file), {}};
-        }
-    FAIL("there is no kernel " << stem);
-    return {};
+    const KernelFile file = find_kernel_file(kKernels, stem);
+    INFO("kernel " << stem);
+    REQUIRE(!file.path.empty());
+    return {stem, text_of(file.path), {}, {}, Precision::float32, file.element};
+}
+
+std::vector<KernelVariant> variants_of(const KernelSource& source)
+{
+    return kernel_variants(source.name, source.text, source.element);
 }
 
 bool contains(const std::string& text, const std::string& part)
@@ -60,7 +90,7 @@ const std::string kHead = "#include \"shared/portable.glsl\"\nPARAMS { uint coun
 TEST_CASE("every kernel file is in the tables in both precisions with all of its variants")
 {
     for (const std::string& stem : kernel_stems())
-        for (const KernelVariant& variant : kernel_variants(stem, text_of(stem)))
+        for (const KernelVariant& variant : variants_of(source_of(stem)))
             for (const Precision precision : {Precision::float32, Precision::float64})
             {
                 CAPTURE(stem, variant.name, to_string(precision));
@@ -267,12 +297,14 @@ TEST_CASE("a kernel compiled at run time has the tables of the same kernel compi
     for (const KernelInfo* built : all_kernels())
     {
         CAPTURE(built->name, built->variant, to_string(built->precision));
-        const std::string text = text_of(std::string(built->name));
-        for (const KernelVariant& variant : kernel_variants(built->name, text))
+        KernelSource source = source_of(std::string(built->name));
+        source.precision = built->precision;
+        for (const KernelVariant& variant : variants_of(source))
         {
             if (variant.name != built->variant)
                 continue;
-            const auto now = compile_kernel({std::string(built->name), text, {}, variant, built->precision});
+            source.variant = variant;
+            const auto now = compile_kernel(source);
             CHECK(now->info.glsl == built->glsl);
             CHECK(std::equal(now->spirv_vulkan.begin(), now->spirv_vulkan.end(), built->spirv_vulkan.begin(),
                              built->spirv_vulkan.end()));

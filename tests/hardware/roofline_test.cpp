@@ -39,7 +39,7 @@ Dispatch pass_of(const KernelInfo& kernel, std::uint32_t count)
 
 TEST_CASE("The work of a pass is its waves times the compiler's cycles", "[hardware]")
 {
-    const KernelInfo& distance = find_kernel("distance");
+    const KernelInfo& distance = find_kernel("xpbd_spring");
     const Work work = work_of(table_of(distance), "navi21", pass_of(distance, 6401)); // 101 groups of 64
     CHECK(work.dispatches == 1);
     CHECK(work.simd_cycles == 101 * 100);

@@ -2,7 +2,7 @@
 
 #include "opengl_support.hpp"
 
-#include "taut/kernels/distance.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
 #include "taut/runtime/base/registry.hpp"
@@ -54,7 +54,7 @@ struct Pairs
         step[0].inverse_substep = real(600);
     }
 
-    void run_native(const KernelInfo& kernel, const kernels::distance::Params& params)
+    void run_native(const KernelInfo& kernel, const kernels::xpbd_spring::Params& params)
     {
         const std::array<void*, 6> buffers = {constraints.data(), position.data(), delta.data(),
                                               step.data(),        events.data(),   multiplier.data()};
@@ -62,7 +62,7 @@ struct Pairs
     }
 
     Pairs on(const std::shared_ptr<Device>& device, const KernelInfo& kernel,
-             const kernels::distance::Params& params) const
+             const kernels::xpbd_spring::Params& params) const
     {
         Pairs out = *this;
         const BufferPtr moved = buffer_with(*device, delta, "delta");
@@ -94,11 +94,11 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
 template <typename real>
 void compare_distance(const std::shared_ptr<Device>& device, const char* variant, Precision precision)
 {
-    const KernelInfo& kernel = kernels::distance::info(variant, precision);
+    const KernelInfo& kernel = kernels::xpbd_spring::info(variant, precision);
     for (const std::uint32_t count : {1u, 63u, 64u, 65u, 1000u})
     {
         CAPTURE(variant, count);
-        kernels::distance::Params params;
+        kernels::xpbd_spring::Params params;
         params.count = count;
         params.report = 1;
         Pairs<real> host(count);

@@ -3,7 +3,7 @@
 
 #include "vulkan_support.hpp"
 
-#include "taut/kernels/distance.hpp"
+#include "taut/kernels/xpbd_spring.hpp"
 #include "taut/runtime/cpu/cpu_device.hpp"
 #include "taut/runtime/vulkan/context.hpp"
 #define TAUT_HOST
@@ -111,8 +111,8 @@ TEST_CASE("the distance kernel gives the bits of native code on lavapipe")
             bindings.push_back(on->make_buffer(4 * n, "multiplier"));
         Recorder recorder(on);
         for (std::uint32_t pass = 0; pass < 3; ++pass)
-            recorder.dispatch(kernels::distance::info(variant), bindings,
-                              kernels::distance::Params{0, n, pass == 0 ? 1u : 0u, 1}, n, "stretch");
+            recorder.dispatch(kernels::xpbd_spring::info(variant), bindings,
+                              kernels::xpbd_spring::Params{0, n, pass == 0 ? 1u : 0u, 1}, n, "stretch");
         recorder.finish()->replay();
         std::vector<std::uint32_t> bits = on->read<std::uint32_t>(delta, 8 * n);
         const std::vector<std::uint32_t> counted = on->read<std::uint32_t>(events, 16);

@@ -1,10 +1,10 @@
-#include "taut/kernels/volume.hpp"
+#include "taut/kernels/xpbd_volume.hpp"
 
 #include "support/tetrahedra.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::volume::Params;
+using kernels::xpbd_volume::Params;
 
 namespace {
 
@@ -113,7 +113,7 @@ TEMPLATE_TEST_CASE("a volume constraint moves all corners by the XPBD formula", 
         add(in, random, n);
     in.groups = {{1, 2}};
     plant(in, 1);
-    check_colours<Params>(kernels::volume::info, in, mode, precision_of<Real>(), project<Real>);
+    check_colours<Params>(kernels::xpbd_volume::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
 TEMPLATE_TEST_CASE("the tail of a colouring gives what one volume dispatch per colour gives, bit for bit", "",
@@ -128,9 +128,9 @@ TEMPLATE_TEST_CASE("the tail of a colouring gives what one volume dispatch per c
         add(in, random, count);
     in.groups = {{1, 3}, {3, 4}};
     plant(in, 1);
-    check_tail_equals_dispatches<Params>(kernels::volume::info, in, mode, precision_of<Real>());
+    check_tail_equals_dispatches<Params>(kernels::xpbd_volume::info, in, mode, precision_of<Real>());
     mode.tail = true;
-    check_colours<Params>(kernels::volume::info, in, mode, precision_of<Real>(), project<Real>);
+    check_colours<Params>(kernels::xpbd_volume::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
 TEMPLATE_TEST_CASE("the first volume iteration with multipliers moves vertices bitwise as the one without",
@@ -142,5 +142,5 @@ TEMPLATE_TEST_CASE("the first volume iteration with multipliers moves vertices b
     add(in, random, 1000);
     in.groups = {{0, 1}};
     plant(in, 0);
-    check_first_iteration_equals_base<Params>(kernels::volume::info, in, precision_of<Real>());
+    check_first_iteration_equals_base<Params>(kernels::xpbd_volume::info, in, precision_of<Real>());
 }

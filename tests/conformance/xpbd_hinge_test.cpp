@@ -1,4 +1,4 @@
-#include "taut/kernels/bending.hpp"
+#include "taut/kernels/xpbd_hinge.hpp"
 
 #include "support/colours.hpp"
 #include "support/hinges.hpp"
@@ -9,7 +9,7 @@
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::bending::Params;
+using kernels::xpbd_hinge::Params;
 
 namespace {
 
@@ -170,7 +170,7 @@ TEMPLATE_TEST_CASE("a hinge moves its four vertices by the XPBD formula", "", fl
         add_hinges(in, random, n);
     in.groups = {{1, 2}};
     plant(in, 1);
-    check_colours<Params>(kernels::bending::info, in, mode, precision_of<Real>(), project<Real>);
+    check_colours<Params>(kernels::xpbd_hinge::info, in, mode, precision_of<Real>(), project<Real>);
 }
 
 TEMPLATE_TEST_CASE("the tail of a colouring gives what one bending dispatch per colour gives, bit for bit",
@@ -191,9 +191,9 @@ TEMPLATE_TEST_CASE("the tail of a colouring gives what one bending dispatch per 
     in.groups = {{1, 3}, {4, 5}}; // another body in a group of its own
     plant(in, 2);
     mode.tail = true;
-    check_colours<Params>(kernels::bending::info, in, mode, precision_of<Real>(), project<Real>);
+    check_colours<Params>(kernels::xpbd_hinge::info, in, mode, precision_of<Real>(), project<Real>);
     in.groups = {{1, 8}}; // these share vertices, so their order is what counts
-    check_tail_equals_dispatches<Params>(kernels::bending::info, in, mode, precision_of<Real>());
+    check_tail_equals_dispatches<Params>(kernels::xpbd_hinge::info, in, mode, precision_of<Real>());
 }
 
 TEMPLATE_TEST_CASE("the first bending iteration with multipliers moves vertices bitwise as the one without",
@@ -208,7 +208,7 @@ TEMPLATE_TEST_CASE("the first bending iteration with multipliers moves vertices 
     add_hinges(in, random, 1000);
     in.groups = {{0, 2}};
     plant(in, 1);
-    check_first_iteration_equals_base<Params>(kernels::bending::info, in, precision_of<Real>());
+    check_first_iteration_equals_base<Params>(kernels::xpbd_hinge::info, in, precision_of<Real>());
 }
 
 namespace {
@@ -263,7 +263,7 @@ TEMPLATE_TEST_CASE("the angle is right to a few units of the last place all the 
     Mode mode;
     mode.lambda = true;
     const Precision precision = precision_of<Real>();
-    const auto launches = colour_launches<Params>(kernels::bending::info, precision, mode, in);
+    const auto launches = colour_launches<Params>(kernels::xpbd_hinge::info, precision, mode, in);
     const double absolute =
         sizeof(Real) == 8 ? 4e-15 : 1.5e-6; // four and a half units of the last place of pi
     const double relative = sizeof(Real) == 8 ? 4e-15 : 1.5e-6; // near flat: of the angle itself
@@ -295,7 +295,7 @@ TEMPLATE_TEST_CASE("a hinge folded shut with a flat rest angle opens by a finite
     using Real = TestType;
     auto in = angle_sweep<Real>({{1, 0}});
     in.constraint[0].compliance = Real(1);
-    const auto launches = colour_launches<Params>(kernels::bending::info, precision_of<Real>(), Mode(), in);
+    const auto launches = colour_launches<Params>(kernels::xpbd_hinge::info, precision_of<Real>(), Mode(), in);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);

@@ -1,10 +1,10 @@
-#include "taut/kernels/hub.hpp"
+#include "taut/kernels/xpbd_hub_spring.hpp"
 
 #include "support/colours.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::hub::Params;
+using kernels::xpbd_hub_spring::Params;
 
 namespace {
 
@@ -119,7 +119,7 @@ TEMPLATE_TEST_CASE("a hub moves by the mean of its copies and every spoke by its
     Case c;
     c.precision = precision_of<Real>();
     c.in = in.buffers();
-    c.launches = {make_launch(kernels::hub::info(lambda ? "lambda" : "", c.precision),
+    c.launches = {make_launch(kernels::xpbd_hub_spring::info(lambda ? "lambda" : "", c.precision),
                               Params{2, n, first_iteration, report}, 1)};
     State state = state_of(in, lambda, first_iteration, report);
     solve_hub(state, in.constraint, 2, n);
@@ -144,9 +144,9 @@ TEMPLATE_TEST_CASE("the first hub iteration with multipliers moves vertices bitw
             continue;
         CAPTURE(selector);
         const Buffers a =
-            run(*device, {make_launch(kernels::hub::info("", precision), params, 1)}, in.buffers());
+            run(*device, {make_launch(kernels::xpbd_hub_spring::info("", precision), params, 1)}, in.buffers());
         const Buffers b =
-            run(*device, {make_launch(kernels::hub::info("lambda", precision), params, 1)}, in.buffers());
+            run(*device, {make_launch(kernels::xpbd_hub_spring::info("lambda", precision), params, 1)}, in.buffers());
         CHECK(differing_buffers(a, b) == "");
     }
 }

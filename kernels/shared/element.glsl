@@ -1,0 +1,39 @@
+// What a kernel of a method asks of the element that it is compiled for.
+//
+// A kernel with the line `//! each element of METHOD` is compiled once for every kernels/elements/<stem>.glsl
+// whose line `//! methods` names METHOD. The kernel compiler defines ELEMENT_STEM and ELEMENT_CORNERS (from
+// the file's line `//! corners`); the kernel includes TAUT_ELEMENT, which is that file. Of an element `hinge`
+// it uses
+//   hinge_record                  the record in the buffer of constraints: corners, then reals
+//   hinge_v0(record) ...          vertex of each corner
+//   hinge_row(record, e1, ...)    its constraint C, by the differences of its corners from corner 0, m
+// under the names OF_ELEMENT(record), OF_ELEMENT(v0)(record), OF_ELEMENT(row)(record, ELEMENT_EDGES).
+#ifndef TAUT_SHARED_ELEMENT_GLSL
+#define TAUT_SHARED_ELEMENT_GLSL
+
+#define ELEMENT_JOIN_WORDS(stem, name) stem##_##name
+#define ELEMENT_JOIN(stem, name) ELEMENT_JOIN_WORDS(stem, name)
+#define OF_ELEMENT(name) ELEMENT_JOIN(ELEMENT_STEM, name)
+
+/// C = 0 at rest, for the energy C^2 / (2 compliance), and its gradients by the corners. Elements of fewer
+/// corners leave the last members unset.
+struct ElementRow
+{
+    real value;             // C
+    real compliance;        // of C, unit of C squared over J; 0 = rigid
+    real divisor;           // the gradients of C are g0 .. g3 over this
+    rbool shaped;           // C has a gradient here; otherwise the rest means nothing
+    rbool counted;          // where it has none, that is worth an event
+    rvec3 g0, g1, g2, g3;
+    real s0, s1, s2, s3;    // squared lengths of the gradients of C
+};
+
+#if ELEMENT_CORNERS == 2
+#define ELEMENT_EDGES e1
+#elif ELEMENT_CORNERS == 3
+#define ELEMENT_EDGES e1, e2
+#else
+#define ELEMENT_EDGES e1, e2, e3
+#endif
+
+#endif

@@ -1,0 +1,152 @@
+#include "taut/runtime/compiler/variants.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace taut {
+namespace {
+
+[[noreturn]] void refuse(const std::string& why)
+{
+    throw Error(ErrorCode::kernel_compilation, why);
+}
+
+/// What follows `//! KEY ` in every line that begins so.
+std::vector<std::string> directives(std::string_view text, std::string_view key)
+{
+    const std::string start = "//! " + std::string(key) + " ";
+    std::istringstream lines{std::string(text)};
+    std::vector<std::string> out;
+    for (std::string line; std::getline(lines, line);)
+        if (line.rfind(start, 0) == 0)
+            out.push_back(line.substr(start.size()));
+    return out;
+}
+
+std::vector<std::string> split(const std::string& line)
+{
+    std::istringstream words(line);
+    std::vector<std::string> out;
+    for (std::string word; words >> word;)
+        out.push_back(word);
+    return out;
+}
+
+/// One `//! variant` line; `ability` is what an element must have for it.
+KernelVariant variant_of(std::string_view kernel, const std::string& line, std::string& ability)
+{
+    KernelVariant variant;
+    const std::vector<std::string> words = split(line);
+    for (std::size_t k = 0; k < words.size(); ++k)
+    {
+        const auto equal = words[k].find('=');
+        if (k == 0)
+            variant.name = words[k];
+        else if (words[k] == "with" && k + 2 == words.size())
+            ability = words[++k];
+        else if (equal == std::string::npos)
+            refuse("kernel " + std::string(kernel) + ": expected MACRO=VALUE in \"//! variant " + line +
+                   "\"");
+        else
+            variant.defines.emplace_back(words[k].substr(0, equal), words[k].substr(equal + 1));
+    }
+    return variant;
+}
+
+std::string read(const std::filesystem::path& path)
+{
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Of a kernel called `name` whose text has this stem: its element, or nothing if the text is another's.
+ElementFile element_of(const std::filesystem::path& root, const std::string& stem, std::string_view name)
+{
+    if (name.size() <= stem.size() + 1 || name.substr(0, stem.size()) != stem || name[stem.size()] != '_')
+        return {};
+    const std::string path = "elements/" + std::string(name.substr(stem.size() + 1)) + ".glsl";
+    return std::filesystem::exists(root / path) ? element_file(path, read(root / path)) : ElementFile();
+}
+
+} // namespace
+
+KernelFile find_kernel_file(const std::filesystem::path& root, std::string_view name)
+{
+    namespace fs = std::filesystem;
+    KernelFile found;
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(root, error), end; !error && it != end; it.increment(error))
+    {
+        const std::string stem = it->path().stem().string();
+        if (it->path().extension() != ".comp")
+            continue;
+        ElementFile element = stem == name ? ElementFile() : element_of(root, stem, name);
+        if (stem != name && (element.path.empty() || method_of_elements(read(it->path())).empty()))
+            continue;
+        if (!found.path.empty())
+            throw Error(ErrorCode::kernel_compilation, root.string() + " holds two kernels called " +
+                                                           std::string(name) + ": " + found.path.string() +
+                                                           " and " + it->path().string() +
+                                                           "; keep one of them");
+        found = {it->path(), std::move(element)};
+    }
+    if (error)
+        throw Error(ErrorCode::io, root.string() + " cannot be searched: " + error.message());
+    return found;
+}
+
+std::vector<KernelVariant> kernel_variants(std::string_view name, std::string_view text,
+                                           const ElementFile& element)
+{
+    std::vector<KernelVariant> variants(1);
+    std::set<std::string> macros;
+    for (const std::string& line : directives(text, "variant"))
+    {
+        std::string ability;
+        KernelVariant variant = variant_of(name, line, ability);
+        for (const auto& define : variant.defines)
+            macros.insert(define.first);
+        const auto& has = element.abilities;
+        if (ability.empty() || std::find(has.begin(), has.end(), ability) != has.end())
+            variants.push_back(std::move(variant));
+    }
+    for (KernelVariant& variant : variants)
+        for (const std::string& macro : macros)
+            if (std::none_of(variant.defines.begin(), variant.defines.end(),
+                             [&](const auto& define) { return define.first == macro; }))
+                variant.defines.emplace_back(macro, "0");
+    return variants;
+}
+
+ElementFile element_file(const std::string& path, std::string_view text)
+{
+    ElementFile out;
+    out.path = path;
+    out.stem = std::filesystem::path(path).stem().string();
+    for (const std::string& line : directives(text, "corners"))
+        out.corners = line == "2" ? 2 : line == "3" ? 3 : line == "4" ? 4 : 0;
+    for (const std::string& line : directives(text, "methods"))
+        out.methods = split(line);
+    for (const std::string& line : directives(text, "with"))
+        out.abilities.push_back(line);
+    if (out.corners == 0)
+        refuse("element " + path + ": expected a line \"//! corners N\" with N from 2 to 4");
+    if (out.methods.empty())
+        refuse("element " + path + ": expected a line \"//! methods NAME ...\"");
+    return out;
+}
+
+std::string method_of_elements(std::string_view text)
+{
+    const std::vector<std::string> found = directives(text, "each element of");
+    return found.empty() ? std::string() : found.front();
+}
+
+std::vector<std::pair<std::string, std::string>> element_defines(const ElementFile& element)
+{
+    return {{"ELEMENT_STEM", element.stem}, {"ELEMENT_CORNERS", std::to_string(element.corners)}};
+}
+
+} // namespace taut

@@ -1,0 +1,174 @@
+// Elements that the program has added: from Body::elements to coloured records and passes of XPBD. The kernels
+// are those of any element (kernels/methods/xpbd/xpbd.comp).
+
+#include "taut/plan/added_elements.hpp"
+
+#include "taut/elements/element.hpp"
+#include "taut/plan/coloured_set.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace taut {
+namespace {
+
+/// One element in plan vertices. corners <= 4.
+struct Added
+{
+    std::array<std::uint32_t, 4> vertex{};
+    std::span<const double> values;
+};
+
+std::string place(const Scene& scene, std::size_t body, std::size_t list)
+{
+    const std::string name = scene.bodies[body].name;
+    return "bodies[" + std::to_string(body) + "].elements[" + std::to_string(list) + "]" +
+           (name.empty() ? "" : " (of \"" + name + "\")");
+}
+
+void check_list(const std::string& where, const Body& body, const Body::Elements& list)
+{
+    const auto refuse = [&](const std::string& why) { throw Error(ErrorCode::bad_input, where + why); };
+    const ElementKind* kind = find_element(list.kind);
+    if (kind == nullptr)
+        return refuse(".kind is \"" + list.kind + "\"; the program has added: " + added_elements());
+    if (list.vertices.size() % kind->corners != 0)
+        refuse(".vertices has " + std::to_string(list.vertices.size()) + " entries; \"" + kind->name +
+               "\" takes " + std::to_string(kind->corners) + " an element");
+    const std::size_t count = list.vertices.size() / kind->corners;
+    if (list.values.size() != count * kind->values.size())
+        refuse(".values has " + std::to_string(list.values.size()) + " entries; " + std::to_string(count) +
+               " elements of " + std::to_string(kind->values.size()) + " values take " +
+               std::to_string(count * kind->values.size()));
+    for (std::size_t k = 0; k < list.values.size(); ++k)
+        if (!std::isfinite(list.values[k]))
+            refuse(".values[" + std::to_string(k) + "] (" + kind->values[k % kind->values.size()] +
+                   ") is not finite");
+    for (std::size_t k = 0; k < list.vertices.size(); k += kind->corners)
+    {
+        const auto first = list.vertices.begin() + static_cast<std::ptrdiff_t>(k);
+        const std::set<std::uint32_t> distinct(first, first + kind->corners);
+        if (distinct.size() < kind->corners || *distinct.rbegin() >= body.mesh.positions.size())
+            refuse(".vertices of element " + std::to_string(k / kind->corners) + " must be " +
+                   std::to_string(kind->corners) + " different vertices below " +
+                   std::to_string(body.mesh.positions.size()));
+    }
+}
+
+/// The elements of one kind of a body of which a corner moves.
+std::vector<Added> acting(const PlanBuilder& b, std::size_t body, const ElementKind& kind)
+{
+    std::vector<Added> out;
+    for (const Body::Elements& list : b.scene.bodies[body].elements)
+    {
+        const std::size_t values = kind.values.size();
+        for (std::size_t k = 0; list.kind == kind.name && k < list.vertices.size() / kind.corners; ++k)
+        {
+            Added e;
+            e.values = std::span(list.values).subspan(k * values, values);
+            double moves = 0;
+            for (std::uint32_t c = 0; c < kind.corners; ++c)
+            {
+                e.vertex[c] = b.vertex(body, list.vertices[k * kind.corners + c]);
+                moves += b.inverse_mass[e.vertex[c]];
+            }
+            if (moves > 0)
+                out.push_back(e);
+        }
+    }
+    return out;
+}
+
+/// Records as kernels read them: corners, then values.
+template <typename Real>
+std::vector<std::byte> packed(const ElementKind& kind, const std::vector<Added>& elements, Precision precision)
+{
+    const std::size_t size = record_bytes(kind, precision);
+    const std::size_t at = (4 * kind.corners + sizeof(Real) - 1) / sizeof(Real) * sizeof(Real);
+    std::vector<std::byte> out(size * elements.size());
+    for (std::size_t k = 0; k < elements.size(); ++k)
+    {
+        std::memcpy(out.data() + k * size, elements[k].vertex.data(), 4 * kind.corners);
+        for (std::size_t v = 0; v < kind.values.size(); ++v)
+        {
+            const auto value = static_cast<Real>(elements[k].values[v]);
+            std::memcpy(out.data() + k * size + at + v * sizeof(Real), &value, sizeof(Real));
+        }
+    }
+    return out;
+}
+
+void prepare_kind(PlanBuilder& b, const ElementKind& kind)
+{
+    Coloured<Added> coloured;
+    for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+    {
+        const std::vector<Added> own = acting(b, body, kind);
+        ConstraintGraph graph = body_graph(b, body, kind.corners);
+        for (const Added& e : own)
+            for (std::uint32_t c = 0; c < kind.corners; ++c)
+                graph.vertices.push_back(e.vertex[c] - b.plan.body_start[body]);
+        add_body(b, coloured, own, colour_greedy(graph, {0, true}));
+    }
+    std::vector<Added> flat;
+    std::vector<std::uint32_t> table;
+    ConstraintSet set = lay_out(kind.name, coloured, flat, table);
+    if (flat.empty())
+        return;
+    with_real(b.plan.precision, [&](auto zero) {
+        set.buffer = b.add_buffer<std::byte>(set.kind, set.kind + " constraints",
+                                             packed<decltype(zero)>(kind, flat, b.plan.precision));
+    });
+    add_set(b, set, std::move(table), {set.kind, true});
+}
+
+/// Kinds in the order in which the scene names them first.
+std::vector<const ElementKind*> kinds_of(const Scene& scene)
+{
+    std::vector<const ElementKind*> out;
+    for (const Body& body : scene.bodies)
+        for (const Body::Elements& list : body.elements)
+            if (const ElementKind* kind = find_element(list.kind);
+                kind != nullptr && std::find(out.begin(), out.end(), kind) == out.end())
+                out.push_back(kind);
+    return out;
+}
+
+} // namespace
+
+void check_added_elements(const Scene& scene)
+{
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        for (std::size_t k = 0; k < scene.bodies[b].elements.size(); ++k)
+        {
+            const Body& body = scene.bodies[b];
+            const std::string where = place(scene, b, k);
+            check_list(where, body, body.elements[k]);
+            if (method_of(scene) != MethodKind::xpbd)
+                throw Error(ErrorCode::unsupported, where + ": method \"" + scene.method.type +
+                                                        "\" has no kernels for elements that the program "
+                                                        "adds; use \"xpbd\"");
+            if (body.material.tear_strain > 0)
+                throw Error(ErrorCode::unsupported, where + ": a body with tear_strain " +
+                                                        "cannot have them, since tearing splits vertices");
+        }
+}
+
+bool wants_added_elements(const Scene& scene) { return !kinds_of(scene).empty(); }
+
+void prepare_added_elements(PlanBuilder& b)
+{
+    for (const ElementKind* kind : kinds_of(b.scene))
+        prepare_kind(b, *kind);
+}
+
+void record_added_elements(PlanBuilder& b, const Moment& moment)
+{
+    for (const ElementKind* kind : kinds_of(b.scene))
+        if (const ConstraintSet* set = find_set(b.plan, kind->name))
+            record_colours(b, *set, "xpbd_" + kind->name, kind->corners, moment);
+}
+
+} // namespace taut

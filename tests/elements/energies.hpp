@@ -1,0 +1,70 @@
+#pragma once
+// The two elements of tests/elements as everybody else would write them: an energy in fp64, and nothing of their
+// kernels. Tests differentiate it by dual numbers.
+
+#include "support/dual.hpp"
+
+#include "taut/elements/element.hpp"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace taut::elements_test {
+
+template <typename T>
+using Point = std::array<T, 3>;
+
+template <typename T>
+Point<T> minus(const Point<T>& a, const Point<T>& b)
+{
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+template <typename T>
+T length_of(const Point<T>& a)
+{
+    using std::sqrt;
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+/// values: rest length m, compliance m^4/J.
+struct CubicSpringEnergy
+{
+    static constexpr std::uint32_t corners = 2;
+    template <typename T>
+    T operator()(const std::array<Point<T>, 2>& x, std::span<const double> values) const
+    {
+        const T stretch = length_of(minus(x[1], x[0])) - T(values[0]);
+        return stretch * stretch * stretch * stretch / T(2 * values[1]);
+    }
+};
+
+/// values: rest area m^2, compliance m^4/J.
+struct HeldAreaEnergy
+{
+    static constexpr std::uint32_t corners = 3;
+    template <typename T>
+    T operator()(const std::array<Point<T>, 3>& x, std::span<const double> values) const
+    {
+        const Point<T> a = minus(x[1], x[0]), b = minus(x[2], x[0]);
+        const Point<T> c = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        const T grown = T(0.5) * length_of(c) - T(values[0]);
+        return grown * grown / T(2 * values[1]);
+    }
+};
+
+/// As ElementKind::energy wants it.
+template <typename Energy>
+double energy_of(std::span<const glm::dvec3> x, std::span<const double> values)
+{
+    std::array<Point<double>, Energy::corners> corner{};
+    for (std::size_t k = 0; k < Energy::corners; ++k)
+        corner[k] = {x[k].x, x[k].y, x[k].z};
+    return Energy()(corner, values);
+}
+
+/// Both are added once a process.
+void add_elements();
+
+} // namespace taut::elements_test
