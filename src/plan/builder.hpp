@@ -4,6 +4,7 @@
 #include "taut/plan/methods.hpp"
 #include "taut/plan/plan.hpp"
 #include "taut/runtime/base/bindings.hpp"
+#include "taut/runtime/base/registry.hpp"
 #include "taut/runtime/paper_device.hpp"
 
 #include <glm/vec4.hpp>
@@ -98,10 +99,12 @@ public:
                   const typename Bindings<Use>::Params& params, std::uint32_t count,
                   std::uint64_t elements = 0)
     {
-        dispatch_by_name(effect, Bindings<Use>::info().name, variant, bindings, params, count, elements);
+        const KernelInfo& kernel = Bindings<Use>::info(variant, plan.precision);
+        add_dispatch(effect, kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
+                     count, elements == 0 ? count : elements);
     }
 
-    /// The same of another kernel with these bindings and parameters: of a method's, for another element.
+    /// The same of another kernel with these bindings and parameters: a method's for another element.
     template <template <typename> typename Bindings>
     void dispatch_by_name(std::string_view effect, std::string_view name, std::string_view variant,
                           const Bindings<Use>& bindings, const typename Bindings<Use>::Params& params,
