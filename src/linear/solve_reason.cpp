@@ -39,11 +39,15 @@ std::string stagnation(const SolveReport& report, const CgOutcome& outcome, cons
 
 } // namespace
 
-std::string reason_of(const SolveReport& report, const CgOutcome& outcome, const SolveOptions& options)
+std::string reason_of(const SolveReport& report, const CgOutcome& outcome, const SolveOptions& options,
+                      bool beyond_double)
 {
     const std::string where = "a true residual of " + shown(report.relative_residual, 3);
     const std::string after = " after " + std::to_string(report.iterations) +
                               (report.iterations == 1 ? " iteration" : " iterations");
+    if (beyond_double && report.status != Status::converged)
+        return "x is beyond the largest double, 1.8e308" + after + ": no precision holds it, and " + where +
+               " is what is left; scale b down, or A up";
     switch (report.status)
     {
     case Status::converged:

@@ -8,7 +8,8 @@
 
 namespace taut::linear {
 
-/// One sentence with the numbers that led to report.status.
-std::string reason_of(const SolveReport&, const CgOutcome&, const SolveOptions&);
+/// One sentence with the numbers that led to report.status. `beyond_double`: an iterate was left out because
+/// a double does not hold it.
+std::string reason_of(const SolveReport&, const CgOutcome&, const SolveOptions&, bool beyond_double);
 
 } // namespace taut::linear

@@ -83,7 +83,7 @@ std::vector<double> SystemSolver::run()
     }
     if (report_.status != Status::converged && report_.status != Status::iteration_limit)
         go_back();
-    report_.reason = reason_of(report_, outcome, options_);
+    report_.reason = reason_of(report_, outcome, options_, beyond_double_);
     report_.ms_per_iteration = report_.iterations > 0 ? report_.seconds * 1e3 / report_.iterations : 0;
     if (options_.measure_product)
         measure_product();
@@ -266,10 +266,14 @@ std::vector<double> SystemSolver::read(const BufferPtr& buffer) const
     return values;
 }
 
-std::vector<double> SystemSolver::unscaled(std::vector<double> x) const
+std::vector<double> SystemSolver::unscaled(std::vector<double> x)
 {
     for (double& entry : x)
+    {
+        const bool finite = std::isfinite(entry);
         entry = std::ldexp(entry, matrix_exponent_ - vector_exponent_);
+        beyond_double_ = beyond_double_ || (finite && !std::isfinite(entry));
+    }
     return x;
 }
 

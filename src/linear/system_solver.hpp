@@ -36,7 +36,7 @@ private:
     /// same digits come again, so nothing needs to be kept on the device.
     void go_back();
     std::vector<double> read(const BufferPtr& buffer) const;
-    std::vector<double> unscaled(std::vector<double> x) const;
+    std::vector<double> unscaled(std::vector<double> x);
     /// Keeps the better of what there is and `candidate`: by the true residual, and not for a whisker, since
     /// where the iteration ran along a null space a larger x is no better one.
     void take(std::vector<double> candidate);
@@ -55,6 +55,7 @@ private:
     bool pairs_;
     int matrix_exponent_;
     int vector_exponent_;
+    bool beyond_double_ = false; ///< of an iterate
     double last_overshoot_ = std::numeric_limits<double>::infinity();
     CgSettings settings_;
     std::vector<double> start_; ///< of the round that had the smallest residual

@@ -92,9 +92,12 @@ std::string material_text(const CostStudy& study, const CostTarget& target)
     const CostPoint& point = study.points[*target.cheapest];
     if (point.other_material.empty())
         return {};
+    const bool tried = std::any_of(study.points.begin(), study.points.end(),
+                                   [](const CostPoint& other) { return other.other_material.empty(); });
     return "; of another material: " + point.other_material +
            (target.own ? "; with the scene's own " + result_text(study, study.points[*target.own])
-                       : "; with the scene's own it is not reached");
+            : tried    ? "; with the scene's own it is not reached"
+                       : "; no method with the scene's own was tried");
 }
 
 } // namespace

@@ -87,6 +87,25 @@ TEST_CASE("a solution beyond double is refused", "[linear][solve]")
     CHECK_THROWS_WITH(solve(test_device("cpu:serial"), a, b), Contains("is beyond double"));
 }
 
+TEST_CASE("no other precision is advised for a solution that none holds", "[linear][solve]")
+{
+    const SparseMatrix a =
+        from_triplets(3, 3, std::vector<Triplet>{{0, 0, 1e-300}, {1, 1, 1e-300}, {2, 2, 1e-300}});
+    SolveOptions options = big();
+    options.precision = SolvePrecision::float32;
+    try
+    {
+        const SolveReport report =
+            solve(test_device("cpu:serial"), a, std::vector<double>(3, 1.7e308), options).report;
+        CHECK(report.status != Status::converged);
+        CHECK_THAT(report.reason, Contains("x is beyond the largest double") && !Contains("go further"));
+    }
+    catch (const Error& error)
+    {
+        CHECK_THAT(error.what(), Contains("is beyond double"));
+    }
+}
+
 TEST_CASE("solve on every executor, in every precision", "[linear][solve]")
 {
     const std::string selector = GENERATE(from_range(test_devices()));
