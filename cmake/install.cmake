@@ -37,6 +37,15 @@ install(DIRECTORY ${taut_generated}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tau
 install(FILES kernels/shared/layouts.h kernels/shared/portable.glsl
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/kernels/shared)
 
+# ---------------------------------------------------------------- elements of programs (taut_add_elements)
+# The kernels' texts, and the headers with which they compile as C++: those cannot be included alone, so they
+# stand beside the texts.
+install(DIRECTORY kernels/shared kernels/elements kernels/methods DESTINATION ${CMAKE_INSTALL_DATADIR}/taut/kernels)
+install(DIRECTORY runtime/cpu/ DESTINATION ${CMAKE_INSTALL_DATADIR}/taut/native/taut/runtime/cpu
+        FILES_MATCHING PATTERN "*.hpp")
+install(TARGETS taut-kernelc RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES cmake/taut_elements.cmake DESTINATION ${taut_cmake_dir})
+
 # ---------------------------------------------------------------- library and program
 install(TARGETS taut EXPORT taut-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 if(TARGET taut-cli)
@@ -67,7 +76,8 @@ endforeach()
 list(REMOVE_DUPLICATES taut_link_folders)
 
 configure_package_config_file(cmake/taut-config.cmake.in ${PROJECT_BINARY_DIR}/taut-config.cmake
-                              INSTALL_DESTINATION ${taut_cmake_dir})
+                              INSTALL_DESTINATION ${taut_cmake_dir}
+                              PATH_VARS CMAKE_INSTALL_BINDIR CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/taut-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/taut-config.cmake ${PROJECT_BINARY_DIR}/taut-config-version.cmake

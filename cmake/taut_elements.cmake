@@ -1,6 +1,6 @@
 # Compiles kernels for elements: Taut's own build includes this, and so does find_package(taut), for
-# taut_add_elements(). Needs taut_kernel_folder (kernels/ of the source tree, or where it was installed), and in
-# it shared/, elements/ and methods/.
+# taut_add_elements(). Needs taut_kernel_folder: kernels/ of the source tree, or where it was installed, with
+# shared/, elements/ and methods/. Installed, the headers of native kernels stand in taut_native_folder.
 
 # taut-kernelc leaves files alone that would not change. Ninja takes that as up to date (restat); Make would
 # run the command again in every build, so there `touch` is one more command.
@@ -28,8 +28,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQU
     set(taut_lanes 1)
 endif()
 
-# taut_generate_kernel(KERNEL STEM FOLDER OUT [ELEMENT]): OUT becomes the sources that are generated into FOLDER of
-# one kernel, for one element where it has one; the target that compiles them must live in this directory.
+# taut_generate_kernel(KERNEL STEM FOLDER OUT [ELEMENT]): OUT becomes the sources that are generated into FOLDER
+# of one kernel, for one element where it has one; the target that compiles them must live in this directory.
 function(taut_generate_kernel kernel stem folder out)
     set(outputs ${folder}/${stem}.hpp ${folder}/${stem}.cpp ${folder}/${stem}.native.cpp)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${kernel})
@@ -62,9 +62,9 @@ function(taut_generate_kernel kernel stem folder out)
     set(${out} ${outputs} PARENT_SCOPE)
 endfunction()
 
-# taut_add_elements(TARGET FILES FILE...): compiles the kernels of every method that an element's line "//! methods"
-# names, and adds them to TARGET, which includes "taut/kernels/<kernel>_<element>.hpp" and hands all() of it to
-# taut::add_element() (docs/how-to/add-an-element.md).
+# taut_add_elements(TARGET FILES FILE...): compiles the kernels of every method that an element's line
+# "//! methods" names, and adds them to TARGET, which includes "taut/kernels/<kernel>_<element>.hpp" and hands
+# all() of it to taut::add_element() (docs/how-to/add-an-element.md).
 function(taut_add_elements target)
     cmake_parse_arguments(PARSE_ARGV 1 given "" "" "FILES")
     if(NOT given_FILES)
@@ -88,11 +88,11 @@ function(taut_add_elements target)
             endif()
         endforeach()
     endforeach()
-    target_include_directories(${target} PRIVATE ${folder} ${taut_kernel_folder})
+    target_include_directories(${target} PRIVATE ${folder} ${taut_kernel_folder} ${taut_native_folder})
 endfunction()
 
-# taut_is_for(KERNEL FILE OUT): whether the kernel is compiled for the element in FILE: its line "//! each element of
-# METHOD" names one of the element's line "//! methods".
+# taut_is_for(KERNEL FILE OUT): whether the kernel is compiled for the element in FILE: its line "//! each element
+# of METHOD" names one of the element's line "//! methods".
 function(taut_is_for kernel file out)
     file(STRINGS ${kernel} method REGEX "^//! each element of ")
     file(STRINGS ${file} methods REGEX "^//! methods .*")

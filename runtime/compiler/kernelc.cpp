@@ -89,7 +89,8 @@ std::string header_text(const std::string& stem, const Kernels& kernels)
     std::ostringstream out;
     out << "#pragma once\n// Generated from kernels/**/" << stem << ".comp. Do not edit.\n\n"
         << "#include \"taut/runtime/base/kernel_info.hpp\"\n\n#include <array>\n"
-           "#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <string_view>\n#include <utility>\n\n"
+           "#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <string_view>\n"
+           "#include <utility>\n\n"
         << "namespace taut::kernels::" << stem << " {\n\n";
     const auto& params = kernels.front()->params;
     if (!params.empty())

@@ -34,9 +34,9 @@ void check_kernel(const ElementKind& kind, const KernelInfo& kernel)
     if (kernel.bindings.empty() || kernel.bindings[0].stride != expected)
         refuse(kind, "the record of kernel " + std::string(kernel.name) + " in " +
                          std::string(to_string(kernel.precision)) + " takes " +
-                         std::to_string(kernel.bindings.empty() ? 0 : kernel.bindings[0].stride) + " bytes, " +
-                         std::to_string(kind.corners) + " corners and " + std::to_string(kind.values.size()) +
-                         " values take " + std::to_string(expected));
+                         std::to_string(kernel.bindings.empty() ? 0 : kernel.bindings[0].stride) +
+                         " bytes, " + std::to_string(kind.corners) + " corners and " +
+                         std::to_string(kind.values.size()) + " values take " + std::to_string(expected));
 }
 
 void check_kind(const ElementKind& kind)

@@ -1,6 +1,6 @@
 #pragma once
-// Elements of a program's own: an energy of up to four vertices that Taut does not have, said in one GLSL file
-// (kernels/shared/element.glsl) and one ElementKind. docs/how-to/add-an-element.md walks through it.
+// Elements of a program's own: an energy of up to four vertices that Taut does not have, said in one GLSL
+// file (kernels/shared/element.glsl) and one ElementKind. docs/how-to/add-an-element.md walks through it.
 
 #include "taut/runtime/base/kernel_info.hpp"
 
@@ -20,17 +20,17 @@ struct ElementKind
     std::string name;                ///< stem of its GLSL file; also the label of its passes and buffers
     std::uint32_t corners = 2;       ///< vertices of one element, 2 to 4, as its line `//! corners` says
     std::vector<std::string> values; ///< names of the reals that follow the corners in its record, in order
-    std::span<const KernelInfo> kernels; ///< kernels::xpbd_<name>::all(); must outlive the program's plans
-    /// J, >= 0, in fp64, of one element with its corners at `x` (m). Reports count it; tests differentiate it.
+    std::span<const KernelInfo> kernels; ///< kernels::xpbd_<name>::all()
+    /// J, >= 0, in fp64, of one element with its corners at `x` (m). Reports count it.
     double (*energy)(std::span<const glm::dvec3> x, std::span<const double> values) = nullptr;
 };
 
 /// Bytes of one record: `corners` uints, then the values, as std430 lays them out.
 std::uint32_t record_bytes(const ElementKind& kind, Precision precision);
 
-/// Makes the kind known to scenes of this program (Body::elements), for good. Throws Error{bad_input} for a name
-/// that is taken, for corners, values or kernels that do not fit each other, and without an energy. Safe from
-/// several threads.
+/// Makes the kind known to scenes of this program (Body::elements), for good. Throws Error{bad_input} for a
+/// name that is taken, for corners, values or kernels that do not fit each other, and without an energy. Safe
+/// from several threads.
 void add_element(const ElementKind& kind);
 
 /// Null if nobody has added it. The pointer stays good. Safe from several threads.

@@ -1,5 +1,5 @@
-// Elements that the program has added: from Body::elements to coloured records and passes of XPBD. The kernels
-// are those of any element (kernels/methods/xpbd/xpbd.comp).
+// Elements that the program has added: from Body::elements to coloured records and passes of XPBD. Their
+// kernels are those of any element (kernels/methods/xpbd/xpbd.comp).
 
 #include "taut/plan/added_elements.hpp"
 
@@ -83,7 +83,8 @@ std::vector<Added> acting(const PlanBuilder& b, std::size_t body, const ElementK
 
 /// Records as kernels read them: corners, then values.
 template <typename Real>
-std::vector<std::byte> packed(const ElementKind& kind, const std::vector<Added>& elements, Precision precision)
+std::vector<std::byte> packed(const ElementKind& kind, const std::vector<Added>& elements,
+                              Precision precision)
 {
     const std::size_t size = record_bytes(kind, precision);
     const std::size_t at = (4 * kind.corners + sizeof(Real) - 1) / sizeof(Real) * sizeof(Real);

@@ -149,7 +149,8 @@ void record_colours(PlanBuilder& b, const ConstraintSet& set, std::string_view k
         const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
         b.stands_for(run.end - run.begin);
         if (run.grouped())
-            b.dispatch_by_name(set.kind, kernel, grouped, group, {range, 1, first_iteration, report}, 1, size);
+            b.dispatch_by_name(set.kind, kernel, grouped, group, {range, 1, first_iteration, report}, 1,
+                               size);
         else
             b.dispatch_by_name(set.kind, kernel, alone, uses, {first, size, first_iteration, report}, size);
         range += run.grouped() ? 2 : 0;

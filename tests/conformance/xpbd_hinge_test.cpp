@@ -295,7 +295,8 @@ TEMPLATE_TEST_CASE("a hinge folded shut with a flat rest angle opens by a finite
     using Real = TestType;
     auto in = angle_sweep<Real>({{1, 0}});
     in.constraint[0].compliance = Real(1);
-    const auto launches = colour_launches<Params>(kernels::xpbd_hinge::info, precision_of<Real>(), Mode(), in);
+    const auto launches =
+        colour_launches<Params>(kernels::xpbd_hinge::info, precision_of<Real>(), Mode(), in);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);

@@ -143,10 +143,11 @@ TEMPLATE_TEST_CASE("the first hub iteration with multipliers moves vertices bitw
         if (!can_run(*device, precision))
             continue;
         CAPTURE(selector);
-        const Buffers a =
-            run(*device, {make_launch(kernels::xpbd_hub_spring::info("", precision), params, 1)}, in.buffers());
+        const Buffers a = run(
+            *device, {make_launch(kernels::xpbd_hub_spring::info("", precision), params, 1)}, in.buffers());
         const Buffers b =
-            run(*device, {make_launch(kernels::xpbd_hub_spring::info("lambda", precision), params, 1)}, in.buffers());
+            run(*device, {make_launch(kernels::xpbd_hub_spring::info("lambda", precision), params, 1)},
+                in.buffers());
         CHECK(differing_buffers(a, b) == "");
     }
 }

@@ -195,7 +195,8 @@ TEMPLATE_TEST_CASE(
     in.constraint = {{0, 1, Real(0.25), Real(0)}};
     in.colour_start = {0, 1};
     in.groups = {{0, 1}};
-    const auto launches = colour_launches<Params>(kernels::xpbd_spring::info, precision_of<Real>(), Mode(), in);
+    const auto launches =
+        colour_launches<Params>(kernels::xpbd_spring::info, precision_of<Real>(), Mode(), in);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);

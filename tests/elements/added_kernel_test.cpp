@@ -64,7 +64,8 @@ void project(State& s, const Record& record, std::uint32_t)
     const double soft = a * s.inverse_substep * s.inverse_substep;
     const double dlambda = -value / (weight + soft);
     // What rounds: the differences of the corners, in C by its slope and in the direction.
-    const double terms = steepest * (value + steepest * size) / (weight + soft) + std::abs(dlambda) * steepest;
+    const double terms =
+        steepest * (value + steepest * size) / (weight + soft) + std::abs(dlambda) * steepest;
     for (std::size_t c = 0; c < n; ++c)
         s.push(v[c], gradient[c] * (s.position[v[c]].w * dlambda), s.position[v[c]].w * terms * 4);
 }
@@ -122,8 +123,8 @@ TEMPLATE_TEST_CASE("a spring of a cubic law that Taut does not have moves by XPB
         kernels::xpbd_cubic_spring::info);
 }
 
-TEMPLATE_TEST_CASE("a held area of three corners that Taut does not have moves by XPBD of its energy", "", float,
-                   double)
+TEMPLATE_TEST_CASE("a held area of three corners that Taut does not have moves by XPBD of its energy", "",
+                   float, double)
 {
     check_element<HeldAreaEnergy, TestType, HeldArea, kernels::xpbd_held_area::Params>(
         kernels::xpbd_held_area::info);

@@ -1,4 +1,4 @@
-// Scenes with elements that the program has added: answers by hand, refusals, and nothing where there are none.
+// Scenes with elements that the program has added: answers by hand, refusals, nothing where there are none.
 
 #include "elements/energies.hpp"
 #include "support/catch.hpp"

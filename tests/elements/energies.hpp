@@ -1,6 +1,6 @@
 #pragma once
-// The two elements of tests/elements as everybody else would write them: an energy in fp64, and nothing of their
-// kernels. Tests differentiate it by dual numbers.
+// The two elements of tests/elements as everybody else would write them: an energy in fp64, and nothing of
+// their kernels. Tests differentiate it by dual numbers.
 
 #include "support/dual.hpp"
 

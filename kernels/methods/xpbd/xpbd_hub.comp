@@ -1,5 +1,5 @@
-// XPBD of elements of two corners at one vertex that has very many: solved at once (Jacobi) by one group, with
-// the hub's mass split among them, so that a star of 10,000 springs is one dispatch and not 10,000 colours.
+// XPBD of elements of two corners at one vertex that has very many: solved at once (Jacobi) by one group, the
+// hub's mass split among them, so that a star of 10,000 springs is one dispatch and not 10,000 colours.
 //
 // Based on: Tonge, Benevolenski, Voroshilov. Mass Splitting for Jitter-Free Parallel Rigid Body Simulation.
 //   SIGGRAPH 2012: each constraint sees the hub with 1/n of its mass; the copies are then averaged.
