@@ -29,6 +29,20 @@ void place(Scene& scene, const std::filesystem::path& file)
         scene.name = file.stem().string();
 }
 
+/// Files that are not there, of a scene that has other faults: without any, resolve() reads them and says so.
+void add_missing_files(const Scene& scene, const std::filesystem::path& directory,
+                       std::vector<SceneIssue>& issues)
+{
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        for (const std::filesystem::path& file :
+             {scene.bodies[b].shape.file, scene.bodies[b].embedded_file})
+            if (std::error_code ignored; !file.empty() && !std::filesystem::exists(directory / file, ignored))
+                issues.push_back({true, "bodies[" + std::to_string(b) + "]",
+                                  "names " + file.string() + "; there is no such file (looked for " +
+                                      (directory / file).string() + ")",
+                                  ErrorCode::io});
+}
+
 } // namespace
 
 std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* scene,
@@ -45,6 +59,8 @@ std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* sce
     else
         for (SceneIssue& issue : scene_file::check_keys(found))
             issues.push_back(std::move(issue));
+    if (any_error(issues))
+        add_missing_files(found, file.parent_path(), issues);
     if (method_keys)
         *method_keys = scene_file::keys_of(tree, "method");
     if (scene)

@@ -30,11 +30,13 @@ double read_number(const Field& value, const Key& key)
 
 std::uint32_t read_count(const Field& value, const Key& key)
 {
+    std::string right; // of a key without a range, what a uint32 can be
+    if (key.limits.has_low() && key.limits.has_high())
+        right = "it must be a whole number from " + std::to_string(std::uint32_t(key.limits.low)) + " to " +
+                std::to_string(std::uint32_t(key.limits.high));
     if (key.word.empty())
-        return value.count();
-    const std::string right =
-        "it must be a whole number from " + std::to_string(std::uint32_t(key.limits.low)) + " to " +
-        std::to_string(std::uint32_t(key.limits.high)) + ", or \"" + std::string(key.word) + '"';
+        return value.count(right);
+    right += ", or \"" + std::string(key.word) + '"';
     if (value.is_text() && value.text() == key.word)
         return static_cast<std::uint32_t>(key.word_value);
     const std::uint32_t count = value.count(right);

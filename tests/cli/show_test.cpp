@@ -258,6 +258,24 @@ TEST_CASE("check names the box whose tetrahedra have no volume, and a timestep t
     CHECK(field(R"({"taut": 1, "duration": 1e12, "bodies": [{"grid": {}}]})") == "duration");
 }
 
+TEST_CASE("check lists a mesh file that is not there beside other faults")
+{
+    const Folder folder;
+    const std::string scene = folder.file("faults.json", R"({"taut": 1, "duration": -1, "foo": 1,
+        "method": {"iterations": 1.5}, "bodies": [{"mesh": "missing.obj"}]})");
+    const Result result = folder.taut({"check", scene, "--json"});
+    CHECK(result.status == 2);
+    std::string all;
+    const auto issues = program::parse(result.out)["issues"];
+    for (const auto& issue : issues)
+        all += issue["field"].get<std::string>() + " " + issue["text"].get<std::string>() + "\n";
+    INFO(all);
+    CHECK(all.find("foo") != std::string::npos);
+    CHECK(all.find("duration is -1 s") != std::string::npos);
+    CHECK(all.find("method.iterations is 1.5; it must be a whole number from 1 to 1000") != std::string::npos);
+    CHECK(all.find("bodies[0] names missing.obj; there is no such file") != std::string::npos);
+}
+
 TEST_CASE("check finds a mesh file that is not there")
 {
     const Folder folder;
