@@ -55,6 +55,7 @@ struct Strained
     double energy = 0;       ///< J, of elements with a stiffness whose shape at rest the model knows
     double kept_strain = 0;  ///< largest strain of those that the method keeps by projection
     double limit_strain = 0; ///< largest strain above a strain_limit
+    double kept_volume = 0;  ///< largest share by which a body is off the volumes that the method keeps so
 };
 
 /// pbd, or a spring that is rigid, is asked to keep its length; pbd of a stiffness k below 1 to 1/k as much.
@@ -86,11 +87,38 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
     }
 }
 
+/// The volume of a tetrahedron, or within a surface, that is rigid, or kept by pbd: as springs. Of all
+/// tetrahedra of a body together, by what each is off: one alone may be so for a moment.
+void add_volumes(const PhysicalModel& model, const RunState& state, Strained& out)
+{
+    const bool pbd = method_of(state.scene) == MethodKind::pbd;
+    const double share = pbd ? state.scene.method.volume : 1;
+    const auto kept = [&](double compliance) { return pbd || !(compliance > 0); };
+    std::vector<double> off(state.scene.bodies.size()), whole(off);
+    for (const VolumeElement& e : model.volumes)
+    {
+        const auto next = std::upper_bound(model.body_start.begin(), model.body_start.end(), e.vertex[0]);
+        const auto body = static_cast<std::size_t>(next - model.body_start.begin()) - 1;
+        if (!kept(e.compliance) || model.flows[e.vertex[0]])
+            continue;
+        off[body] += std::abs(volume_of(e.vertex, state.x) - e.rest_volume);
+        whole[body] += e.rest_volume;
+    }
+    for (std::size_t b = 0; b < off.size(); ++b)
+        if (whole[b] > 0)
+            out.kept_volume = std::max(out.kept_volume, share * off[b] / whole[b]);
+    for (const SurfaceElement& e : model.surfaces)
+        if (kept(e.compliance))
+            out.kept_volume = std::max(
+                out.kept_volume, share * std::abs(enclosed_volume(e.triangles, state.x) / e.rest_volume - 1));
+}
+
 Strained strained(const PhysicalModel& model, const RunState& state)
 {
     const double accepted = state.scene.accept.stretch;
     Strained out;
     add_springs(model, state, accepted, out);
+    add_volumes(model, state, out);
     if (method_of(state.scene) != MethodKind::pbd)
         for (const SolidElement& e : model.solids)
         {
@@ -111,14 +139,15 @@ std::string percent(double share) { return shown(100 * share, 3) + " %"; }
 Soundness judge_strain(const Strained& strain, double accepted)
 {
     const auto beyond = [&](double value, const char* what) {
-        return found(Status::unconverged, std::string(what) + " stretched by " + percent(value) +
-                                              ", accept.stretch is " + percent(accepted) +
-                                              "; take more substeps or iterations");
+        return found(Status::unconverged, std::string(what) + " " + percent(value) + ", accept.stretch is " +
+                                              percent(accepted) + "; take more substeps or iterations");
     };
     if (strain.kept_strain > accepted)
-        return beyond(strain.kept_strain, "a spring that the method keeps at its length is");
+        return beyond(strain.kept_strain, "a spring that the method keeps at its length is stretched by");
     if (strain.limit_strain > accepted)
-        return beyond(strain.limit_strain, "beyond its strain_limit, a spring is");
+        return beyond(strain.limit_strain, "beyond its strain_limit, a spring is stretched by");
+    if (strain.kept_volume > accepted)
+        return beyond(strain.kept_volume, "a volume that the method keeps is off by");
     return {};
 }
 

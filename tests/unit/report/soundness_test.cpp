@@ -230,6 +230,43 @@ TEST_CASE("pbd answers for its springs, and tetrahedra for their inside")
     CHECK_THAT(inside_out.reason, Contains("40 tetrahedra are inverted"));
 }
 
+TEST_CASE("a volume that is rigid, or that pbd keeps, is as large as at rest")
+{
+    const auto judged = [](const char* volume, const char* method, double stiffness, double height) {
+        Scene scene;
+        Body box;
+        box.shape.kind = ShapeKind::box;
+        box.shape.box_cells = {2, 2, 2};
+        box.material = solid_material();
+        box.material.model = "springs";
+        box.material.volume = volume;
+        box.material.volume_stiffness = stiffness;
+        box.material.youngs_modulus = 1e-3; // next to no energy
+        scene.bodies = {box};
+        scene.method.type = method;
+        scene.method.stretch = 0; // only the volume is judged
+        scene = resolve(scene);
+        std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+        for (glm::dvec3& p : x)
+            p.y *= height;
+        const std::vector<glm::dvec3> still(x.size(), glm::dvec3(0));
+        return judge_state(EnergyBudget(scene), state_of(scene, x, still, 1));
+    };
+    const double rigid = std::numeric_limits<double>::infinity();
+    for (const char* volume : {"tetrahedra", "surface"})
+    {
+        INFO(volume);
+        const Soundness squeezed = judged(volume, "xpbd", rigid, 0.8);
+        CHECK(squeezed.status == Status::unconverged);
+        CHECK_THAT(squeezed.reason, Contains("volume") && Contains("off by 20 %"));
+        CHECK(judged(volume, "xpbd", rigid, 1.2).status == Status::unconverged);
+        CHECK(judged(volume, "xpbd", rigid, 0.95).sound());
+        CHECK(judged(volume, "xpbd", 1, 0.8).sound()); // soft: it may give way
+        CHECK(judged(volume, "pbd", 1, 0.8).status == Status::unconverged);
+        CHECK(judged(volume, "pbd", 1, 0.95).sound());
+    }
+}
+
 TEST_CASE("a clamp that the scene did not ask for is a blow-up")
 {
     Scene scene = sheet();
