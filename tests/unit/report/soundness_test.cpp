@@ -267,6 +267,29 @@ TEST_CASE("a volume that is rigid, or that pbd keeps, is as large as at rest")
     }
 }
 
+TEST_CASE("a start within a collider throws a body out at twice the speed of the way out, no faster")
+{
+    Scene scene;
+    Body box;
+    box.shape.kind = ShapeKind::box;
+    box.material = solid_material();
+    scene.bodies = {box};
+    scene = resolve(scene);
+    scene.depenetration_speed = 0.5;
+    scene.colliders.resize(1);
+    scene.colliders[0].kind = ColliderKind::plane;
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+    for (const glm::dvec3& p : x)
+        scene.colliders[0].point.y =
+            std::min(scene.colliders[0].point.y, p.y + 1e-9); // flush, but for a digit
+    const auto judged = [&](double speed) {
+        const std::vector<glm::dvec3> v(x.size(), {0, speed, 0});
+        return judge_motion(EnergyBudget(scene), state_of(scene, x, v, 1)).status;
+    };
+    CHECK(judged(1) == Status::completed);
+    CHECK(judged(2) == Status::diverged);
+}
+
 TEST_CASE("a clamp that the scene did not ask for is a blow-up")
 {
     Scene scene = sheet();
