@@ -286,6 +286,8 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
     root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force_ > 0 ? kHits * wind_speed_ : 0.0);
     if (drive.push > 0)
         root += drive.push / std::sqrt(2 * lightest_);
+    if (root == 0 && wind_force_ == 0 && model_.gases.empty())
+        in -= damped_;
     const DrawnEnergy drawn = drawn_->at(drive.time, way);
     const auto with = [&](double elastic) {
         const double all = root + std::sqrt(std::max(in + kHits * elastic, 0.0));

@@ -295,6 +295,15 @@ std::uint64_t frames_between_looks(const Plan& plan, std::uint64_t frames)
     return std::min(wanted, paid);
 }
 
+/// Damping of c /s takes 2 c E of a kinetic energy E in a second. Between two looks E swings: by half of the
+/// smaller of both on average, where it swings evenly; half of that is counted.
+void SoundnessWatch::add_damped(double time, double kinetic, double damping)
+{
+    damped_ += 2 * damping * 0.25 * std::min(kinetic_, kinetic) * (time - time_);
+    time_ = time;
+    kinetic_ = kinetic;
+}
+
 void SoundnessWatch::after(std::uint64_t frame, const World& world)
 {
     if (every_ == 0)
@@ -308,9 +317,11 @@ void SoundnessWatch::after(std::uint64_t frame, const World& world)
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());
     torn_ = world.torn();
+    budget_->set_damped(damped_);
     // Strain alone may heal: what a contact leaves in stiff elements is gone a few steps later. What is too
     // fast is not. A share of clamped speeds is for the whole run to have.
     const Soundness motion = judge(*budget_, world, Judged::motion);
+    add_damped(world.time(), motion.energy, world.scene().damping);
     if (rank(motion.status) >= rank(Status::diverged))
         found_ = worse(found_, motion);
     else if (strains && !judge(*budget_, world).sound())

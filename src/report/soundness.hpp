@@ -87,9 +87,13 @@ public:
     std::uint64_t unconverged() const { return unconverged_; }
 
 private:
+    void add_damped(double time, double kinetic, double damping);
+
     std::uint64_t frames_, every_ = 0, unconverged_ = 0, torn_ = 0; ///< every_: 0 before the first frame
     std::optional<EnergyBudget> budget_; ///< made at the first look
     Soundness found_;
+    double time_ = 0, kinetic_ = 0; ///< s, J: at the last look
+    double damped_ = 0;             ///< J: what damping has taken out, at least
 };
 
 } // namespace taut
