@@ -200,6 +200,25 @@ Soundness judge_energy(double energy, double most, double bound, Status status, 
                              " J can have been put in");
 }
 
+/// Under implicit_constraints the count is of springs whose ends passed each other further than the solve can
+/// follow.
+Soundness judge_turned(const Scene& scene, double turned, double vertex_substeps)
+{
+    double vertices = 0, springs = 0;
+    for (const Body& body : scene.bodies)
+    {
+        vertices += static_cast<double>(body.mesh.positions.size());
+        springs += turned > 0 ? static_cast<double>(stretch_elements(body).size()) : 0;
+    }
+    if (!(turned * vertices > kTurnedShare * springs * vertex_substeps))
+        return {};
+    const double share = springs > 0 ? turned * vertices / (springs * vertex_substeps) : 1;
+    return found(Status::unconverged,
+                 "in a substep " + percent(share) +
+                     " of all springs turned too far for the solve (speed_clamp), up to " +
+                     percent(kTurnedShare) + " are accepted; take more substeps");
+}
+
 } // namespace
 
 int rank(Status status)
@@ -223,7 +242,9 @@ Soundness judge_clamps(const Scene& scene, const Events& events, double vertex_s
 {
     const double clamped = static_cast<double>(events.speed_clamped);
     const MethodKind kind = method_of(scene);
-    if (kind == MethodKind::implicit_constraints || kind == MethodKind::acad)
+    if (kind == MethodKind::implicit_constraints)
+        return judge_turned(scene, clamped, vertex_substeps);
+    if (kind == MethodKind::acad)
         return {}; // there the count is of turned springs, too
     if (scene.max_speed <= 0 && clamped > 0) // the guard against overflow
         return found(Status::diverged, "speeds passed what float can square " +
@@ -304,15 +325,22 @@ void SoundnessWatch::add_damped(double time, double kinetic, double damping)
     kinetic_ = kinetic;
 }
 
+bool SoundnessWatch::strains_due(std::uint64_t frame) const
+{
+    return frames_ >= kMotionLooks && frame * kStrainLooks / frames_ != (frame - 1) * kStrainLooks / frames_;
+}
+
+bool SoundnessWatch::due(std::uint64_t frame) const
+{
+    // A start is where most is wrong at once.
+    return frame != 0 && (frame == 1 || every_ == 0 || frame % every_ == 0 || strains_due(frame));
+}
+
 void SoundnessWatch::after(std::uint64_t frame, const World& world)
 {
     if (every_ == 0)
         every_ = frames_between_looks(world.plan(), frames_);
-    if (frame == 0)
-        return;
-    const bool strains =
-        frames_ >= kMotionLooks && frame * kStrainLooks / frames_ != (frame - 1) * kStrainLooks / frames_;
-    if (frame != 1 && frame % every_ != 0 && !strains) // a start is where most is wrong at once
+    if (!due(frame))
         return;
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());
@@ -324,7 +352,7 @@ void SoundnessWatch::after(std::uint64_t frame, const World& world)
     add_damped(world.time(), motion.energy, world.scene().damping);
     if (rank(motion.status) >= rank(Status::diverged))
         found_ = worse(found_, motion);
-    else if (strains && !judge(*budget_, world).sound())
+    else if (strains_due(frame) && !judge(*budget_, world).sound())
         ++unconverged_;
 }
 

@@ -304,6 +304,24 @@ TEST_CASE("a clamp that the scene did not ask for is a blow-up")
     CHECK(judge_motion(EnergyBudget(scene), state).status == Status::unconverged);
 }
 
+TEST_CASE("constraint enforcement whose springs turn too far again and again is not solved")
+{
+    Scene scene = sheet();
+    scene.method.type = "implicit_constraints";
+    const auto springs = static_cast<double>(stretch_elements(scene.bodies[0]).size());
+    const auto vertices = static_cast<double>(scene.bodies[0].mesh.positions.size());
+    const auto judged = [&](double share) { // of all springs, in each of 100 substeps
+        Events events;
+        events.speed_clamped = static_cast<std::uint64_t>(share * springs * 100);
+        return judge_clamps(scene, events, vertices * 100);
+    };
+    CHECK(judged(0).sound());
+    CHECK(judged(0.04).sound());
+    const Soundness turned = judged(0.06);
+    CHECK(turned.status == Status::unconverged);
+    CHECK_THAT(turned.reason, Contains("of all springs turned too far"));
+}
+
 TEST_CASE("explicit springs beyond their stable step are diverged, long before 1e12 m")
 {
     Scene scene = test::hanging(8);
