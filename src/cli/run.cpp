@@ -138,7 +138,7 @@ private:
             volume_min_ =
                 std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).least);
         finite_ = simulation_.events().non_finite == 0;
-        if (simulation_.is_whole())
+        if (finite_ && watch_.due(done_)) // whole() may have to put it together
             watch_.after(done_, simulation_.whole());
         if (finite_ && looks_.due(done_))
             look();
@@ -258,7 +258,12 @@ void describe_counts(const Simulation& simulation, RunResult& result)
     count(Warning::iteration_limit, result.report.solver.limited, result.report.warnings);
     count(Warning::solve_failed, result.report.solver.failed, result.report.warnings);
     if (events.non_finite > 0)
-        result.report.status = Status::non_finite;
+    {
+        Soundness lost;
+        lost.status = Status::non_finite;
+        lost.reason = "displacements were not finite " + std::to_string(events.non_finite) + " times";
+        set_status(lost, result.report);
+    }
     const double substeps = static_cast<double>(result.frames) * simulation.substeps();
     const auto vertices = static_cast<double>(result.vertices);
     set_status(judge_clamps(simulation.scene(), events, substeps * vertices), result.report);

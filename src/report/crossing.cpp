@@ -262,8 +262,9 @@ void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pai
     }
     nearest = std::sqrt(nearest);
     pair.inside = deep > 0 && (pair.inside || first_);
-    const bool through =
-        last_time_ && !pair.inside && nearest <= furthest(before_, after_) && went_through(part, obstacle);
+    const bool through = last_time_ && !pair.inside &&
+                         nearest <= furthest(before_, after_) + 0.5 * shape.size &&
+                         went_through(part, obstacle);
     if (deep > 0 && !pair.inside)
         elements_ += deep;
     found_.passed += through;
@@ -286,10 +287,10 @@ bool CrossingWatch::went_through(const Part& part, const Obstacle& obstacle) con
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
+    const glm::dvec3 disc(0.5 * obstacle.shape.size); // what links find where the middle is a point
     for (const auto& e : part.elements)
     {
-        if (e[1] == e[2])
-            continue; // links
+        const bool link = e[1] == e[2];
         TriangleCorners before, after;
         glm::dvec3 least(std::numeric_limits<double>::infinity()), most = -least;
         for (std::size_t k = 0; k < 3; ++k)
@@ -299,8 +300,11 @@ bool CrossingWatch::went_through(const Part& part, const Obstacle& obstacle) con
             least = glm::min(least, glm::min(before[k], after[k]));
             most = glm::max(most, glm::max(before[k], after[k]));
         }
-        if (glm::any(glm::greaterThan(least, high)) || glm::any(glm::lessThan(most, low)))
+        const glm::dvec3 more = link ? disc : glm::dvec3(0);
+        if (glm::any(glm::greaterThan(least, high + more)) || glm::any(glm::lessThan(most, low - more)))
             continue;
+        if (link && link_goes_through(obstacle.shape, part.edge, before, after))
+            return true;
         for (const glm::dvec3& p : middle)
             if (goes_through(p, before, after))
                 return true;

@@ -3,7 +3,7 @@
 // Based on: Ericson. Real-Time Collision Detection. 2005, 5.1.5 (point, triangle), 5.1.9 (two segments),
 //   5.2.9 (triangle and box by separating axes); Provot. Collision and self-collision handling in cloth
 //   model dedicated to design garments. 1997 (a moving point is in the plane of a moving triangle at the
-//   roots of a cubic).
+//   roots of a cubic; the same of two edges, of which one is at rest here).
 // Departures: the depth in a box is the amount by which the box may shrink before the element leaves it,
 //   found by halving.
 
@@ -156,6 +156,53 @@ std::vector<double> roots(const std::array<double, 4>& c)
     return found;
 }
 
+/// Whether the segment from `a` to `b` and that from -reach to +reach, neither of them along the other, meet
+/// where they are in one plane.
+bool segments_meet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& reach)
+{
+    const glm::dvec3 along = b - a, normal = glm::cross(along, reach);
+    const double square = glm::dot(normal, normal);
+    if (!(square > 1e-18 * glm::dot(along, along) * glm::dot(reach, reach)))
+        return false;
+    const double s = -determinant(a, reach, normal) / square;      // a + s along
+    const double t = -determinant(a, along, normal) / square;      // t reach
+    return s >= -1e-9 && s <= 1 + 1e-9 && std::abs(t) <= 1 + 1e-9; // at an end is on it
+}
+
+/// Whether a moving link goes through the segment from -reach to +reach.
+bool crosses(const glm::dvec3& reach, const TriangleCorners& before, const TriangleCorners& after)
+{
+    // The determinant of (b - a, reach, -a), of which the first and the last are linear in time.
+    const glm::dvec3 u = before[1] - before[0], du = (after[1] - after[0]) - u;
+    const glm::dvec3 q = -before[0], dq = before[0] - after[0];
+    const std::array<double, 4> c{determinant(u, reach, q),
+                                  determinant(du, reach, q) + determinant(u, reach, dq),
+                                  determinant(du, reach, dq), 0};
+    const std::vector<double> times = roots(c);
+    return std::any_of(times.begin(), times.end(), [&](double t) {
+        return segments_meet((1 - t) * before[0] + t * after[0], (1 - t) * before[1] + t * after[1], reach);
+    });
+}
+
+/// Whether a point on its way goes through the middle plane of a plate, within `half` of its centre.
+bool pierces(const glm::dvec3& half, int normal, const glm::dvec3& before, const glm::dvec3& after)
+{
+    if (before[normal] == 0 || (before[normal] < 0) == (after[normal] < 0))
+        return false;
+    const double t = before[normal] / (before[normal] - after[normal]);
+    for (int k = 0; k < 3; ++k)
+        if (k != normal && std::abs((1 - t) * before[k] + t * after[k]) >= half[k])
+            return false;
+    return true;
+}
+
+/// Half sizes less what is near a rim: of a box, by as much as its thinnest or 1.5 edges.
+glm::dvec3 inner_half(const SolidShape& shape, double edge)
+{
+    const double margin = shape.radius > 0 ? 0 : std::max(shape.size, kRim * edge);
+    return glm::max(shape.half - margin, glm::dvec3(0));
+}
+
 } // namespace
 
 SolidShape solid_shape(const Collider& collider)
@@ -214,12 +261,10 @@ bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double e
 std::vector<glm::dvec3> middle_points(const SolidShape& shape, double edge)
 {
     constexpr int kMost = 32; // along one axis
-    glm::dvec3 half(0);
+    const glm::dvec3 half = inner_half(shape, edge);
     glm::ivec3 steps(0); // to either side
     for (int k = 0; k < 3; ++k)
     {
-        const double margin = shape.radius > 0 ? 0 : std::max(shape.size, kRim * edge);
-        half[k] = std::max(shape.half[k] - margin, 0.0);
         const double wanted = std::ceil(half[k] / shape.size);
         steps[k] = static_cast<int>(std::min<double>(wanted, shape.radius > 0 ? kMost : 4));
     }
@@ -249,6 +294,29 @@ bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const 
             return true;
     }
     return false;
+}
+
+bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorners& before,
+                       const TriangleCorners& after)
+{
+    const glm::dvec3 half = inner_half(shape, edge);
+    if (half == glm::dvec3(0))
+    {
+        const glm::dvec3 along = before[1] - before[0] + after[1] - after[0];
+        const glm::dvec3 across = glm::cross(along, after[0] - before[0] + after[1] - before[1]);
+        const double length = glm::length(across);
+        return length > 0 && crosses(0.5 * shape.size / length * across, before, after);
+    }
+    int thinnest = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+        glm::dvec3 reach(0);
+        reach[k] = half[k];
+        if (half[k] > 0 && crosses(reach, before, after))
+            return true;
+        thinnest = shape.half[k] < shape.half[thinnest] ? k : thinnest;
+    }
+    return pierces(half, thinnest, before[0], after[0]) || pierces(half, thinnest, before[1], after[1]);
 }
 
 double hole_of(const TriangleCorners& t)

@@ -45,6 +45,12 @@ std::vector<glm::dvec3> middle_points(const SolidShape& shape, double edge);
 /// One that the point lies on at the start and leaves does not count. Links are never gone through.
 bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const TriangleCorners& after);
 
+/// Whether a link that moves likewise goes through the middle of a collider, its axis. One that is a point,
+/// of a ball or a cube, is as good as the disc of half its size that the link comes upon flat; through the
+/// middle plane of a plate an end has to go. Axis and plane of a box end 1.5 `edge` before its rim.
+bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorners& before,
+                       const TriangleCorners& after);
+
 /// Radius of the smallest ball round an element: what is less wide may pass between the corners.
 double hole_of(const TriangleCorners& element);
 

@@ -15,6 +15,10 @@
 namespace taut {
 namespace {
 
+/// Of depenetration_speed: as fast as an elastic body leaves a collider that pushes its lower side out at
+/// that speed, in one blow. The rest of it is squeezed until it moves as fast, and springs back: as a ball
+/// from a racket.
+constexpr double kThrown = 2;
 constexpr double kSampleTurn = 0.25; ///< rad: a chord this wide is 0.3 % shorter than its arc
 
 /// Corners of the box of some places; a rigid motion moves none of the places faster than the fastest corner.
@@ -269,7 +273,7 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
     else
         root += std::sqrt(mass_ / 2) * drive.fall;
     if (depth_ > 0)
-        in += mass_ * (g * depth_ + 0.5 * depenetration_ * depenetration_);
+        in += mass_ * (g * depth_ + 0.5 * kThrown * kThrown * depenetration_ * depenetration_);
     const double way = reach.travel + std::max(depth_, 0.0);
     in += 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
     if (wind_force_ > 0)
@@ -282,6 +286,8 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
     root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force_ > 0 ? kHits * wind_speed_ : 0.0);
     if (drive.push > 0)
         root += drive.push / std::sqrt(2 * lightest_);
+    if (root == 0 && wind_force_ == 0 && model_.gases.empty())
+        in -= damped_;
     const DrawnEnergy drawn = drawn_->at(drive.time, way);
     const auto with = [&](double elastic) {
         const double all = root + std::sqrt(std::max(in + kHits * elastic, 0.0));

@@ -38,8 +38,7 @@ struct EnergyMost
     double all = 0;     ///< kinetic and elastic together
 };
 
-/// Bounds on energy, fp64 on the host. Immutable after construction; const members may be called from any
-/// thread.
+/// Bounds on energy, fp64 on the host. Const members may be called from any thread.
 ///
 /// Based on: the work-energy theorem. A force that accelerates every part of a mass M by at most g raises
 ///   sqrt(2 E / M) by at most g t, and what is carried along by at most all changes of velocity together;
@@ -67,6 +66,10 @@ public:
 
     double mass() const { return mass_; } ///< kg, of vertices that move
 
+    /// J, that damping is known to have taken out so far: most() is less by it, but where something drives
+    /// bodies.
+    void set_damped(double energy) { damped_ = energy; }
+
     /// Speeds of colliders count so often: a mass between two that close in is thrown faster.
     static constexpr double kHits = 4;
     /// Changes of velocity count so often: the free end of what is pulled moves twice as fast.
@@ -80,6 +83,7 @@ private:
     std::vector<MoverPath> paths_;
     double mass_ = 0, lightest_ = 0, start_ = 0, gravity_start_ = 0, depth_ = 0;
     std::shared_ptr<const DrawnBodies> drawn_;
+    double damped_ = 0;
     double violation_ = 0;     ///< m: largest of what rigid elements must put right at the start
     double depenetration_ = 0; ///< m/s
     double wind_speed_ = 0;    ///< m/s

@@ -23,6 +23,10 @@ namespace {
 
 using reference::View;
 
+/// m/s^2: where there is no gravity, what bodies would weigh tells how stiff they are, and how long a fall
+/// through their size takes.
+constexpr double kWeight = 9.81;
+
 /// Springs nearer to their limit than this share of it may have been pulled back by it.
 constexpr double kNearLimit = 0.9;
 
@@ -135,6 +139,8 @@ void measure_implicit_residual(const View& view, StepReport& out)
     out.imbalance = sizes > 0 ? lefts / sizes : 0;
 }
 
+namespace {
+
 bool any_rigid(const PhysicalModel& model)
 {
     const auto rigid = [](const auto& element) { return !(element.compliance > 0); };
@@ -143,38 +149,68 @@ bool any_rigid(const PhysicalModel& model)
            std::any_of(model.volumes.begin(), model.volumes.end(), rigid);
 }
 
+/// m/s^2, of each body: the least that its vertices are loaded with. A body without weight that nothing
+/// drives is held to what it would weigh; one that wind or forces drive has to answer to these however weak
+/// they are, down to what the last digits of places make of a substep (as EnergyBudget::rounding has them).
+std::vector<double> least_loads(const View& view, double substep)
+{
+    const Scene& scene = view.world.scene();
+    const double gravity = glm::length(view.model.gravity);
+    const double digit = view.plan.precision == Precision::float32 ? 6e-8 : 1.1e-16;
+    std::vector<double> out;
+    for (const Body& body : scene.bodies)
+    {
+        const bool blown =
+            view.plan.wind != kNoBuffer && body.material.drag + body.material.friction_drag > 0;
+        const bool driven = (blown || scene.external_forces) && method_of(scene) != MethodKind::xpbd;
+        const double rounded = 32 * digit * view.model.diameter / (substep * substep);
+        out.push_back(gravity > 0 ? gravity : driven ? rounded : kWeight);
+    }
+    return out;
+}
+
+/// Puts loads and touches of all vertices into `last`.
+void put_loads(const View& view, Substep& last)
+{
+    const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
+    const std::vector<double> least = least_loads(view, h);
+    for (std::size_t b = 0; b < least.size(); ++b)
+        for (std::size_t i = view.model.body_start[b]; i < view.model.body_start[b + 1]; ++i)
+        {
+            const double moved = glm::length(last.moved[i]);
+            last.left.load[i] = last.model.mass[i] * std::max(least[b], glm::length(last.inertia[i]));
+            // One that a collider pushed may have left it in the same substep.
+            last.left.touches[i] = view.model.flows[i] || touches_collider(view, i, moved + gravity * h * h);
+        }
+    mark_limited(view, last.left.touches);
+}
+
+} // namespace
+
 LoadResidual measure_load_residual(const World& world)
 {
     const View view(world);
-    const double gravity = glm::length(view.model.gravity);
     const MethodKind kind = method_of(world.scene());
     const bool sweeps = kind == MethodKind::xpbd;
-    if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps) || !(gravity > 0) ||
+    if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps) ||
         !view.model.surfaces.empty() || has_effect(view, "attachment") || // both join far vertices
         any_rigid(view.model) || !view.model.added.empty())               // forces that are on no record
         return {};
     std::optional<Substep> last = last_substep(view);
     if (!last)
         return {};
+    put_loads(view, *last);
     Leftover& left = last->left;
-    const double substep = left.time;
     if (sweeps)
     {
-        left.time = std::sqrt(view.model.diameter / gravity); // of a fall through the scene's size
+        const double gravity = glm::length(view.model.gravity);
+        // Of a fall through the scene's size.
+        left.time = std::sqrt(view.model.diameter / (gravity > 0 ? gravity : kWeight));
         left.against_response = true;
-    }
-    for (std::size_t i = 0; i < view.x.size(); ++i)
-    {
-        left.load[i] = last->model.mass[i] * std::max(gravity, glm::length(last->inertia[i]));
-        // One that a collider pushed may have left it in the same substep.
-        left.touches[i] =
-            view.model.flows[i] ||
-            touches_collider(view, i, glm::length(last->moved[i]) + gravity * substep * substep);
     }
     if (!sweeps)
         for (std::size_t i = 0; i < view.x.size(); ++i)
             left.carried.push_back(last->model.pinned[i] ? glm::length(last->moved[i]) : 0.0);
-    mark_limited(view, left.touches);
     return load_residual(last->model, view.x, left);
 }
 

@@ -35,7 +35,7 @@ using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
 
 constexpr int kMostFactored = 30000, kMostFactoredOfSolids = 6000; // unknowns; solids fill more
 constexpr int kMostIterations = 1000;
-constexpr double kHeld = 1e9;    // times the diagonal
+constexpr double kHeld = 1e9;     // times the diagonal
 constexpr double kTouching = 0.5; // right runs leave more where vertices are held that a contact may let go
 
 Eigen::MatrixXd solve(const Matrix& a, const Eigen::MatrixXd& b, bool solids)
@@ -52,11 +52,20 @@ Eigen::MatrixXd solve(const Matrix& a, const Eigen::MatrixXd& b, bool solids)
     return gradients.solve(b);
 }
 
-/// m, of each vertex: the Newton step, and what the loads move along gravity.
+/// m, of each vertex: the Newton step, and what the loads move along gravity, or along each axis without.
 struct Steps
 {
-    std::vector<glm::dvec3> left, loads;
+    std::vector<glm::dvec3> left;
+    std::vector<std::vector<glm::dvec3>> loads;
 };
+
+/// Which way loads may pull.
+std::vector<glm::dvec3> pulls_of(const PhysicalModel& model)
+{
+    if (model.gravity == glm::dvec3(0))
+        return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    return {glm::normalize(model.gravity)};
+}
 
 Steps newton_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left)
 {
@@ -65,32 +74,51 @@ Steps newton_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, co
     for (const glm::dvec3& p : x)
         at.push_back({p.x, p.y, p.z});
     Matrix stiffness = energy.hessian(at, Curvature::projected, 1 / (left.time * left.time));
-    Eigen::MatrixXd force = Eigen::MatrixXd::Zero(energy.unknowns(), left.against_response ? 2 : 1);
-    const glm::dvec3 down = glm::normalize(model.gravity);
+    const std::vector<glm::dvec3> pulls = left.against_response ? pulls_of(model) : std::vector<glm::dvec3>{};
+    Eigen::MatrixXd force =
+        Eigen::MatrixXd::Zero(energy.unknowns(), 1 + static_cast<Eigen::Index>(pulls.size()));
     for (std::size_t i = 0; i < x.size(); ++i)
         if (const int u = energy.unknown(i); u >= 0)
         {
             for (int c = 0; c < 3 && !left.touches[i]; ++c)
             {
                 force(u + c, 0) = -left.force[i][c];
-                if (left.against_response)
-                    force(u + c, 1) = left.load[i] * down[c];
+                for (std::size_t p = 0; p < pulls.size(); ++p)
+                    force(u + c, 1 + static_cast<Eigen::Index>(p)) = left.load[i] * pulls[p][c];
             }
             for (int c = 0; c < 3 && left.touches[i]; ++c)
                 stiffness.coeffRef(u + c, u + c) *= kHeld;
         }
     const bool solids = !model.solids.empty() || !model.volumes.empty();
     const Eigen::MatrixXd step = solve(stiffness, force, solids);
-    Steps out{std::vector<glm::dvec3>(x.size(), glm::dvec3(0)),
-              std::vector<glm::dvec3>(x.size(), glm::dvec3(0))};
+    const std::vector<glm::dvec3> none(x.size(), glm::dvec3(0));
+    Steps out{none, {pulls.size(), none}};
     for (std::size_t i = 0; i < x.size(); ++i)
         if (const int u = energy.unknown(i); u >= 0)
         {
             out.left[i] = {step(u, 0), step(u + 1, 0), step(u + 2, 0)};
-            if (left.against_response)
-                out.loads[i] = {step(u, 1), step(u + 1, 1), step(u + 2, 1)};
+            for (std::size_t p = 0; p < pulls.size(); ++p)
+            {
+                const auto column = 1 + static_cast<Eigen::Index>(p);
+                out.loads[p][i] = {step(u, column), step(u + 1, column), step(u + 2, column)};
+            }
         }
     return out;
+}
+
+/// kg m: what the loads move of the vertices from `first` to before `last`, the way on which that is most.
+double largest_response(const PhysicalModel& model, const Steps& step, std::uint32_t first,
+                        std::uint32_t last)
+{
+    double most = 0;
+    for (const std::vector<glm::dvec3>& moved : step.loads)
+    {
+        double sum = 0;
+        for (std::uint32_t i = first; i < last; ++i)
+            sum += model.pinned[i] ? 0 : model.mass[i] * glm::length(moved[i]);
+        most = std::max(most, sum);
+    }
+    return most;
 }
 
 /// Of the vertices from `first` to before `last`.
@@ -99,7 +127,9 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
 {
     const auto begin = left.touches.begin();
     const bool touches = std::find(begin + first, begin + last, true) != begin + last;
-    const glm::dvec3 down = glm::normalize(model.gravity);
+    if (touches && model.gravity == glm::dvec3(0))
+        return {}; // no way on which contacts have no part
+    const glm::dvec3 down = touches ? glm::normalize(model.gravity) : glm::dvec3(0);
     double moved = 0, loads = 0, mass = 0, carried = 0;
     for (std::uint32_t i = first; i < last && !left.carried.empty(); ++i)
         carried = std::max(carried, left.carried[i]);
@@ -112,9 +142,10 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
             moved += model.mass[i] * (touches ? kTouching * std::max(0.0, glm::dot(step.left[i], down))
                                               : glm::length(step.left[i]));
             mass += model.mass[i];
-            loads += left.against_response ? model.mass[i] * glm::length(step.loads[i])
-                                           : left.load[i] * left.time * left.time + model.mass[i] * carried;
+            loads += left.load[i] * left.time * left.time + model.mass[i] * carried;
         }
+    if (left.against_response)
+        loads = largest_response(model, step, first, last);
     if (!(loads > 0))
         return {};
     const double share = moved / loads, way = moved / (mass * body.size());

@@ -13,8 +13,8 @@ namespace taut {
 struct Leftover
 {
     std::vector<glm::dvec3> force; ///< N: M (x - x~) / h^2 - f(x)
-    std::vector<double> load;      ///< N: mass times the larger of gravity and |(x - x~) / h^2|
-    std::vector<bool> touches;     ///< something whose force is on no record: a collider, a limit
+    std::vector<double> load;  ///< N: mass times the larger of gravity (or its stand-in) and |(x - x~) / h^2|
+    std::vector<bool> touches; ///< something whose force is on no record: a collider, a limit
     std::vector<double> carried;   ///< m: how far a held one was moved within `time`; may be empty
     double time = 0;               ///< s, > 0: the substep, or what a body has to answer in
     bool against_response = false; ///< loads count by what they move within `time`, not free of everything
@@ -30,11 +30,12 @@ struct LoadResidual
 /// What one exact Newton step d would still move of a body's mass, over what its loads move in the time t:
 /// sum m |d| / sum (t^2 l + m c) over its free vertices, c the longest way of one of its held vertices, with
 /// (M / t^2 + K) d = -r, K made positive semidefinite element by element; with `against_response` over sum m
-/// |e|, (M / t^2 + K) e = l along gravity. 0 solved, 1 as if nothing pulled. That of the body with the
-/// largest share of those whose way is above kSeenWay, or of all where none is. Vertices that touch stay
-/// where they are; of bodies that have any, half of what goes along gravity is counted alone: contacts push
-/// after the solve, and what rests on them has yet to follow. Infinite where the step is not finite. Models
-/// of more than 10,000 free vertices (of solids: 2,000) are solved by conjugate gradients that may end early,
+/// |e|, (M / t^2 + K) e = l along gravity, or without any along the axis for which that is largest. 0
+/// solved, 1 as if nothing pulled. That of the body with the largest share of those whose way is above
+/// kSeenWay, or of all where none is. Vertices that touch stay where they are; of bodies that have any, half
+/// of what goes along gravity is counted alone: contacts push after the solve, and what rests on them has
+/// yet to follow; without gravity nothing is said of them. Infinite where the step is not finite. Models of
+/// more than 10,000 free vertices (of solids: 2,000) are solved by conjugate gradients that may end early,
 /// which understates (their iterates grow).
 LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);
 

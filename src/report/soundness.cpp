@@ -55,6 +55,7 @@ struct Strained
     double energy = 0;       ///< J, of elements with a stiffness whose shape at rest the model knows
     double kept_strain = 0;  ///< largest strain of those that the method keeps by projection
     double limit_strain = 0; ///< largest strain above a strain_limit
+    double kept_volume = 0;  ///< largest share by which a body is off the volumes that the method keeps so
 };
 
 /// pbd, or a spring that is rigid, is asked to keep its length; pbd of a stiffness k below 1 to 1/k as much.
@@ -86,11 +87,38 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
     }
 }
 
+/// The volume of a tetrahedron, or within a surface, that is rigid, or kept by pbd: as springs. Of all
+/// tetrahedra of a body together, by what each is off: one alone may be so for a moment.
+void add_volumes(const PhysicalModel& model, const RunState& state, Strained& out)
+{
+    const bool pbd = method_of(state.scene) == MethodKind::pbd;
+    const double share = pbd ? state.scene.method.volume : 1;
+    const auto kept = [&](double compliance) { return pbd || !(compliance > 0); };
+    std::vector<double> off(state.scene.bodies.size()), whole(off);
+    for (const VolumeElement& e : model.volumes)
+    {
+        const auto next = std::upper_bound(model.body_start.begin(), model.body_start.end(), e.vertex[0]);
+        const auto body = static_cast<std::size_t>(next - model.body_start.begin()) - 1;
+        if (!kept(e.compliance) || model.flows[e.vertex[0]])
+            continue;
+        off[body] += std::abs(volume_of(e.vertex, state.x) - e.rest_volume);
+        whole[body] += e.rest_volume;
+    }
+    for (std::size_t b = 0; b < off.size(); ++b)
+        if (whole[b] > 0)
+            out.kept_volume = std::max(out.kept_volume, share * off[b] / whole[b]);
+    for (const SurfaceElement& e : model.surfaces)
+        if (kept(e.compliance))
+            out.kept_volume = std::max(
+                out.kept_volume, share * std::abs(enclosed_volume(e.triangles, state.x) / e.rest_volume - 1));
+}
+
 Strained strained(const PhysicalModel& model, const RunState& state)
 {
     const double accepted = state.scene.accept.stretch;
     Strained out;
     add_springs(model, state, accepted, out);
+    add_volumes(model, state, out);
     if (method_of(state.scene) != MethodKind::pbd)
         for (const SolidElement& e : model.solids)
         {
@@ -111,14 +139,15 @@ std::string percent(double share) { return shown(100 * share, 3) + " %"; }
 Soundness judge_strain(const Strained& strain, double accepted)
 {
     const auto beyond = [&](double value, const char* what) {
-        return found(Status::unconverged, std::string(what) + " stretched by " + percent(value) +
-                                              ", accept.stretch is " + percent(accepted) +
-                                              "; take more substeps or iterations");
+        return found(Status::unconverged, std::string(what) + " " + percent(value) + ", accept.stretch is " +
+                                              percent(accepted) + "; take more substeps or iterations");
     };
     if (strain.kept_strain > accepted)
-        return beyond(strain.kept_strain, "a spring that the method keeps at its length is");
+        return beyond(strain.kept_strain, "a spring that the method keeps at its length is stretched by");
     if (strain.limit_strain > accepted)
-        return beyond(strain.limit_strain, "beyond its strain_limit, a spring is");
+        return beyond(strain.limit_strain, "beyond its strain_limit, a spring is stretched by");
+    if (strain.kept_volume > accepted)
+        return beyond(strain.kept_volume, "a volume that the method keeps is off by");
     return {};
 }
 
@@ -171,6 +200,25 @@ Soundness judge_energy(double energy, double most, double bound, Status status, 
                              " J can have been put in");
 }
 
+/// Under implicit_constraints the count is of springs whose ends passed each other further than the solve can
+/// follow.
+Soundness judge_turned(const Scene& scene, double turned, double vertex_substeps)
+{
+    double vertices = 0, springs = 0;
+    for (const Body& body : scene.bodies)
+    {
+        vertices += static_cast<double>(body.mesh.positions.size());
+        springs += turned > 0 ? static_cast<double>(stretch_elements(body).size()) : 0;
+    }
+    if (!(turned * vertices > kTurnedShare * springs * vertex_substeps))
+        return {};
+    const double share = springs > 0 ? turned * vertices / (springs * vertex_substeps) : 1;
+    return found(Status::unconverged,
+                 "in a substep " + percent(share) +
+                     " of all springs turned too far for the solve (speed_clamp), up to " +
+                     percent(kTurnedShare) + " are accepted; take more substeps");
+}
+
 } // namespace
 
 int rank(Status status)
@@ -194,7 +242,9 @@ Soundness judge_clamps(const Scene& scene, const Events& events, double vertex_s
 {
     const double clamped = static_cast<double>(events.speed_clamped);
     const MethodKind kind = method_of(scene);
-    if (kind == MethodKind::implicit_constraints || kind == MethodKind::acad)
+    if (kind == MethodKind::implicit_constraints)
+        return judge_turned(scene, clamped, vertex_substeps);
+    if (kind == MethodKind::acad)
         return {}; // there the count is of turned springs, too
     if (scene.max_speed <= 0 && clamped > 0) // the guard against overflow
         return found(Status::diverged, "speeds passed what float can square " +
@@ -266,25 +316,43 @@ std::uint64_t frames_between_looks(const Plan& plan, std::uint64_t frames)
     return std::min(wanted, paid);
 }
 
+/// Damping of c /s takes 2 c E of a kinetic energy E in a second. Between two looks E swings: by half of the
+/// smaller of both on average, where it swings evenly; half of that is counted.
+void SoundnessWatch::add_damped(double time, double kinetic, double damping)
+{
+    damped_ += 2 * damping * 0.25 * std::min(kinetic_, kinetic) * (time - time_);
+    time_ = time;
+    kinetic_ = kinetic;
+}
+
+bool SoundnessWatch::strains_due(std::uint64_t frame) const
+{
+    return frames_ >= kMotionLooks && frame * kStrainLooks / frames_ != (frame - 1) * kStrainLooks / frames_;
+}
+
+bool SoundnessWatch::due(std::uint64_t frame) const
+{
+    // A start is where most is wrong at once.
+    return frame != 0 && (frame == 1 || every_ == 0 || frame % every_ == 0 || strains_due(frame));
+}
+
 void SoundnessWatch::after(std::uint64_t frame, const World& world)
 {
     if (every_ == 0)
         every_ = frames_between_looks(world.plan(), frames_);
-    if (frame == 0)
-        return;
-    const bool strains =
-        frames_ >= kMotionLooks && frame * kStrainLooks / frames_ != (frame - 1) * kStrainLooks / frames_;
-    if (frame != 1 && frame % every_ != 0 && !strains) // a start is where most is wrong at once
+    if (!due(frame))
         return;
     if (!budget_ || torn_ != world.torn())
         budget_.emplace(world.scene());
     torn_ = world.torn();
+    budget_->set_damped(damped_);
     // Strain alone may heal: what a contact leaves in stiff elements is gone a few steps later. What is too
     // fast is not. A share of clamped speeds is for the whole run to have.
     const Soundness motion = judge(*budget_, world, Judged::motion);
+    add_damped(world.time(), motion.energy, world.scene().damping);
     if (rank(motion.status) >= rank(Status::diverged))
         found_ = worse(found_, motion);
-    else if (strains && !judge(*budget_, world).sound())
+    else if (strains_due(frame) && !judge(*budget_, world).sound())
         ++unconverged_;
 }
 

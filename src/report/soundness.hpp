@@ -45,6 +45,8 @@ inline constexpr double kDivergedKinetic = 2, kUnconvergedEnergy = 1.5, kDiverge
 inline constexpr double kDivergedExtent = 1e12;
 /// Share of vertices times substeps whose speed was cut at the scene's own max_speed.
 inline constexpr double kClampedShare = 0.01;
+/// Share of springs times substeps that implicit_constraints counts as turned.
+inline constexpr double kTurnedShare = 0.05;
 
 /// Speeds cut at the scene's max_speed, or by the guard against overflow where it has none, of so many
 /// vertices times substeps.
@@ -78,7 +80,11 @@ class SoundnessWatch
 public:
     explicit SoundnessWatch(std::uint64_t frames) : frames_(frames) {}
 
-    /// After frame `frame` of a run of `world`. Waits where a look is due.
+    /// Whether after(frame, ...) looks at anything.
+    bool due(std::uint64_t frame) const;
+
+    /// After frame `frame` of a run of `world`, or of one in whose state `world` is. Waits where a look is
+    /// due.
     void after(std::uint64_t frame, const World& world);
 
     /// The worst motion that was `diverged` or `non_finite`; what is strained on the way may heal.
@@ -87,9 +93,14 @@ public:
     std::uint64_t unconverged() const { return unconverged_; }
 
 private:
+    bool strains_due(std::uint64_t frame) const;
+    void add_damped(double time, double kinetic, double damping);
+
     std::uint64_t frames_, every_ = 0, unconverged_ = 0, torn_ = 0; ///< every_: 0 before the first frame
     std::optional<EnergyBudget> budget_; ///< made at the first look
     Soundness found_;
+    double time_ = 0, kinetic_ = 0; ///< s, J: at the last look
+    double damped_ = 0;             ///< J: what damping has taken out, at least
 };
 
 } // namespace taut

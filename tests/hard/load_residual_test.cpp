@@ -189,4 +189,77 @@ TEST_CASE("what nobody sees to sag too far is a warning [hard]")
     CHECK(report.warnings.count("soft") == 1);
 }
 
+namespace {
+
+/// Cloth that flies level from one held edge, in a wind from below.
+Scene blown(const std::string& method, std::uint32_t substeps, double stiffness)
+{
+    Scene scene = falling(method, substeps, 1, stiffness);
+    scene.gravity = {0, 0, 0};
+    scene.damping = 0;
+    scene.bodies[0].shape.cells = {20, 20};
+    scene.bodies[0].mesh = {};
+    scene.bodies[0].material.drag = 1.2;
+    Pin pin;
+    pin.edges = {"left"};
+    scene.bodies[0].pins = {pin};
+    scene.wind = {1.2, {0, 10, 0}, {}};
+    return resolve(scene);
+}
+
+/// A bar whose right end is led aside, without weight.
+Scene bent(const std::string& method, std::uint32_t substeps, double modulus)
+{
+    Scene scene = cantilever(method, substeps, modulus);
+    scene.gravity = {0, 0, 0};
+    Pin led;
+    led.faces = {"right"};
+    led.motion = {{0, {}}, {0.5, {0, 0.15, 0}}};
+    scene.bodies[0].pins.push_back(led);
+    return resolve(scene);
+}
+
+} // namespace
+
+TEST_CASE("without gravity too a cloth that the wind does not move is not called completed [hard]")
+{
+    const End frozen = end_of(blown("implicit_euler", 1, 1e5));
+    INFO(frozen.report.kinetic_energy << " J, load residual " << frozen.report.load_residual);
+    CHECK(frozen.report.kinetic_energy < 1e-6);
+    CHECK(frozen.report.load_residual > 0.9);
+    CHECK(frozen.report.status == Status::unconverged);
+}
+
+TEST_CASE(
+    "without gravity too a bar that xpbd bends out of shape is named, and one that is right is not [hard]")
+{
+    const End right = end_of(bent("implicit_euler", 10, 1e6));
+    INFO(right.report.potential_energy << " J, " << right.report.load_residual);
+    CHECK(right.report.status == Status::completed);
+    const End loose = end_of(bent("xpbd", 1, 1e6));
+    INFO(loose.report.potential_energy << " J, " << loose.report.load_residual << ", "
+                                       << loose.report.load_way);
+    CHECK(loose.report.potential_energy > 2 * right.report.potential_energy);
+    CHECK((loose.report.status == Status::unconverged || loose.report.warnings.count("soft") == 1));
+}
+
+TEST_CASE("without loads nothing is missed: bodies at rest and in flight are completed [hard]")
+{
+    for (const char* method : {"xpbd", "vbd", "implicit_euler"})
+        for (const double modulus : {1e4, 1e9})
+            for (const double speed : {0.0, 3.0})
+            {
+                Scene scene = cantilever(method, 10, modulus);
+                scene.gravity = {0, 0, 0};
+                scene.damping = 0;
+                scene.bodies[0].pins.clear();
+                scene.bodies[0].velocity = {speed, 0, 0};
+                const End end = end_of(resolve(scene));
+                INFO(method << ", " << modulus << " Pa, " << speed << " m/s: " << end.report.load_residual
+                            << " " << end.report.reason);
+                CHECK(end.report.status == Status::completed);
+                CHECK(end.report.warnings.count("soft") == 0);
+            }
+}
+
 } // namespace taut::hard

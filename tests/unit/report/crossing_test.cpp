@@ -138,6 +138,61 @@ TEST_CASE("a point goes through a moving triangle when it meets it within its ed
     CHECK_FALSE(goes_through(p, link({-1, 1, 0}, {1, 1, 0}), link({-1, -1, 0}, {1, -1, 0})));
 }
 
+TEST_CASE("a link goes through a bar when it meets the axis, whatever the bar is made of")
+{
+    const auto through = [](const SolidShape& shape, const TriangleCorners& before,
+                            const TriangleCorners& after) {
+        return link_goes_through(shape, 0.1, before, after);
+    };
+    const auto across = [](double y, double z) { return link({0.05, z, y}, {-0.05, z, y}); }; // of an axis y
+    for (const SolidShape& bar : {solid_shape(capsule(0.02, 1)), solid_shape(box({0.02, 1, 0.02}))})
+    {
+        CHECK(through(bar, across(0.05, 0.3), across(-0.05, 0.3)));
+        CHECK(through(bar, across(0.05, 0.3), link({0.05, 0.3, 0.02}, {-0.05, 0.3, -0.06}))); // tilted
+        CHECK_FALSE(through(bar, across(0.05, 0.3), across(0.02, 0.3)));                      // not so far
+        CHECK_FALSE(through(bar, across(0.05, 1.3), across(-0.05, 1.3)));                     // past its end
+        CHECK_FALSE(
+            through(bar, link({0.1, 0, 0.05}, {0.03, 0, 0.05}), link({0.1, 0, -0.05}, {0.03, 0, -0.05})));
+        CHECK_FALSE(
+            through(bar, link({0, 0.3, 0.05}, {0, 0.2, 0.05}), link({0, 0.3, -0.05}, {0, 0.2, -0.05})));
+    }
+}
+
+TEST_CASE("a link goes through a ball or a cube near the centre, through a plate away from the rim")
+{
+    const auto at = [](double y, double aside) { return link({-1, y, aside}, {1, y, aside}); };
+    for (const SolidShape& shape : {solid_shape(ball(0.1)), solid_shape(box({0.1, 0.1, 0.1}))})
+    {
+        CHECK(link_goes_through(shape, 2, at(0.5, 0.04), at(-0.5, 0.04)));
+        CHECK_FALSE(link_goes_through(shape, 2, at(0.5, 0.06), at(-0.5, 0.06)));
+        CHECK_FALSE(link_goes_through(shape, 2, at(0.5, 0), at(0.01, 0)));
+    }
+    const SolidShape plate = solid_shape(box({1, 0.01, 1}));
+    const auto lies = [](double y, double x) { return link({x, y, 0.4}, {x + 0.1, y, 0.4}); };
+    CHECK(link_goes_through(plate, 0.1, lies(0.1, 0.3), lies(-0.1, 0.3)));
+    CHECK_FALSE(link_goes_through(plate, 0.1, lies(0.1, 0.9), lies(-0.1, 0.9)));
+    CHECK_FALSE(link_goes_through(plate, 0.1, lies(0.1, 0.3), lies(0.02, 0.3)));
+    const TriangleCorners stands = link({1.2, 0.1, 0.4}, {1.2, -0.1, 0.4});
+    TriangleCorners cut = stands;
+    for (glm::dvec3& p : cut)
+        p.x -= 1.4; // as a blade would
+    CHECK(link_goes_through(plate, 0.1, stands, cut));
+}
+
+TEST_CASE("a watch sees a rope on the other side of a bar that it fell on")
+{
+    Watched run(flat(1, 2), capsule(0.02, 1));
+    run.scene.bodies[0].mesh.triangles.clear();
+    run.scene.bodies[0].mesh.links = {{0, 1}, {1, 2}};
+    run.watch = CrossingWatch(run.scene);
+    const auto rope = [](double z) {
+        return TriangleCorners{glm::dvec3(-0.15, 0, z), glm::dvec3(-0.05, 0, z), glm::dvec3(0.05, 0, z)};
+    };
+    run.look(0, rope(0.1));
+    CHECK(run.look(1.0 / 60, rope(0.03)).seen.empty());
+    CHECK(run.look(2.0 / 60, rope(-0.03)).seen.size() == 1);
+}
+
 TEST_CASE("a hole is as wide as the smallest ball round the corners")
 {
     CHECK(hole_of(flat(0, 2)) == Approx(2));

@@ -230,6 +230,66 @@ TEST_CASE("pbd answers for its springs, and tetrahedra for their inside")
     CHECK_THAT(inside_out.reason, Contains("40 tetrahedra are inverted"));
 }
 
+TEST_CASE("a volume that is rigid, or that pbd keeps, is as large as at rest")
+{
+    const auto judged = [](const char* volume, const char* method, double stiffness, double height) {
+        Scene scene;
+        Body box;
+        box.shape.kind = ShapeKind::box;
+        box.shape.box_cells = {2, 2, 2};
+        box.material = solid_material();
+        box.material.model = "springs";
+        box.material.volume = volume;
+        box.material.volume_stiffness = stiffness;
+        box.material.youngs_modulus = 1e-3; // next to no energy
+        scene.bodies = {box};
+        scene.method.type = method;
+        scene.method.stretch = 0; // only the volume is judged
+        scene = resolve(scene);
+        std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+        for (glm::dvec3& p : x)
+            p.y *= height;
+        const std::vector<glm::dvec3> still(x.size(), glm::dvec3(0));
+        return judge_state(EnergyBudget(scene), state_of(scene, x, still, 1));
+    };
+    const double rigid = std::numeric_limits<double>::infinity();
+    for (const char* volume : {"tetrahedra", "surface"})
+    {
+        INFO(volume);
+        const Soundness squeezed = judged(volume, "xpbd", rigid, 0.8);
+        CHECK(squeezed.status == Status::unconverged);
+        CHECK_THAT(squeezed.reason, Contains("volume") && Contains("off by 20 %"));
+        CHECK(judged(volume, "xpbd", rigid, 1.2).status == Status::unconverged);
+        CHECK(judged(volume, "xpbd", rigid, 0.95).sound());
+        CHECK(judged(volume, "xpbd", 1, 0.8).sound()); // soft: it may give way
+        CHECK(judged(volume, "pbd", 1, 0.8).status == Status::unconverged);
+        CHECK(judged(volume, "pbd", 1, 0.95).sound());
+    }
+}
+
+TEST_CASE("a start within a collider throws a body out at twice the speed of the way out, no faster")
+{
+    Scene scene;
+    Body box;
+    box.shape.kind = ShapeKind::box;
+    box.material = solid_material();
+    scene.bodies = {box};
+    scene = resolve(scene);
+    scene.depenetration_speed = 0.5;
+    scene.colliders.resize(1);
+    scene.colliders[0].kind = ColliderKind::plane;
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+    for (const glm::dvec3& p : x)
+        scene.colliders[0].point.y =
+            std::min(scene.colliders[0].point.y, p.y + 1e-9); // flush, but for a digit
+    const auto judged = [&](double speed) {
+        const std::vector<glm::dvec3> v(x.size(), {0, speed, 0});
+        return judge_motion(EnergyBudget(scene), state_of(scene, x, v, 1)).status;
+    };
+    CHECK(judged(1) == Status::completed);
+    CHECK(judged(2) == Status::diverged);
+}
+
 TEST_CASE("a clamp that the scene did not ask for is a blow-up")
 {
     Scene scene = sheet();
@@ -242,6 +302,24 @@ TEST_CASE("a clamp that the scene did not ask for is a blow-up")
     CHECK(judge_motion(EnergyBudget(scene), state).sound());
     state.events.speed_clamped = 500;
     CHECK(judge_motion(EnergyBudget(scene), state).status == Status::unconverged);
+}
+
+TEST_CASE("constraint enforcement whose springs turn too far again and again is not solved")
+{
+    Scene scene = sheet();
+    scene.method.type = "implicit_constraints";
+    const auto springs = static_cast<double>(stretch_elements(scene.bodies[0]).size());
+    const auto vertices = static_cast<double>(scene.bodies[0].mesh.positions.size());
+    const auto judged = [&](double share) { // of all springs, in each of 100 substeps
+        Events events;
+        events.speed_clamped = static_cast<std::uint64_t>(share * springs * 100);
+        return judge_clamps(scene, events, vertices * 100);
+    };
+    CHECK(judged(0).sound());
+    CHECK(judged(0.04).sound());
+    const Soundness turned = judged(0.06);
+    CHECK(turned.status == Status::unconverged);
+    CHECK_THAT(turned.reason, Contains("of all springs turned too far"));
 }
 
 TEST_CASE("explicit springs beyond their stable step are diverged, long before 1e12 m")
