@@ -38,7 +38,7 @@ TEST_CASE("a kernel asks for the rounding and the numbers that a device offers t
 {
     for (const Precision precision : {Precision::float32, Precision::float64})
     {
-        const KernelInfo& kernel = find_kernel("distance", "", precision);
+        const KernelInfo& kernel = find_kernel("xpbd_spring", "", precision);
         const bool wide = precision == Precision::float64;
         CHECK(with_float_controls(kernel.spirv_vulkan, {}, wide) == words(kernel.spirv_vulkan));
         const FloatControls all = {{true, true, true}, {true, true, true}};
