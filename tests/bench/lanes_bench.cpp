@@ -161,10 +161,10 @@ try
     std::printf("| kernel | elements | one at a time | lanes |\n|---|---|---|---|\n");
     using enum ColliderKind;
     measure(cloth("xpbd", plane, sphere),
-            {"distance", "bending", "predict", "finish", "damping", "strain_limit", "plane", "sphere"});
+            {"xpbd_spring", "xpbd_hinge", "predict", "finish", "damping", "strain_limit", "plane", "sphere"});
     measure(cloth("xpbd", capsule, cuboid), {"capsule", "cuboid"});
     measure(cloth("pbd", plane, sphere), {"pbd_stretch", "pbd_bend"});
-    measure(solid("xpbd", "springs"), {"volume"});
+    measure(solid("xpbd", "springs"), {"xpbd_volume"});
     measure(solid("xpbd", "neo_hookean"), {"neo_hookean"});
     measure(solid("pbd", "springs"), {"pbd_volume"});
     return 0;
