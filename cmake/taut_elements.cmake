@@ -48,7 +48,8 @@ function(taut_generate_kernel kernel stem folder out)
         endif()
     endif()
     taut_touch(${outputs})
-    file(GLOB included CONFIGURE_DEPENDS ${taut_kernel_folder}/shared/* ${taut_kernel_folder}/elements/*)
+    file(GLOB included CONFIGURE_DEPENDS ${taut_kernel_folder}/shared/* ${taut_kernel_folder}/elements/*
+         ${taut_kernel_folder}/colliders/*)
     add_custom_command(
         OUTPUT ${outputs}
         COMMAND taut-kernelc ${kernel} ${taut_kernel_folder} ${folder} ${ARGN}
@@ -92,14 +93,17 @@ function(taut_add_elements target)
 endfunction()
 
 # taut_is_for(KERNEL FILE OUT): whether the kernel is compiled for the element in FILE: its line "//! each element
-# of METHOD" names one of the element's line "//! methods".
+# of METHOD" names one of the element's line "//! methods". Kernels with a line "//! each collider" are compiled
+# for the files with a line "//! collider".
 function(taut_is_for kernel file out)
     file(STRINGS ${kernel} method REGEX "^//! each element of ")
     file(STRINGS ${file} methods REGEX "^//! methods .*")
+    file(STRINGS ${kernel} each_collider REGEX "^//! each collider$")
+    file(STRINGS ${file} collider REGEX "^//! collider ")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
     string(REPLACE "//! each element of " "" method "${method}")
     set(${out} OFF PARENT_SCOPE)
-    if(method AND "${methods} " MATCHES " ${method} ")
+    if((method AND "${methods} " MATCHES " ${method} ") OR (each_collider AND collider))
         set(${out} ON PARENT_SCOPE)
     endif()
 endfunction()

@@ -114,7 +114,7 @@ mutated() {
         }
         {
             line = values($0)
-            if (line ~ /^[A-Z_]*KERNEL|^[a-z].*\(/) inside = 1
+            if (line ~ /^[A-Z_]*KERNEL|^INLINE .*\(|^[a-z].*\(/) inside = 1
             sum = kind == "sign" ? " [-+]=? " : " [-+] [A-Za-z0-9_.*#/ ]+;| [-+]= "
             usable = inside && !done && line ~ /;[ \t]*$/ && line !~ /^#|for \(|uint / && match(line, sum)
             if (!usable || before-- > 0) { print; next }
@@ -161,9 +161,9 @@ make_kernel() {
     done
 }
 
-# texts_of NATIVE: the kernel, and its element, that a generated source was made from; below kernels/.
+# texts_of NATIVE: the kernel, and its element or shape, that a generated source was made from; below kernels/.
 texts_of() {
-    sed -n 's/^#include "\(.*\.comp\)"$/\1/p; s/^#define TAUT_ELEMENT "\(.*\)"$/\1/p' "$1" | sort -u
+    sed -n 's/^#include "\(.*\.comp\)"$/\1/p; s/^#define TAUT_[EC][A-Z]* "\(.*\)"$/\1/p' "$1" | sort -u
 }
 
 # make_host FILE EXPRESSION: the object of a source changed by sed; sets `pairs`.
@@ -282,8 +282,9 @@ for kind in nothing sign drop; do
         [[ $stem == $kernels ]] || continue
         for text in $(texts_of "$native"); do
             name=$stem:$kind
-            [[ $text != elements/* ]] || name=$stem.element:$kind # what its element adds to a method's kernel
-            [[ $text != elements/* || $kind != nothing ]] || continue
+            # What its element adds to a method's kernel, or a shape to that of contact.
+            [[ $text == *.comp ]] || name=$stem.element:$kind
+            [[ $text == *.comp || $kind != nothing ]] || continue
             wanted "$name" || continue
             made=2
             for ((n = 0; made == 2; ++n)); do # an index without its sum does not compile: the next one

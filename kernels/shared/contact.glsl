@@ -1,6 +1,17 @@
 // Non-penetration and Coulomb friction of one vertex against a surface of infinite mass, shared by every
 // collider shape.
 //
+// A kernel with the line `//! each collider` is compiled once for every kernels/colliders/<stem>.glsl. The
+// kernel compiler defines COLLIDER_STEM and, from the file's line `//! collider`, COLLIDER_POSES: 0 where one
+// record a time step says it all ("once"), 1 where there is one of the start of each substep in turn and one
+// of the end of the last ("each_substep"). The kernel includes TAUT_COLLIDER, which is that file. Of a shape
+// `cuboid` it uses
+//   cuboid_record                             the record in the buffer of colliders
+//   cuboid_contact(record, next, x, d, kept)  what the vertex at x meets that goes by d; of a shape "once",
+//   plane_contact(record, substep, substeps, x, d, kept)
+//   cuboid_slide(contact, d)                  what is left of the way along the surface, once pushed out, m
+// under the names OF_COLLIDER(record) and so on.
+//
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014, section 6.1, with
 //   the accumulated normal push of the substep as the cone's height, so that the result does not depend
 //   on the iteration count.
@@ -8,6 +19,27 @@
 //   `depenetration` a substep, so that it never becomes exit speed.
 #ifndef TAUT_SHARED_CONTACT_GLSL
 #define TAUT_SHARED_CONTACT_GLSL
+
+#define COLLIDER_JOIN_WORDS(stem, name) stem##_##name
+#define COLLIDER_JOIN(stem, name) COLLIDER_JOIN_WORDS(stem, name)
+#define OF_COLLIDER(name) COLLIDER_JOIN(COLLIDER_STEM, name)
+
+/// What a shape says of one vertex during one substep. Heights are above the surface moved out by the gap
+/// kept; both are 0 where the vertex does not come near the surface that they are of.
+struct Contact
+{
+    rvec3 normal;  // away from the collider, where the vertex meets it
+    real before;   // height at the start of the substep, m
+    real gap;      // height at the end, before the push, m
+    rvec3 motion;  // m, of the surface there; of a shape that turns, of the vertex as seen from it
+    real friction; // Coulomb coefficient, >= 0
+};
+
+/// The part of `v` along a surface.
+INLINE rvec3 along_surface(rvec3 normal, rvec3 v)
+{
+    return v - normal * dot(normal, v);
+}
 
 /// Where the gap may end: 0, or less deep than it began when it began below the surface.
 real allowed_gap(real gap_before, real depenetration)

@@ -83,7 +83,7 @@ std::string included(const std::string& line, const ElementFile& element)
 {
     if (line.rfind("#include", 0) != 0)
         return {};
-    if (line == "#include TAUT_ELEMENT")
+    if (line == "#include " + element_include(element))
         return element.path;
     const auto quote = line.find('"');
     if (quote == std::string::npos)

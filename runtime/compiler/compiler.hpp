@@ -23,22 +23,28 @@ struct KernelVariant
     std::vector<std::pair<std::string, std::string>> defines;
 };
 
-/// An element that kernels of methods are compiled for: kernels/elements/<stem>.glsl (shared/element.glsl).
+/// What a kernel is compiled for, once for each: an element (kernels/elements/<stem>.glsl,
+/// shared/element.glsl) or a shape of colliders (kernels/colliders/<stem>.glsl, shared/contact.glsl).
 struct ElementFile
 {
     std::string path; ///< below the include root, "elements/spring.glsl"; empty: none
     std::string stem;
-    std::uint32_t corners = 0;          ///< 2 to 4
+    std::uint32_t corners = 0;          ///< of an element 2 to 4
     std::vector<std::string> methods;   ///< `//! methods xpbd pbd`: whose kernels it is compiled into
     std::vector<std::string> abilities; ///< `//! with dampers`: variants that it has beyond those of all
+    std::string collider;               ///< of a shape "once" or "each_substep": `//! collider once`
 };
 
-/// Reads the `//!` lines. Throws Error{kernel_compilation} for a file without `//! corners 2` to 4 and
-/// `//! methods`.
+/// Reads the `//!` lines. Throws Error{kernel_compilation} for a file without `//! collider` that has no
+/// `//! corners 2` to 4 or no `//! methods`.
 ElementFile element_file(const std::string& path, std::string_view text);
 
-/// The method of a kernel with the line `//! each element of METHOD`; empty for all others.
-std::string method_of_elements(std::string_view text);
+/// "element of METHOD" or "collider" of a kernel with the line `//! each element of METHOD` or
+/// `//! each collider`; empty for all others.
+std::string each_of(std::string_view text);
+
+/// Whether kernels with that line are compiled for this.
+bool is_for(std::string_view each, const ElementFile& element);
 
 struct KernelSource
 {
@@ -47,7 +53,7 @@ struct KernelSource
     std::filesystem::path include_root; ///< folder that holds shared/; empty: the built-in copies
     KernelVariant variant;
     Precision precision = Precision::float32;
-    ElementFile element = {}; ///< what the line `#include TAUT_ELEMENT` means
+    ElementFile element = {}; ///< what `#include TAUT_ELEMENT` or TAUT_COLLIDER means
 };
 
 /// Member of a record that a buffer holds, as the shader compiler laid it out.

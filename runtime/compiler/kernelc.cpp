@@ -2,9 +2,9 @@
 //   taut-kernelc KERNEL.comp INCLUDE_ROOT OUT_DIR [ELEMENT]
 //       writes <stem>.hpp, <stem>.cpp, <stem>.native.cpp, and <stem>.lanes.cpp if the kernel has a line
 //       "//! lanes". With ELEMENT ("elements/spring.glsl" below INCLUDE_ROOT, or a path from the root of the
-//       file system) the kernel is compiled for it, and <stem> is <stem>_<element>
+//       file system; or a shape of colliders) the kernel is compiled for it, and <stem> is <stem>_<element>
 //   taut-kernelc --includes INCLUDE_ROOT OUT_FILE
-//       embeds kernels/shared/* and kernels/elements/* as text
+//       embeds kernels/shared/*, kernels/elements/* and kernels/colliders/* as text
 
 #include "taut/runtime/compiler/bindings_text.hpp"
 #include "taut/runtime/compiler/variants.hpp"
@@ -214,7 +214,7 @@ Macros macros_of(const taut::KernelVariant& variant, const taut::ElementFile& el
         return out;
     for (const auto& define : taut::element_defines(element))
         out.push_back(define);
-    out.emplace_back("TAUT_ELEMENT", '"' + element.path + '"');
+    out.emplace_back(taut::element_include(element), '"' + element.path + '"');
     return out;
 }
 
@@ -326,7 +326,7 @@ void embed_includes(const fs::path& root, const fs::path& out_file)
     out << "// Generated. Do not edit.\n#include \"taut/runtime/compiler/compiler.hpp\"\n\n"
            "namespace taut {\n\n"
         << "std::string_view builtin_include(std::string_view path)\n{\n";
-    for (const std::string folder : {"shared", "elements"})
+    for (const std::string folder : {"shared", "elements", "colliders"})
         for (const std::string& name : files_of(root, folder))
             out << "    if (path == \"" << folder << "/" << name << "\")\n        return\n"
                 << literal(read_text(root / folder / name)) << ";\n";

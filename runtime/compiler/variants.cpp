@@ -61,13 +61,23 @@ std::string read(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Of a kernel called `name` whose text has this stem: its element, or nothing if the text is another's.
-ElementFile element_of(const std::filesystem::path& root, const std::string& stem, std::string_view name)
+/// Of a kernel called `name` whose text is in `file`: its element, or nothing if the text is another's.
+ElementFile element_of(const std::filesystem::path& root, const std::filesystem::path& file,
+                       std::string_view name)
 {
-    if (name.size() <= stem.size() + 1 || name.substr(0, stem.size()) != stem || name[stem.size()] != '_')
+    const std::string start = file.stem().string() + "_";
+    if (name.size() <= start.size() || name.substr(0, start.size()) != start)
         return {};
-    const std::string path = "elements/" + std::string(name.substr(stem.size() + 1)) + ".glsl";
-    return std::filesystem::exists(root / path) ? element_file(path, read(root / path)) : ElementFile();
+    for (const std::string folder : {"elements/", "colliders/"})
+    {
+        const std::string path = folder + std::string(name.substr(start.size())) + ".glsl";
+        if (!std::filesystem::exists(root / path))
+            continue;
+        ElementFile element = element_file(path, read(root / path));
+        if (is_for(each_of(read(file)), element))
+            return element;
+    }
+    return {};
 }
 
 } // namespace
@@ -82,8 +92,8 @@ KernelFile find_kernel_file(const std::filesystem::path& root, std::string_view 
         const std::string stem = it->path().stem().string();
         if (it->path().extension() != ".comp")
             continue;
-        ElementFile element = stem == name ? ElementFile() : element_of(root, stem, name);
-        if (stem != name && (element.path.empty() || method_of_elements(read(it->path())).empty()))
+        ElementFile element = stem == name ? ElementFile() : element_of(root, it->path(), name);
+        if (stem != name && element.path.empty())
             continue;
         if (!found.path.empty())
             throw Error(ErrorCode::kernel_compilation, root.string() + " holds two kernels called " +
@@ -131,6 +141,12 @@ ElementFile element_file(const std::string& path, std::string_view text)
         out.methods = split(line);
     for (const std::string& line : directives(text, "with"))
         out.abilities.push_back(line);
+    for (const std::string& line : directives(text, "collider"))
+        out.collider = line;
+    if (out.collider == "once" || out.collider == "each_substep")
+        return out;
+    if (!out.collider.empty())
+        refuse("shape " + path + ": expected \"//! collider once\" or \"//! collider each_substep\"");
     if (out.corners == 0)
         refuse("element " + path + ": expected a line \"//! corners N\" with N from 2 to 4");
     if (out.methods.empty())
@@ -138,14 +154,30 @@ ElementFile element_file(const std::string& path, std::string_view text)
     return out;
 }
 
-std::string method_of_elements(std::string_view text)
+std::string each_of(std::string_view text)
 {
-    const std::vector<std::string> found = directives(text, "each element of");
+    const std::vector<std::string> found = directives(text, "each");
     return found.empty() ? std::string() : found.front();
+}
+
+bool is_for(std::string_view each, const ElementFile& element)
+{
+    if (!element.collider.empty())
+        return each == "collider";
+    return std::any_of(element.methods.begin(), element.methods.end(),
+                       [&](const std::string& method) { return each == "element of " + method; });
+}
+
+std::string element_include(const ElementFile& element)
+{
+    return element.collider.empty() ? "TAUT_ELEMENT" : "TAUT_COLLIDER";
 }
 
 std::vector<std::pair<std::string, std::string>> element_defines(const ElementFile& element)
 {
+    if (!element.collider.empty())
+        return {{"COLLIDER_STEM", element.stem},
+                {"COLLIDER_POSES", element.collider == "each_substep" ? "1" : "0"}};
     return {{"ELEMENT_STEM", element.stem}, {"ELEMENT_CORNERS", std::to_string(element.corners)}};
 }
 

@@ -163,7 +163,7 @@ public:
     std::shared_ptr<ImplicitEuler> implicit_euler; ///< under that method
     std::shared_ptr<Acad> acad;                                ///< likewise
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
-    std::array<std::uint32_t, kColliderKinds> friction_taken = {kNoBuffer, kNoBuffer, kNoBuffer, kNoBuffer};
+    ColliderBuffers friction_taken = kNoColliders;
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp
     std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
     std::shared_ptr<Plasticity> plasticity; ///< plasticity.hpp

@@ -17,16 +17,15 @@ struct KernelRow
     std::uint32_t corners = 0;
 };
 
+constexpr std::string_view kOfAnyShape = "collide_"; // and the collider's shape
+
 constexpr KernelRow kKernels[] = {
+    {kOfAnyShape, Over::vertices},
     {"coast", Over::vertices},
     {"damping", Over::vertices},
     {"external_force", Over::vertices},
     {"predict", Over::vertices},
     {"finish", Over::vertices},
-    {"plane", Over::vertices},
-    {"sphere", Over::vertices},
-    {"capsule", Over::vertices},
-    {"cuboid", Over::vertices},
     {"pin_motion", Over::pins},
     {"xpbd_spring", Over::constraints, 2},
     {"xpbd_hinge", Over::constraints, 4},
@@ -55,10 +54,7 @@ constexpr std::pair<std::string_view, Each> kBindings[] = {
     {"damping_time", Each::constraint},
     {"step_values", Each::whole},
     {"events", Each::whole},
-    {"plane", Each::whole},
-    {"sphere", Each::whole},
-    {"capsule", Each::whole},
-    {"cuboid", Each::whole},
+    {"collider", Each::whole},
 };
 
 [[noreturn]] void refuse(const Dispatch& pass)
@@ -72,8 +68,10 @@ constexpr std::pair<std::string_view, Each> kBindings[] = {
 
 const KernelRow& row_of(const Dispatch& pass)
 {
-    const auto row = std::find_if(std::begin(kKernels), std::end(kKernels),
-                                  [&](const KernelRow& r) { return r.name == pass.kernel->name; });
+    const auto row = std::find_if(std::begin(kKernels), std::end(kKernels), [&](const KernelRow& r) {
+        return r.name == pass.kernel->name ||
+               (r.name == kOfAnyShape && pass.kernel->name.starts_with(r.name));
+    });
     if (row == std::end(kKernels) || pass.kernel->group_kernel || pass.indirect.buffer != kNoBuffer)
         refuse(pass);
     return *row;

@@ -1,15 +1,12 @@
 // The table of effects: what a step can contain, when a scene calls for it, what it adds.
 
-#include "taut/kernels/capsule.hpp"
-#include "taut/kernels/cuboid.hpp"
 #include "taut/kernels/damping.hpp"
 #include "taut/kernels/external_force.hpp"
 #include "taut/kernels/pin_motion.hpp"
-#include "taut/kernels/plane.hpp"
-#include "taut/kernels/sphere.hpp"
 #include "taut/plan/acad.hpp"
 #include "taut/plan/added_elements.hpp"
 #include "taut/plan/builder.hpp"
+#include "taut/plan/colliders.hpp"
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/implicit_euler.hpp"
@@ -26,13 +23,7 @@
 #include "taut/plan/vbd.hpp"
 #include "taut/plan/wind.hpp"
 
-#define TAUT_HOST
-#include "taut/kernels/shared/layouts.h"
-
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
 
 namespace taut {
 namespace {
@@ -41,24 +32,6 @@ bool has_bodies(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(),
                        [](const Body& b) { return !b.mesh.positions.empty(); });
-}
-
-bool has_collider(const Scene& scene, ColliderKind kind)
-{
-    return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
-                                            [&](const Collider& c) { return c.kind == kind; });
-}
-
-std::uint32_t collider_count(const Scene& scene, ColliderKind kind)
-{
-    return static_cast<std::uint32_t>(std::count_if(scene.colliders.begin(), scene.colliders.end(),
-                                                    [&](const Collider& c) { return c.kind == kind; }));
-}
-
-bool has_friction(const Scene& scene, ColliderKind kind)
-{
-    return std::any_of(scene.colliders.begin(), scene.colliders.end(),
-                       [&](const Collider& c) { return c.kind == kind && c.friction > 0; });
 }
 
 // ---------------------------------------------------------------- forces
@@ -126,110 +99,7 @@ void record_pin_motion(PlanBuilder& b, const Moment& moment)
     b.dispatch("pin_motion", "", uses, {count, moment.substep, b.plan.substeps}, count);
 }
 
-// ---------------------------------------------------------------- colliders
-
-/// Words of ColliderKind: the effect and the kernel of each.
-constexpr std::array<std::string_view, kColliderKinds> kColliderNames = {"plane", "sphere", "capsule",
-                                                                         "cuboid"};
-
-/// A buffer of `copies` records for each collider of the kind.
-template <template <typename> typename Record>
-std::uint32_t add_colliders(PlanBuilder& b, ColliderKind kind, std::uint64_t copies)
-{
-    const std::string_view effect = kColliderNames[static_cast<std::size_t>(kind)];
-    const std::uint64_t bytes =
-        with_real(b.plan.precision, [](auto zero) { return sizeof(Record<decltype(zero)>); });
-    const std::uint32_t id = b.add_buffer(effect, std::string(effect) + "s",
-                                          copies * collider_count(b.scene, kind) * bytes);
-    b.plan.buffers[id].host_written = true;
-    return id;
-}
-
-void prepare_plane(PlanBuilder& b)
-{
-    b.plan.planes = add_colliders<layout::PlaneCollider>(b, ColliderKind::plane, 1);
-}
-
-void prepare_sphere(PlanBuilder& b)
-{
-    b.plan.spheres = add_colliders<layout::SphereCollider>(b, ColliderKind::sphere, 1);
-}
-
-/// Shapes that turn have a pose at the start of each substep, and one at the end.
-void prepare_capsule(PlanBuilder& b)
-{
-    b.plan.capsules =
-        add_colliders<layout::CapsuleCollider>(b, ColliderKind::capsule, b.plan.substeps + 1u);
-}
-
-void prepare_cuboid(PlanBuilder& b)
-{
-    b.plan.cuboids = add_colliders<layout::CuboidCollider>(b, ColliderKind::cuboid, b.plan.substeps + 1u);
-}
-
-/// Turns the contact passes' friction on. With one iteration a substep, what friction took so far is zero
-/// and needs no buffer.
-void prepare_friction(PlanBuilder& b)
-{
-    for (std::size_t shape = 0; shape < kColliderKinds; ++shape)
-    {
-        const auto kind = static_cast<ColliderKind>(shape);
-        b.friction[shape] = has_friction(b.scene, kind);
-        if (b.friction[shape] && b.plan.iterations > 1 && b.method.contact_each_iteration)
-            b.friction_taken[shape] = b.add_buffer(
-                "friction", std::string(kColliderNames[shape]) + " friction",
-                std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
-    }
-}
-
-/// `uses` binds the colliders.
-template <template <typename> typename Bindings>
-void record_contact(PlanBuilder& b, const Moment& moment, ColliderKind kind, Bindings<Use> uses)
-{
-    const auto row = static_cast<std::size_t>(kind);
-    const std::uint32_t colliders = collider_count(b.scene, kind);
-    uses.position = {b.plan.position};
-    uses.delta = {b.plan.delta};
-    uses.step_values = {b.plan.step_values, 0};
-    uses.events = {b.plan.events, 0};
-    uses.contact = {b.friction_taken[row], colliders};
-    const bool kept = uses.contact.is_set();
-    const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";
-    b.dispatch(
-        kColliderNames[row], variant, uses,
-        {b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
-        b.plan.vertex_count);
-}
-
-void record_plane(PlanBuilder& b, const Moment& moment)
-{
-    const kernels::plane::Bindings<Use> uses = {.plane = {b.plan.planes, 0}};
-    record_contact(b, moment, ColliderKind::plane, uses);
-}
-
-void record_sphere(PlanBuilder& b, const Moment& moment)
-{
-    const kernels::sphere::Bindings<Use> uses = {.sphere = {b.plan.spheres, 0}};
-    record_contact(b, moment, ColliderKind::sphere, uses);
-}
-
-void record_capsule(PlanBuilder& b, const Moment& moment)
-{
-    const kernels::capsule::Bindings<Use> uses = {.capsule = {b.plan.capsules, 0}};
-    record_contact(b, moment, ColliderKind::capsule, uses);
-}
-
-void record_cuboid(PlanBuilder& b, const Moment& moment)
-{
-    const kernels::cuboid::Bindings<Use> uses = {.cuboid = {b.plan.cuboids, 0}};
-    record_contact(b, moment, ColliderKind::cuboid, uses);
-}
-
-bool wants_friction(const Scene& scene)
-{
-    return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
-                                            [](const Collider& c) { return c.friction > 0; });
-}
+// ---------------------------------------------------------------- what a scene has
 
 bool any_stretch(const Scene& scene)
 {
@@ -264,7 +134,8 @@ constexpr MethodSet kMassSpring = only(MethodKind::mass_spring);
 constexpr MethodSet kConstraints = only(MethodKind::implicit_constraints);
 constexpr MethodSet kAcad = only(MethodKind::acad);
 
-constexpr Effect kEffects[] = {
+/// Up to the colliders, which come from the table of their shapes.
+constexpr Effect kEffectsBefore[] = {
     {"motion", Stage::force, wants_coast, nullptr, record_coast},
     {"damping", Stage::force, [](const Scene& s) { return has_bodies(s) && s.damping > 0; }, nullptr,
      record_damping},
@@ -320,14 +191,10 @@ constexpr Effect kEffects[] = {
     {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
     {"momentum", Stage::contact, wants_momentum, prepare_momentum, record_momentum_end, kDescents},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
-    {"plane", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::plane); },
-     prepare_plane, record_plane},
-    {"sphere", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::sphere); },
-     prepare_sphere, record_sphere},
-    {"capsule", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::capsule); },
-     prepare_capsule, record_capsule},
-    {"cuboid", Stage::contact, [](const Scene& s) { return has_collider(s, ColliderKind::cuboid); },
-     prepare_cuboid, record_cuboid},
+};
+
+/// After the colliders.
+constexpr Effect kEffectsAfter[] = {
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
     {"plasticity", Stage::after, wants_plasticity, prepare_plasticity, record_plasticity,
      kMassSpring | only(MethodKind::xpbd) | only(MethodKind::implicit_euler) | kVbd},
@@ -343,18 +210,16 @@ constexpr Effect kEffects[] = {
 
 } // namespace
 
-std::span<const Effect> effect_table() { return kEffects; }
-
-void record_colliders(PlanBuilder& b, const Moment& moment)
+std::span<const Effect> effect_table()
 {
-    const auto record = [&](std::uint32_t colliders, auto&& pass) {
-        if (colliders != kNoBuffer)
-            pass(b, moment);
-    };
-    record(b.plan.planes, record_plane);
-    record(b.plan.spheres, record_sphere);
-    record(b.plan.capsules, record_capsule);
-    record(b.plan.cuboids, record_cuboid);
+    static const std::vector<Effect> table = [] {
+        std::vector<Effect> all(std::begin(kEffectsBefore), std::end(kEffectsBefore));
+        const auto colliders = collider_effects();
+        all.insert(all.end(), colliders.begin(), colliders.end());
+        all.insert(all.end(), std::begin(kEffectsAfter), std::end(kEffectsAfter));
+        return all;
+    }();
+    return table;
 }
 
 } // namespace taut

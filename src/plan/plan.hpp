@@ -6,6 +6,7 @@
 #include "taut/runtime/device.hpp"
 #include "taut/scene/scene.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -13,6 +14,14 @@
 #include <vector>
 
 namespace taut {
+
+/// A buffer for each ColliderKind.
+using ColliderBuffers = std::array<std::uint32_t, kColliderKinds>;
+inline constexpr ColliderBuffers kNoColliders = [] {
+    ColliderBuffers none{};
+    none.fill(kNoBuffer);
+    return none;
+}();
 
 /// What a plan needs to know of a device. world fills it from a Device; tests write it by hand.
 struct DeviceTraits
@@ -168,11 +177,7 @@ struct Plan
     std::uint32_t events = kNoBuffer;      ///< TAUT_EVENT_COUNT uint32
     std::uint32_t pin_targets = kNoBuffer; ///< 2 rvec4 per moving pin: start and end of the step
     std::uint32_t force = kNoBuffer;       ///< rvec4 per vertex: N
-    std::uint32_t spheres = kNoBuffer;     ///< layout::SphereCollider<real>
-    std::uint32_t planes = kNoBuffer;      ///< layout::PlaneCollider<real>
-    /// Poses of all colliders of the shape at the start of each substep, and at the end of the last.
-    std::uint32_t capsules = kNoBuffer;  ///< layout::CapsuleCollider<real>
-    std::uint32_t cuboids = kNoBuffer;   ///< layout::CuboidCollider<real>
+    ColliderBuffers colliders = kNoColliders; ///< records as collider_records() gives them
     std::uint32_t wind = kNoBuffer;      ///< layout::WindValues<real>
     /// layout::Spring<real>: forces of springs that flow (plasticity), each once or from either end, plan
     /// order.

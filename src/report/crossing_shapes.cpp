@@ -207,18 +207,11 @@ glm::dvec3 inner_half(const SolidShape& shape, double edge)
 
 SolidShape solid_shape(const Collider& collider)
 {
+    const ColliderSolid solid = solid_of(collider);
     SolidShape out;
-    if (collider.kind == ColliderKind::cuboid)
-    {
-        out.half = collider.half_size;
-        out.size = std::min({out.half.x, out.half.y, out.half.z});
-    }
-    else
-    {
-        if (collider.kind == ColliderKind::capsule)
-            out.half.y = 0.5 * glm::length(collider.end - collider.point);
-        out.radius = out.size = collider.radius;
-    }
+    out.half = solid.half;
+    out.radius = solid.radius;
+    out.size = solid.is_box() ? std::min({out.half.x, out.half.y, out.half.z}) : solid.radius;
     out.reach = glm::length(out.half) + out.radius;
     return out;
 }

@@ -54,13 +54,16 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
     for (const Collider& c : scene.colliders)
     {
         // Of a plane, the part that the bodies can be at.
-        const double size = c.kind == ColliderKind::plane     ? model.diameter
-                            : c.kind == ColliderKind::cuboid  ? glm::length(c.half_size)
-                                                              : c.radius;
-        const glm::dvec3 end = c.kind == ColliderKind::capsule ? c.end : c.point;
+        const ColliderSolid solid = solid_of(c);
+        const ColliderFrame rest = rest_frame(c);
+        // A line along y keeps its ends, a box the ball round it.
+        const glm::dvec3 along = solid.is_box() ? glm::dvec3(0) : glm::abs(rest.y * solid.half.y);
+        const double size = !solid.bounded   ? model.diameter
+                            : solid.is_box() ? glm::length(solid.half)
+                                             : solid.radius;
         if (!c.motion.empty())
             out.push_back(
-                {c.motion, box_corners(glm::min(c.point, end) - size, glm::max(c.point, end) + size), false});
+                {c.motion, box_corners(rest.centre - along - size, rest.centre + along + size), false});
     }
     return out;
 }

@@ -196,22 +196,26 @@ void Pictures::add_colliders(std::vector<Surface>& surfaces, double time, const 
 {
     for (const Collider& collider : scene_.colliders)
     {
-        const ColliderFrame frame = frame_at(collider, time);
-        if (collider.kind == ColliderKind::plane)
+        ColliderFrame frame = frame_at(collider, time);
+        const ColliderSolid solid = solid_of(collider);
+        if (!solid.bounded)
         {
             // From behind it would hide everything: all that moves is in front of it.
             if (glm::dot(frame.y, glm::dvec3(shot.camera.eye) - frame.centre) > 0)
                 surfaces.push_back(plane_surface(frame.centre, frame.y, shot));
         }
-        else if (collider.kind == ColliderKind::cuboid)
-            surfaces.push_back(cuboid_surface(frame, collider.half_size));
-        else if (collider.kind == ColliderKind::capsule)
-            surfaces.push_back(capsule_surface(frame, frame.half_length, collider.radius));
+        else if (solid.is_box())
+            surfaces.push_back(cuboid_surface(frame, solid.half));
         else
         {
-            ColliderFrame upright; // balls do not spin
-            upright.centre = frame.centre;
-            surfaces.push_back(capsule_surface(upright, 0, collider.radius));
+            if (!solid.turns)
+            {
+                const ColliderFrame rest = rest_frame(collider);
+                frame.x = rest.x;
+                frame.y = rest.y;
+                frame.z = rest.z;
+            }
+            surfaces.push_back(capsule_surface(frame, solid.half.y, solid.radius));
         }
     }
 }

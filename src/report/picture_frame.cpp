@@ -36,16 +36,15 @@ void add_ball(std::vector<glm::dvec3>& points, const glm::dvec3& centre, double 
 void add_collider(std::vector<glm::dvec3>& points, const Collider& collider, double time)
 {
     const ColliderFrame frame = frame_at(collider, time);
-    if (collider.kind == ColliderKind::sphere)
-        add_ball(points, frame.centre, collider.radius);
-    else if (collider.kind == ColliderKind::capsule)
-        for (const double end : {-frame.half_length, frame.half_length})
-            add_ball(points, frame.outside({0, end, 0}), collider.radius);
-    else if (collider.kind == ColliderKind::cuboid)
+    const ColliderSolid solid = solid_of(collider);
+    if (solid.bounded && !solid.is_box())
+        for (const double end : {-solid.half.y, solid.half.y})
+            add_ball(points, frame.outside({0, end, 0}), solid.radius);
+    else if (solid.bounded)
         for (const double x : {-1.0, 1.0})
             for (const double y : {-1.0, 1.0})
                 for (const double z : {-1.0, 1.0})
-                    points.push_back(frame.outside(collider.half_size * glm::dvec3(x, y, z)));
+                    points.push_back(frame.outside(solid.half * glm::dvec3(x, y, z)));
 }
 
 /// The connected parts of a mesh: for every vertex the least vertex that it hangs together with.

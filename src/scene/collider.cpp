@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <iterator>
 
 namespace taut {
 namespace {
@@ -15,34 +16,68 @@ void complete(ColliderFrame& frame)
     frame.z = glm::cross(frame.x, frame.y);
 }
 
-ColliderFrame rest_frame(const Collider& c)
+ColliderFrame at_point(const Collider& c)
 {
     ColliderFrame out;
     out.centre = c.point;
-    if (c.kind == ColliderKind::plane)
-    {
-        out.y = glm::normalize(c.normal);
-        complete(out);
-    }
-    else if (c.kind == ColliderKind::capsule)
-    {
-        const glm::dvec3 way = c.end - c.point;
-        const double length = glm::length(way);
-        out.centre = c.point + 0.5 * way;
-        out.half_length = 0.5 * length;
-        out.y = length > 0 ? way / length : glm::dvec3(0, 1, 0);
-        complete(out);
-    }
-    else if (c.kind == ColliderKind::cuboid)
-    {
-        const std::vector<Keyframe> turn{{0, glm::dvec3(0), c.rotate_axis, c.rotate_degrees, glm::dvec3(0)}};
-        for (glm::dvec3* axis : {&out.x, &out.y, &out.z})
-            *axis = pose(turn, 0, *axis);
-    }
     return out;
 }
 
+ColliderFrame plane_frame(const Collider& c)
+{
+    ColliderFrame out = at_point(c);
+    out.y = glm::normalize(c.normal);
+    complete(out);
+    return out;
+}
+
+ColliderFrame capsule_frame(const Collider& c)
+{
+    ColliderFrame out;
+    const glm::dvec3 way = c.end - c.point;
+    const double length = glm::length(way);
+    out.centre = c.point + 0.5 * way;
+    out.half_length = 0.5 * length;
+    out.y = length > 0 ? way / length : glm::dvec3(0, 1, 0);
+    complete(out);
+    return out;
+}
+
+ColliderFrame cuboid_frame(const Collider& c)
+{
+    ColliderFrame out = at_point(c);
+    const std::vector<Keyframe> turn{{0, glm::dvec3(0), c.rotate_axis, c.rotate_degrees, glm::dvec3(0)}};
+    for (glm::dvec3* axis : {&out.x, &out.y, &out.z})
+        *axis = pose(turn, 0, *axis);
+    return out;
+}
+
+ColliderSolid plane_solid(const Collider&) { return {glm::dvec3(0), 0, false, false}; }
+ColliderSolid sphere_solid(const Collider& c) { return {glm::dvec3(0), c.radius, true, false}; }
+ColliderSolid capsule_solid(const Collider& c)
+{
+    return {{0, 0.5 * glm::length(c.end - c.point), 0}, c.radius, true, true};
+}
+ColliderSolid cuboid_solid(const Collider& c) { return {c.half_size, 0, true, true}; }
+
+/// By ColliderKind.
+constexpr struct
+{
+    ColliderFrame (*frame)(const Collider&);
+    ColliderSolid (*solid)(const Collider&);
+} kGeometry[] = {
+    {plane_frame, plane_solid},
+    {at_point, sphere_solid},
+    {capsule_frame, capsule_solid},
+    {cuboid_frame, cuboid_solid},
+};
+static_assert(std::size(kGeometry) == kColliderKinds);
+
 } // namespace
+
+ColliderSolid solid_of(const Collider& c) { return kGeometry[static_cast<std::size_t>(c.kind)].solid(c); }
+
+ColliderFrame rest_frame(const Collider& c) { return kGeometry[static_cast<std::size_t>(c.kind)].frame(c); }
 
 glm::dvec3 ColliderFrame::inside(const glm::dvec3& world) const
 {

@@ -1,5 +1,5 @@
 #pragma once
-// Where a collider is at a time, as a frame of its own.
+// Where a collider is at a time, as a frame of its own, and what it fills there.
 
 #include "taut/scene/scene.hpp"
 
@@ -17,8 +17,22 @@ struct ColliderFrame
     glm::dvec3 outside(const glm::dvec3& own) const;
 };
 
-/// Capsule: y is its axis; a capsule without length stands upright. Plane: y is its normal. Moved and turned
-/// by the motion.
+/// What a collider fills in its own frame: all points within `radius` of the box of half sizes `half`, which
+/// is a line along y in a capsule and a point in a ball. A plane fills what is below it.
+struct ColliderSolid
+{
+    glm::dvec3 half{0};
+    double radius = 0;
+    bool bounded = true;
+    bool turns = true; ///< with its motion, as far as what touches it can tell: balls do not spin
+
+    bool is_box() const { return bounded && radius == 0; }
+};
+ColliderSolid solid_of(const Collider& collider);
+
+/// Capsule: y is its axis; a capsule without length stands upright. Plane: y is its normal.
+ColliderFrame rest_frame(const Collider& collider);
+/// Moved and turned by the motion.
 ColliderFrame frame_at(const Collider& collider, double time);
 
 } // namespace taut

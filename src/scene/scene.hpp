@@ -195,9 +195,9 @@ enum class ColliderKind
     plane,
     sphere,
     capsule,
-    cuboid
+    cuboid // the last one
 };
-inline constexpr std::size_t kColliderKinds = 4;
+inline constexpr std::size_t kColliderKinds = static_cast<std::size_t>(ColliderKind::cuboid) + 1;
 
 struct Collider
 {

@@ -27,10 +27,8 @@ extern const TableOf<Keyframe> kKeyframeTable;
 extern const TableOf<Keyframe> kKeyframeRotateTable;
 extern const TableOf<Body::Spring> kSpringTable;
 extern const TableOf<Collider> kColliderTable;
-extern const TableOf<Collider> kPlaneTable;
-extern const TableOf<Collider> kSphereTable;
-extern const TableOf<Collider> kCapsuleTable;
-extern const TableOf<Collider> kCuboidTable;
+/// Of the shapes of colliders.
+std::span<const Table* const> shape_tables();
 
 /// One for each kind of object, in the order of docs/scene.md.
 std::span<const Table* const> all_tables();

@@ -4,6 +4,12 @@
 #include "taut/scene/tables.hpp"
 
 namespace taut::scene_file {
+
+extern const TableOf<Collider> kPlaneTable;
+extern const TableOf<Collider> kSphereTable;
+extern const TableOf<Collider> kCapsuleTable;
+extern const TableOf<Collider> kCuboidTable;
+
 namespace {
 
 template <ColliderKind K>
@@ -65,5 +71,11 @@ constinit const TableOf<Collider> kPlaneTable("plane", kPlane);
 constinit const TableOf<Collider> kSphereTable("sphere", kSphere);
 constinit const TableOf<Collider> kCapsuleTable("capsule", kCapsule);
 constinit const TableOf<Collider> kCuboidTable("cuboid", kCuboid);
+
+std::span<const Table* const> shape_tables()
+{
+    static constexpr const Table* tables[] = {&kPlaneTable, &kSphereTable, &kCapsuleTable, &kCuboidTable};
+    return tables;
+}
 
 } // namespace taut::scene_file

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
+#include <vector>
 
 namespace taut::scene_file {
 namespace {
@@ -103,13 +105,19 @@ constinit const TableOf<Wind::Key> kWindKeyTable("wind key", kWindKey);
 
 std::span<const Table* const> all_tables()
 {
-    static constexpr const Table* tables[] = {
+    static constexpr const Table* others[] = {
         &kSceneTable,    &kAcceptTable,   &kMethodTable,        &kWindTable,           &kWindKeyTable,
         &kBodyTable,     &kGridTable,     &kNetworkTable,       &kChainTable,          &kSolidBoxTable,
         &kBallTable,     &kMaterialTable, &kSolidMaterialTable, &kTransformTable,      &kRotateTable,
         &kPinTable,      &kPinBoxTable,   &kKeyframeTable,      &kKeyframeRotateTable, &kSpringTable,
-        &kColliderTable, &kPlaneTable,    &kSphereTable,        &kCapsuleTable,        &kCuboidTable,
+        &kColliderTable,
     };
+    static const std::vector<const Table*> tables = [] {
+        std::vector<const Table*> all(std::begin(others), std::end(others));
+        const auto shapes = shape_tables();
+        all.insert(all.end(), shapes.begin(), shapes.end());
+        return all;
+    }();
     return tables;
 }
 

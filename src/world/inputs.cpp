@@ -1,18 +1,15 @@
 #include "taut/world/inputs.hpp"
 
-#include "taut/scene/collider.hpp"
+#include "taut/plan/collider_shapes.hpp"
 
-#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
-#include <utility>
 
 namespace taut {
 namespace {
@@ -41,113 +38,6 @@ InputWrite step_values(const Scene& scene, const Plan& plan)
     v.max_speed = static_cast<Real>(scene.max_speed > 0 ? scene.max_speed : kOverflowSpeed);
     v.depenetration = static_cast<Real>(std::min(scene.depenetration_speed * h, plan.way_out));
     return write_of(plan.step_values, std::vector{v});
-}
-
-template <typename Real>
-InputWrite planes(const Scene& scene, const Plan& plan, double time)
-{
-    std::vector<layout::PlaneCollider<Real>> out;
-    for (const Collider& c : scene.colliders)
-    {
-        if (c.kind != ColliderKind::plane)
-            continue;
-        const glm::dvec3 n = glm::normalize(c.normal);
-        const glm::dvec3 from = pose(c.motion, time, c.point),
-                         to = pose(c.motion, time + scene.timestep, c.point);
-        layout::PlaneCollider<Real> p{};
-        p.normal_x = static_cast<Real>(n.x);
-        p.normal_y = static_cast<Real>(n.y);
-        p.normal_z = static_cast<Real>(n.z);
-        p.offset_start = static_cast<Real>(glm::dot(n, from));
-        p.offset_end = static_cast<Real>(glm::dot(n, to));
-        p.shift_x = static_cast<Real>(to.x - from.x);
-        p.shift_y = static_cast<Real>(to.y - from.y);
-        p.shift_z = static_cast<Real>(to.z - from.z);
-        p.friction = static_cast<Real>(c.friction);
-        out.push_back(p);
-    }
-    return write_of(plan.planes, out);
-}
-
-template <typename Real>
-InputWrite spheres(const Scene& scene, const Plan& plan, double time)
-{
-    std::vector<layout::SphereCollider<Real>> out;
-    for (const Collider& c : scene.colliders)
-    {
-        if (c.kind != ColliderKind::sphere)
-            continue;
-        const glm::dvec3 from = pose(c.motion, time, c.point),
-                         to = pose(c.motion, time + scene.timestep, c.point);
-        layout::SphereCollider<Real> s{};
-        s.start_x = static_cast<Real>(from.x);
-        s.start_y = static_cast<Real>(from.y);
-        s.start_z = static_cast<Real>(from.z);
-        s.end_x = static_cast<Real>(to.x);
-        s.end_y = static_cast<Real>(to.y);
-        s.end_z = static_cast<Real>(to.z);
-        s.radius = static_cast<Real>(c.radius);
-        s.friction = static_cast<Real>(c.friction);
-        out.push_back(s);
-    }
-    return write_of(plan.spheres, out);
-}
-
-template <typename Record>
-void put_frame(Record& out, const ColliderFrame& frame)
-{
-    using Real = decltype(out.centre_x);
-    const std::pair<glm::dvec3, std::array<Real*, 3>> parts[] = {
-        {frame.centre, {&out.centre_x, &out.centre_y, &out.centre_z}},
-        {frame.x, {&out.x_x, &out.x_y, &out.x_z}},
-        {frame.y, {&out.y_x, &out.y_y, &out.y_z}},
-        {frame.z, {&out.z_x, &out.z_y, &out.z_z}},
-    };
-    for (const auto& [from, to] : parts)
-        for (int axis = 0; axis < 3; ++axis)
-            *to[static_cast<std::size_t>(axis)] = static_cast<Real>(from[axis]);
-}
-
-/// `fill(record, collider, frame)` of every collider of a kind, at the start of each substep and at the end.
-template <typename Record, typename Fill>
-InputWrite poses(const Scene& scene, const Plan& plan, double time, ColliderKind kind, std::uint32_t buffer,
-                 const Fill& fill)
-{
-    std::vector<Record> out;
-    for (std::uint32_t s = 0; s <= plan.substeps; ++s)
-        for (const Collider& c : scene.colliders)
-            if (c.kind == kind)
-            {
-                const ColliderFrame frame = frame_at(c, time + scene.timestep * s / plan.substeps);
-                put_frame(out.emplace_back(Record{}), frame);
-                fill(out.back(), c, frame);
-            }
-    return write_of(buffer, out);
-}
-
-template <typename Real>
-InputWrite capsules(const Scene& scene, const Plan& plan, double time)
-{
-    using Record = layout::CapsuleCollider<Real>;
-    return poses<Record>(scene, plan, time, ColliderKind::capsule, plan.capsules,
-                         [](Record& out, const Collider& c, const ColliderFrame& frame) {
-                             out.half_length = static_cast<Real>(frame.half_length);
-                             out.radius = static_cast<Real>(c.radius);
-                             out.friction = static_cast<Real>(c.friction);
-                         });
-}
-
-template <typename Real>
-InputWrite cuboids(const Scene& scene, const Plan& plan, double time)
-{
-    using Record = layout::CuboidCollider<Real>;
-    return poses<Record>(scene, plan, time, ColliderKind::cuboid, plan.cuboids,
-                         [](Record& out, const Collider& c, const ColliderFrame&) {
-                             out.half_x = static_cast<Real>(c.half_size.x);
-                             out.half_y = static_cast<Real>(c.half_size.y);
-                             out.half_z = static_cast<Real>(c.half_size.z);
-                             out.friction = static_cast<Real>(c.friction);
-                         });
 }
 
 template <typename Real>
@@ -184,14 +74,10 @@ std::vector<InputWrite> inputs(const Scene& scene, const Plan& plan, double time
     std::vector<InputWrite> writes;
     if (plan.step_values != kNoBuffer)
         writes.push_back(step_values<Real>(scene, plan));
-    if (plan.planes != kNoBuffer)
-        writes.push_back(planes<Real>(scene, plan, time));
-    if (plan.spheres != kNoBuffer)
-        writes.push_back(spheres<Real>(scene, plan, time));
-    if (plan.capsules != kNoBuffer)
-        writes.push_back(capsules<Real>(scene, plan, time));
-    if (plan.cuboids != kNoBuffer)
-        writes.push_back(cuboids<Real>(scene, plan, time));
+    for (std::size_t row = 0; row < kColliderKinds; ++row)
+        if (plan.colliders[row] != kNoBuffer)
+            writes.push_back({plan.colliders[row], collider_records(scene, static_cast<ColliderKind>(row),
+                                                                    plan.precision, plan.substeps, time)});
     if (plan.wind != kNoBuffer)
         writes.push_back(wind<Real>(scene, plan, time));
     if (plan.pin_targets != kNoBuffer)

@@ -1,6 +1,7 @@
 #include "taut/world/sleep.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/collider.hpp"
 #include "taut/scene/extent.hpp"
 #include "taut/world/carry.hpp"
 
@@ -15,17 +16,12 @@
 namespace taut {
 namespace {
 
-/// A ball round a collider that has one.
+/// Of a ball round a collider's own point that it lies within; 0 of one without bounds.
 double reach(const Collider& c)
 {
-    switch (c.kind)
-    {
-    case ColliderKind::sphere: return c.radius;
-    case ColliderKind::capsule: return c.radius + glm::distance(c.point, c.end);
-    case ColliderKind::cuboid: return glm::length(c.half_size);
-    case ColliderKind::plane: break;
-    }
-    return 0;
+    const ColliderSolid solid = solid_of(c);
+    const double off = glm::distance(c.point, rest_frame(c).centre);
+    return solid.bounded ? off + glm::length(solid.half) + solid.radius : 0;
 }
 
 /// Whether a collider that moves between two times can come within `margin` of a box.

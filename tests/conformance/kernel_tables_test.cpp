@@ -39,17 +39,18 @@ std::string text_of(const std::filesystem::path& path)
 /// The names of the kernels of one text: of one that is compiled for elements, each with its own.
 std::vector<std::string> names_of(const std::filesystem::path& path)
 {
-    const std::string stem = path.stem().string(), method = method_of_elements(text_of(path));
-    if (method.empty())
+    const std::string stem = path.stem().string(), each = each_of(text_of(path));
+    if (each.empty())
         return {stem};
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(kKernels / "elements"))
-    {
-        const ElementFile element = element_file("elements/" + entry.path().filename().string(),
-                                                 text_of(entry.path()));
-        if (std::find(element.methods.begin(), element.methods.end(), method) != element.methods.end())
-            names.push_back(stem + "_" + element.stem);
-    }
+    for (const std::string folder : {"elements", "colliders"})
+        for (const auto& entry : std::filesystem::directory_iterator(kKernels / folder))
+        {
+            const ElementFile element =
+                element_file(folder + "/" + entry.path().filename().string(), text_of(entry.path()));
+            if (is_for(each, element))
+                names.push_back(stem + "_" + element.stem);
+        }
     return names;
 }
 

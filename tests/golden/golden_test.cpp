@@ -123,9 +123,9 @@ TEST_CASE("the star has a hub, the drape friction and bending, and both precisio
         return false;
     };
     CHECK(runs(plan_of("star"), "xpbd_hub_spring", ""));
-    CHECK(runs(plan_of("drape"), "sphere", "friction"));
-    CHECK(runs(plan_of("busy"), "sphere", "friction_kept"));
-    CHECK(runs(plan_of("busy"), "plane", "friction_kept"));
+    CHECK(runs(plan_of("drape"), "collide_sphere", "friction"));
+    CHECK(runs(plan_of("busy"), "collide_sphere", "friction_kept"));
+    CHECK(runs(plan_of("busy"), "collide_plane", "friction_kept"));
     CHECK(runs(plan_of("busy"), "pin_motion", ""));
     CHECK(plan_of("busy").constraint_counts().at("bending") > 0);
     CHECK(plan_of("drape_double").precision == Precision::float64);

@@ -1,10 +1,10 @@
-#include "taut/kernels/sphere.hpp"
+#include "taut/kernels/collide_sphere.hpp"
 
 #include "support/contacts.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::sphere::Params;
+using kernels::collide_sphere::Params;
 
 namespace {
 
@@ -79,10 +79,10 @@ template <typename Real>
 void check_spheres(const Contacts<Real>& in, const std::vector<Sphere<Real>>& spheres,
                    const std::string& variant, bool first_iteration, bool report)
 {
-    const KernelInfo& kernel = kernels::sphere::info(variant, precision_of<Real>());
+    const KernelInfo& kernel = kernels::collide_sphere::info(variant, precision_of<Real>());
     const Params params{in.count, in.colliders, in.substep, in.substeps, first_iteration, report};
     const Rules rules{variant != "", variant == "friction_kept", first_iteration, 0};
-    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("sphere", spheres), rules, report,
+    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("collider", spheres), rules, report,
                    [&](const glm::dvec3& x, const glm::dvec3& d, double kept, std::uint32_t j) {
                        return touch_sphere(spheres[j], in, x, d, kept);
                    });
@@ -168,14 +168,15 @@ TEMPLATE_TEST_CASE("a vertex faster than a ball is wide stops where it enters", 
     in.delta = {{static_cast<Real>(far), Real(0), Real(0), Real(0.25)}};
     const std::vector spheres{make_sphere<Real>({0, 0, 0}, {0, 0, 0}, 0.5, 0)};
     const Launch launch =
-        make_launch(kernels::sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+        make_launch(kernels::collide_sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
         if (!can_run(*device, precision_of<Real>()))
             continue;
         CAPTURE(selector, far);
-        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("sphere", spheres)).at("delta"));
+        const auto delta =
+            reals_of<Real>(run(*device, {launch}, in.buffers("collider", spheres)).at("delta"));
         CHECK(-2 + delta[0] == Approx(-0.75).epsilon(1e-5)); // radius and the gap kept
         CHECK((delta[1] == 0 && delta[2] == 0 && delta[3] == 0.25));
     }
@@ -191,14 +192,15 @@ TEMPLATE_TEST_CASE("a ball that moves faster than it is wide takes a resting ver
     in.delta = {glm::vec<4, Real>(Real(0))};
     const std::vector spheres{make_sphere<Real>({-2, 0, 0}, {2, 0, 0}, 0.5, 0)};
     const Launch launch =
-        make_launch(kernels::sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+        make_launch(kernels::collide_sphere::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
         if (!can_run(*device, precision_of<Real>()))
             continue;
         CAPTURE(selector);
-        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("sphere", spheres)).at("delta"));
+        const auto delta =
+            reals_of<Real>(run(*device, {launch}, in.buffers("collider", spheres)).at("delta"));
         CHECK(delta[0] == Approx(2.5)); // in front of the ball at its new place
     }
 }

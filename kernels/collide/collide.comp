@@ -1,12 +1,17 @@
-// Vertices against half-spaces. One invocation per vertex; loops over the planes.
-// The functions and their sources: shared/contact.glsl.
+// Vertices against colliders of one shape: pushed out, and held back by friction. One invocation per vertex;
+// loops over the colliders.
+//
+// Based on: shared/contact.glsl, and the shape's own file for what a vertex meets.
+// Departures: none beyond those of the two.
 // Bytes per element: 32 read, 16 written (float); friction_kept 16 more each way per collider.
+//! each collider
 //! lanes
 //! variant friction FRICTION=1
 //! variant friction_kept FRICTION=1 KEPT=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact.glsl"
+#include TAUT_COLLIDER
 
 PARAMS
 {
@@ -20,7 +25,7 @@ PARAMS
 
 READ(0, rvec4, position);
 UPDATE(1, rvec4, delta); // m, w = gap kept from colliders
-READ(2, PlaneCollider, plane);
+READ(2, OF_COLLIDER(record), collider);
 READ_ONE(3, StepValues, step_values);
 COUNTERS(4, events);
 #if KEPT
@@ -37,27 +42,27 @@ KERNEL(count)
     rbool moves = p.w > real(0);
     for (uint j = 0u; j < colliders; ++j)
     {
-        PlaneCollider c = plane[j];
-        rvec3 n = rvec3(c.normal_x, c.normal_y, c.normal_z);
-        real part = (c.offset_end - c.offset_start) / real(substeps);
-        real surface = c.offset_start + part * real(substep);
-        real before = (dot(n, x) - surface) - gap_kept;
-        real gap = before + (dot(n, d) - part);
-        real push = max(allowed_gap(before, step_values[0].depenetration) - gap, real(0));
+#if COLLIDER_POSES
+        OF_COLLIDER(record) c = collider[substep * colliders + j];
+        OF_COLLIDER(record) next = collider[(substep + 1u) * colliders + j];
+        Contact met = OF_COLLIDER(contact)(c, next, x, d, gap_kept);
+#else
+        OF_COLLIDER(record) c = collider[j];
+        Contact met = OF_COLLIDER(contact)(c, real(substep), real(substeps), x, d, gap_kept);
+#endif
+        real push = max(allowed_gap(met.before, step_values[0].depenetration) - met.gap, real(0));
         if (report != 0u)
             COUNT_EVENT_IF(!moves && push > real(0), events, TAUT_EVENT_CONFLICT);
         push = SELECT(moves, push, real(0));
-        d += n * push;
+        d += met.normal * push;
 #if FRICTION
-        rvec3 slide = (d - n * dot(n, d));
-        rvec3 shift = rvec3(c.shift_x, c.shift_y, c.shift_z) / real(substeps);
-        slide -= shift - n * dot(n, shift);
+        rvec3 slide = OF_COLLIDER(slide)(met, d);
 #if KEPT
         rvec4 taken = first_iteration != 0u ? rvec4(real(0)) : contact[j * count + i];
 #else
         rvec4 taken = rvec4(real(0));
 #endif
-        rvec4 now = friction_taken(taken, slide, push, c.friction);
+        rvec4 now = friction_taken(taken, slide, push, met.friction);
         d -= rvec3(now - taken);
 #if KEPT
         contact[j * count + i] = now;

@@ -1,10 +1,10 @@
-#include "taut/kernels/capsule.hpp"
+#include "taut/kernels/collide_capsule.hpp"
 
 #include "support/turned.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::capsule::Params;
+using kernels::collide_capsule::Params;
 
 namespace {
 
@@ -73,10 +73,10 @@ template <typename Real>
 void check_capsules(const Contacts<Real>& in, const std::vector<Capsule<Real>>& poses,
                     const std::string& variant, bool first_iteration, bool report)
 {
-    const KernelInfo& kernel = kernels::capsule::info(variant, precision_of<Real>());
+    const KernelInfo& kernel = kernels::collide_capsule::info(variant, precision_of<Real>());
     const Params params{in.count, in.colliders, in.substep, in.substeps, first_iteration, report};
     const Rules rules{variant != "", variant == "friction_kept", first_iteration, 0};
-    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("capsule", poses), rules, report,
+    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("collider", poses), rules, report,
                    [&](const glm::dvec3& x, const glm::dvec3& d, double kept, std::uint32_t j) {
                        return touch_capsule(poses, in, j, x, d, kept);
                    });
@@ -166,14 +166,15 @@ TEMPLATE_TEST_CASE("a capsule that turns takes a vertex that sticks to it along"
     const std::vector poses{make_capsule<Real>({}, 0.5, 0.5, 10),
                             make_capsule<Real>(make_frame({0, 0, 0}, {0, 1, 0}, angle), 0.5, 0.5, 10)};
     const Launch launch =
-        make_launch(kernels::capsule::info("friction", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+        make_launch(kernels::collide_capsule::info("friction", precision_of<Real>()),
+                    Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
         if (!can_run(*device, precision_of<Real>()))
             continue;
         CAPTURE(selector);
-        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("capsule", poses)).at("delta"));
+        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("collider", poses)).at("delta"));
         CHECK(0.5 + delta[0] == Approx(0.5 * std::cos(angle)).margin(1e-4));
         CHECK(delta[1] == Approx(0).margin(1e-6));
         CHECK(delta[2] == Approx(-0.5 * std::sin(angle)).margin(1e-4));

@@ -1,10 +1,10 @@
-#include "taut/kernels/cuboid.hpp"
+#include "taut/kernels/collide_cuboid.hpp"
 
 #include "support/turned.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::cuboid::Params;
+using kernels::collide_cuboid::Params;
 
 namespace {
 
@@ -117,10 +117,10 @@ template <typename Real>
 void check_cuboids(const Contacts<Real>& in, const std::vector<Cuboid<Real>>& poses,
                    const std::string& variant, bool first_iteration, bool report)
 {
-    const KernelInfo& kernel = kernels::cuboid::info(variant, precision_of<Real>());
+    const KernelInfo& kernel = kernels::collide_cuboid::info(variant, precision_of<Real>());
     const Params params{in.count, in.colliders, in.substep, in.substeps, first_iteration, report};
     const Rules rules{variant != "", variant == "friction_kept", first_iteration, 0};
-    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("cuboid", poses), rules, report,
+    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("collider", poses), rules, report,
                    [&](const glm::dvec3& x, const glm::dvec3& d, double kept, std::uint32_t j) {
                        return touch_cuboid(poses, in, j, x, d, kept);
                    });
@@ -208,14 +208,14 @@ TEMPLATE_TEST_CASE("a vertex faster than a plate is thin stops where it enters",
     in.delta = {{Real(0), static_cast<Real>(-far), Real(0), Real(0.001)}};
     const std::vector poses(2, make_cuboid<Real>({}, {1, 0.001, 1}, 0));
     const Launch launch =
-        make_launch(kernels::cuboid::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+        make_launch(kernels::collide_cuboid::info("", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
         if (!can_run(*device, precision_of<Real>()))
             continue;
         CAPTURE(selector, far);
-        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("cuboid", poses)).at("delta"));
+        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("collider", poses)).at("delta"));
         CHECK(2 + delta[1] == Approx(0.002).margin(1e-5 * far)); // half the thickness and the gap kept
         CHECK((delta[0] == 0 && delta[2] == 0));
     }

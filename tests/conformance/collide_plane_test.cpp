@@ -1,10 +1,10 @@
-#include "taut/kernels/plane.hpp"
+#include "taut/kernels/collide_plane.hpp"
 
 #include "support/contacts.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::plane::Params;
+using kernels::collide_plane::Params;
 
 namespace {
 
@@ -44,10 +44,10 @@ template <typename Real>
 void check_planes(const Contacts<Real>& in, const std::vector<Plane<Real>>& planes,
                   const std::string& variant, bool first_iteration, bool report)
 {
-    const KernelInfo& kernel = kernels::plane::info(variant, precision_of<Real>());
+    const KernelInfo& kernel = kernels::collide_plane::info(variant, precision_of<Real>());
     const Params params{in.count, in.colliders, in.substep, in.substeps, first_iteration, report};
     const Rules rules{variant != "", variant == "friction_kept", first_iteration, 0};
-    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("plane", planes), rules, report,
+    check_contacts(in, kernel, bytes_of(std::vector{params}), in.buffers("collider", planes), rules, report,
                    [&](const glm::dvec3& x, const glm::dvec3& d, double kept, std::uint32_t j) {
                        return touch_plane(planes[j], in, x, d, kept);
                    });
@@ -129,14 +129,15 @@ TEMPLATE_TEST_CASE("on a plane, friction holds a vertex inside the cone and slow
     in.contact = {glm::vec<4, Real>(Real(0))};
     const std::vector planes{make_plane<Real>({0, 1, 0}, 0, 0, {0, 0, 0}, 0.5)};
     const Launch launch =
-        make_launch(kernels::plane::info("friction", precision_of<Real>()), Params{1, 1, 0, 1, 1, 1}, 1);
+        make_launch(kernels::collide_plane::info("friction", precision_of<Real>()),
+                    Params{1, 1, 0, 1, 1, 1}, 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
         if (!can_run(*device, precision_of<Real>()))
             continue;
         CAPTURE(selector, slides);
-        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("plane", planes)).at("delta"));
+        const auto delta = reals_of<Real>(run(*device, {launch}, in.buffers("collider", planes)).at("delta"));
         CHECK(delta[0] == Approx(left).margin(1e-7));
         CHECK(delta[1] == 0);
     }

@@ -1,0 +1,126 @@
+#include "taut/plan/collider_shapes.hpp"
+
+#include "taut/scene/collider.hpp"
+
+#include <glm/geometric.hpp>
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <array>
+#include <span>
+#include <utility>
+
+namespace taut {
+namespace {
+
+template <typename Real>
+void fill(layout::PlaneCollider<Real>& out, const Collider& c, double from, double to)
+{
+    const glm::dvec3 n = glm::normalize(c.normal);
+    const glm::dvec3 start = pose(c.motion, from, c.point), end = pose(c.motion, to, c.point);
+    out.normal_x = static_cast<Real>(n.x);
+    out.normal_y = static_cast<Real>(n.y);
+    out.normal_z = static_cast<Real>(n.z);
+    out.offset_start = static_cast<Real>(glm::dot(n, start));
+    out.offset_end = static_cast<Real>(glm::dot(n, end));
+    out.shift_x = static_cast<Real>(end.x - start.x);
+    out.shift_y = static_cast<Real>(end.y - start.y);
+    out.shift_z = static_cast<Real>(end.z - start.z);
+}
+
+template <typename Real>
+void fill(layout::SphereCollider<Real>& out, const Collider& c, double from, double to)
+{
+    const glm::dvec3 start = pose(c.motion, from, c.point), end = pose(c.motion, to, c.point);
+    out.start_x = static_cast<Real>(start.x);
+    out.start_y = static_cast<Real>(start.y);
+    out.start_z = static_cast<Real>(start.z);
+    out.end_x = static_cast<Real>(end.x);
+    out.end_y = static_cast<Real>(end.y);
+    out.end_z = static_cast<Real>(end.z);
+    out.radius = static_cast<Real>(c.radius);
+}
+
+template <typename Record>
+void put_frame(Record& out, const ColliderFrame& frame)
+{
+    using Real = decltype(out.centre_x);
+    const std::pair<glm::dvec3, std::array<Real*, 3>> parts[] = {
+        {frame.centre, {&out.centre_x, &out.centre_y, &out.centre_z}},
+        {frame.x, {&out.x_x, &out.x_y, &out.x_z}},
+        {frame.y, {&out.y_x, &out.y_y, &out.y_z}},
+        {frame.z, {&out.z_x, &out.z_y, &out.z_z}},
+    };
+    for (const auto& [from, to] : parts)
+        for (int axis = 0; axis < 3; ++axis)
+            *to[static_cast<std::size_t>(axis)] = static_cast<Real>(from[axis]);
+}
+
+template <typename Real>
+void fill(layout::CapsuleCollider<Real>& out, const Collider& c, double at, double)
+{
+    const ColliderFrame frame = frame_at(c, at);
+    put_frame(out, frame);
+    out.half_length = static_cast<Real>(frame.half_length);
+    out.radius = static_cast<Real>(c.radius);
+}
+
+template <typename Real>
+void fill(layout::CuboidCollider<Real>& out, const Collider& c, double at, double)
+{
+    put_frame(out, frame_at(c, at));
+    out.half_x = static_cast<Real>(c.half_size.x);
+    out.half_y = static_cast<Real>(c.half_size.y);
+    out.half_z = static_cast<Real>(c.half_size.z);
+}
+
+template <typename Record>
+void append(ColliderShape::Records& out, const Collider& collider, double from, double to)
+{
+    Record record{};
+    fill(record, collider, from, to);
+    record.friction = static_cast<decltype(record.friction)>(collider.friction);
+    const auto bytes = std::as_bytes(std::span(&record, 1));
+    out.insert(out.end(), bytes.begin(), bytes.end());
+}
+
+template <template <typename> typename Record>
+constexpr ColliderShape shape(std::string_view name, std::string_view kernel, bool poses)
+{
+    return {name,
+            kernel,
+            poses,
+            sizeof(Record<float>),
+            sizeof(Record<double>),
+            append<Record<float>>,
+            append<Record<double>>};
+}
+
+/// By ColliderKind.
+constexpr ColliderShape kShapes[] = {
+    shape<layout::PlaneCollider>("plane", "collide_plane", false),
+    shape<layout::SphereCollider>("sphere", "collide_sphere", false),
+    shape<layout::CapsuleCollider>("capsule", "collide_capsule", true),
+    shape<layout::CuboidCollider>("cuboid", "collide_cuboid", true),
+};
+static_assert(std::size(kShapes) == kColliderKinds);
+
+} // namespace
+
+const ColliderShape& collider_shape(ColliderKind kind) { return kShapes[static_cast<std::size_t>(kind)]; }
+
+ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, Precision precision,
+                                        std::uint32_t substeps, double time)
+{
+    const ColliderShape& shape = collider_shape(kind);
+    const auto append = precision == Precision::float64 ? shape.append_double : shape.append_float;
+    ColliderShape::Records out;
+    for (std::uint32_t s = 0; s < shape.copies(substeps); ++s)
+        for (const Collider& c : scene.colliders)
+            if (c.kind == kind)
+                append(out, c, time + scene.timestep * s / substeps, time + scene.timestep);
+    return out;
+}
+
+} // namespace taut

@@ -1,0 +1,39 @@
+#pragma once
+// The table of collider shapes: what a plan holds of each, and what is written into it before a step.
+
+#include "taut/runtime/base/kernel_info.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace taut {
+
+/// One row a ColliderKind.
+struct ColliderShape
+{
+    using Records = std::vector<std::byte>;
+    /// Appends the record of a collider between two times; of a shape with poses, at `from`.
+    using Append = void (*)(Records& out, const Collider& collider, double from, double to);
+
+    std::string_view name;   ///< as in scene files; the effect
+    std::string_view kernel; ///< collide_<name>
+    /// Shapes that turn have a record of the start of each substep in turn, and one of the end of the last;
+    /// of others one record holds the whole time step.
+    bool poses = false;
+    std::uint32_t bytes_float = 0, bytes_double = 0; ///< of one record
+    Append append_float = nullptr, append_double = nullptr;
+
+    std::uint32_t copies(std::uint32_t substeps) const { return poses ? substeps + 1 : 1; }
+    std::uint32_t bytes(Precision p) const { return p == Precision::float64 ? bytes_double : bytes_float; }
+};
+
+const ColliderShape& collider_shape(ColliderKind kind);
+
+/// The records of all colliders of a kind for the time step that begins at `time`.
+ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, Precision precision,
+                                        std::uint32_t substeps, double time);
+
+} // namespace taut

@@ -1,0 +1,116 @@
+#include "taut/plan/colliders.hpp"
+
+#include "taut/kernels/collide_plane.hpp"
+#include "taut/plan/collider_shapes.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace taut {
+namespace {
+
+bool has_bodies(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [](const Body& b) { return !b.mesh.positions.empty(); });
+}
+
+template <ColliderKind Kind>
+bool wanted(const Scene& scene)
+{
+    return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                                            [](const Collider& c) { return c.kind == Kind; });
+}
+
+std::uint32_t collider_count(const Scene& scene, ColliderKind kind)
+{
+    return static_cast<std::uint32_t>(std::count_if(scene.colliders.begin(), scene.colliders.end(),
+                                                    [&](const Collider& c) { return c.kind == kind; }));
+}
+
+bool has_friction(const Scene& scene, ColliderKind kind)
+{
+    return std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                       [&](const Collider& c) { return c.kind == kind && c.friction > 0; });
+}
+
+template <ColliderKind Kind>
+void prepare(PlanBuilder& b)
+{
+    const ColliderShape& shape = collider_shape(Kind);
+    const std::uint64_t records =
+        std::uint64_t(shape.copies(b.plan.substeps)) * collider_count(b.scene, Kind);
+    const std::uint32_t id =
+        b.add_buffer(shape.name, std::string(shape.name) + "s", records * shape.bytes(b.plan.precision));
+    b.plan.buffers[id].host_written = true;
+    b.plan.colliders[static_cast<std::size_t>(Kind)] = id;
+}
+
+/// Kernels of all shapes have one interface.
+void record(PlanBuilder& b, const Moment& moment, ColliderKind kind)
+{
+    const auto row = static_cast<std::size_t>(kind);
+    const std::uint32_t colliders = collider_count(b.scene, kind);
+    const kernels::collide_plane::Bindings<Use> uses = {.position = {b.plan.position},
+                                                        .delta = {b.plan.delta},
+                                                        .collider = {b.plan.colliders[row], 0},
+                                                        .step_values = {b.plan.step_values, 0},
+                                                        .events = {b.plan.events, 0},
+                                                        .contact = {b.friction_taken[row], colliders}};
+    const bool kept = uses.contact.is_set();
+    const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";
+    b.dispatch_by_name(
+        collider_shape(kind).name, collider_shape(kind).kernel, variant, uses,
+        {b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
+        b.plan.vertex_count);
+}
+
+template <ColliderKind Kind>
+void record_kind(PlanBuilder& b, const Moment& moment)
+{
+    record(b, moment, Kind);
+}
+
+template <std::size_t... Kinds>
+std::array<Effect, kColliderKinds> make_effects(std::index_sequence<Kinds...>)
+{
+    return {{{collider_shape(ColliderKind(Kinds)).name, Stage::contact, wanted<ColliderKind(Kinds)>,
+              prepare<ColliderKind(Kinds)>, record_kind<ColliderKind(Kinds)>}...}};
+}
+
+} // namespace
+
+std::span<const Effect, kColliderKinds> collider_effects()
+{
+    static const auto effects = make_effects(std::make_index_sequence<kColliderKinds>());
+    return effects;
+}
+
+bool wants_friction(const Scene& scene)
+{
+    return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
+                                            [](const Collider& c) { return c.friction > 0; });
+}
+
+void prepare_friction(PlanBuilder& b)
+{
+    for (std::size_t row = 0; row < kColliderKinds; ++row)
+    {
+        const auto kind = static_cast<ColliderKind>(row);
+        b.friction[row] = has_friction(b.scene, kind);
+        if (b.friction[row] && b.plan.iterations > 1 && b.method.contact_each_iteration)
+            b.friction_taken[row] = b.add_buffer(
+                "friction", std::string(collider_shape(kind).name) + " friction",
+                std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
+    }
+}
+
+void record_colliders(PlanBuilder& b, const Moment& moment)
+{
+    for (std::size_t row = 0; row < kColliderKinds; ++row)
+        if (b.plan.colliders[row] != kNoBuffer)
+            record(b, moment, static_cast<ColliderKind>(row));
+}
+
+} // namespace taut

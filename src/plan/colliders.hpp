@@ -1,0 +1,17 @@
+#pragma once
+// Internal to src/plan: contact with colliders and its friction, as effects (collider_shapes.hpp).
+
+#include "taut/plan/builder.hpp"
+
+namespace taut {
+
+/// One for each ColliderKind, in order.
+std::span<const Effect, kColliderKinds> collider_effects();
+
+/// Whether any collider rubs.
+bool wants_friction(const Scene& scene);
+/// Turns the contact passes' friction on. With one iteration a substep, what friction took so far is zero
+/// and needs no buffer.
+void prepare_friction(PlanBuilder& b);
+
+} // namespace taut
