@@ -272,7 +272,8 @@ TEST_CASE("check lists a mesh file that is not there beside other faults")
     INFO(all);
     CHECK(all.find("foo") != std::string::npos);
     CHECK(all.find("duration is -1 s") != std::string::npos);
-    CHECK(all.find("method.iterations is 1.5; it must be a whole number from 1 to 1000") != std::string::npos);
+    CHECK(all.find("method.iterations is 1.5; it must be a whole number from 1 to 1000") !=
+          std::string::npos);
     CHECK(all.find("bodies[0] names missing.obj; there is no such file") != std::string::npos);
 }
 

@@ -4,6 +4,9 @@
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 
+#include "taut/report/model.hpp"
+#include "taut/report/reference_dynamic.hpp"
+#include "taut/report/reference_static.hpp"
 #include "taut/taut.hpp"
 
 #include <cmath>
@@ -127,6 +130,17 @@ TEST_CASE("added elements have passes and buffers of their own name, and nothing
     CHECK(count(with) == 20);
     CHECK(with.passes.size() == without.passes.size() + 20);
     CHECK(with.constraint_counts().at("cubic_spring") == 1);
+}
+
+TEST_CASE("references of scenes with added elements refuse and say why")
+{
+    add_elements();
+    Scene scene = hanging_mass();
+    add_spring(scene, 1e-3);
+    const PhysicalModel model = make_model(resolve(scene));
+    REQUIRE(model.added.size() == 1);
+    CHECK(says(solve_dynamic(model).reason, "elements of its own"));
+    CHECK(says(solve_static(model, model.start).reason, "elements of its own"));
 }
 
 TEST_CASE("what a scene says wrong of added elements is refused with the place and what would be right")
