@@ -45,7 +45,7 @@ TEST_CASE("The work of a pass is its waves times the compiler's cycles", "[hardw
     CHECK(work.simd_cycles == 101 * 100);
     CHECK(work.wave_cycles == 1000);
     CHECK_THROWS_WITH(work_of(table_of(distance), "vega10", pass_of(distance, 1)),
-                      Contains("vega10 distance float"));
+                      Contains("vega10 xpbd_spring float"));
 
     const KernelInfo& dot = find_kernel("dot"); // a group kernel: `count` is of its groups
     const Work sums =
