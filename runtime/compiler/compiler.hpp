@@ -30,7 +30,7 @@ struct ElementFile
     std::string stem;
     std::uint32_t corners = 0;          ///< 2 to 4
     std::vector<std::string> methods;   ///< `//! methods xpbd pbd`: whose kernels it is compiled into
-    std::vector<std::string> abilities; ///< `//! with dampers`: variants that it has beyond those of all
+    std::vector<std::string> abilities; ///< `//! with dampers`: variants and a macro of its own
 };
 
 /// Reads the `//!` lines. Throws Error{kernel_compilation} for a file without `//! corners 2` to 4 and

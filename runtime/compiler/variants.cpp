@@ -1,6 +1,7 @@
 #include "taut/runtime/compiler/variants.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -146,7 +147,17 @@ std::string method_of_elements(std::string_view text)
 
 std::vector<std::pair<std::string, std::string>> element_defines(const ElementFile& element)
 {
-    return {{"ELEMENT_STEM", element.stem}, {"ELEMENT_CORNERS", std::to_string(element.corners)}};
+    std::vector<std::pair<std::string, std::string>> out = {
+        {"ELEMENT_STEM", element.stem}, {"ELEMENT_CORNERS", std::to_string(element.corners)}};
+    for (const std::string& ability : element.abilities)
+    {
+        std::string name = "ELEMENT_WITH_" + ability;
+        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+            return static_cast<char>(std::toupper(c));
+        });
+        out.emplace_back(std::move(name), "1");
+    }
+    return out;
 }
 
 } // namespace taut
