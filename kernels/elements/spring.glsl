@@ -3,7 +3,7 @@
 // Based on: Mueller, Heidelberger, Hennix, Ratcliff. Position Based Dynamics. VRIPHYS 2006, section 4.1.
 // Departures: the gradients are given undivided, as the difference of the ends: one division serves both.
 //! corners 2
-//! methods xpbd xpbd_hub
+//! methods xpbd xpbd_hub pbd pbd_hub
 //! with dampers
 
 #define spring_record DistanceConstraint

@@ -5,7 +5,8 @@
 //   Ratcliff. Position Based Dynamics. 2007: the gradients are a sixth of the cross products of edges.
 // Departures: none.
 //! corners 4
-//! methods xpbd
+//! methods xpbd pbd
+//! with bounds
 
 #define volume_record VolumeConstraint
 #define volume_v0(e) (e).a

@@ -7,7 +7,9 @@
 //   hinge_record                  the record in the buffer of constraints: corners, then reals
 //   hinge_v0(record) ...          vertex of each corner
 //   hinge_row(record, e1, ...)    its constraint C, by the differences of its corners from corner 0, m
-// under the names OF_ELEMENT(record), OF_ELEMENT(v0)(record), OF_ELEMENT(row)(record, ELEMENT_EDGES).
+// under the names OF_ELEMENT(record), OF_ELEMENT(v0)(record), OF_ELEMENT(row)(record, ELEMENT_EDGES). A line
+// `//! with ABILITY` of the element's file is the macro ELEMENT_WITH_ABILITY, in capitals.
+// A kernel over several kinds at once includes their files by name and has none of these macros.
 #ifndef TAUT_SHARED_ELEMENT_GLSL
 #define TAUT_SHARED_ELEMENT_GLSL
 
@@ -28,12 +30,39 @@ struct ElementRow
     real s0, s1, s2, s3;    // squared lengths of the gradients of C
 };
 
+/// sum w_i |grad_i C|^2 over two, three and four corners; w_i: inverse masses, 1/kg.
+INLINE real row_weight(ElementRow row, real w0, real w1)
+{
+    real weight = w0 * row.s0 + w1 * row.s1;
+    return weight;
+}
+INLINE real row_weight(ElementRow row, real w0, real w1, real w2)
+{
+    real weight = row_weight(row, w0, w1) + w2 * row.s2;
+    return weight;
+}
+INLINE real row_weight(ElementRow row, real w0, real w1, real w2, real w3)
+{
+    real weight = row_weight(row, w0, w1, w2) + w3 * row.s3;
+    return weight;
+}
+
+// The arguments that stand for all corners: a kernel calls their positions x0 .. x3, with the inverse mass in
+// w, and their differences from corner 0 e1 .. e3. ELEMENT_MASS is above 0 where a corner can move.
+#ifdef ELEMENT_STEM
 #if ELEMENT_CORNERS == 2
 #define ELEMENT_EDGES e1
+#define ELEMENT_MASSES x0.w, x1.w
+#define ELEMENT_MASS (x0.w + x1.w)
 #elif ELEMENT_CORNERS == 3
 #define ELEMENT_EDGES e1, e2
+#define ELEMENT_MASSES x0.w, x1.w, x2.w
+#define ELEMENT_MASS (x0.w + x1.w + x2.w)
 #else
 #define ELEMENT_EDGES e1, e2, e3
+#define ELEMENT_MASSES x0.w, x1.w, x2.w, x3.w
+#define ELEMENT_MASS (x0.w + x1.w + x2.w + x3.w)
+#endif
 #endif
 
 #endif

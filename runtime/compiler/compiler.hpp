@@ -31,7 +31,7 @@ struct ElementFile
     std::string stem;
     std::uint32_t corners = 0;          ///< of an element 2 to 4
     std::vector<std::string> methods;   ///< `//! methods xpbd pbd`: whose kernels it is compiled into
-    std::vector<std::string> abilities; ///< `//! with dampers`: variants that it has beyond those of all
+    std::vector<std::string> abilities; ///< `//! with dampers`: variants and a macro of its own
     std::string collider;               ///< of a shape "once" or "each_substep": `//! collider once`
 };
 

@@ -1,6 +1,7 @@
 #include "taut/runtime/compiler/variants.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -178,7 +179,17 @@ std::vector<std::pair<std::string, std::string>> element_defines(const ElementFi
     if (!element.collider.empty())
         return {{"COLLIDER_STEM", element.stem},
                 {"COLLIDER_POSES", element.collider == "each_substep" ? "1" : "0"}};
-    return {{"ELEMENT_STEM", element.stem}, {"ELEMENT_CORNERS", std::to_string(element.corners)}};
+    std::vector<std::pair<std::string, std::string>> out = {
+        {"ELEMENT_STEM", element.stem}, {"ELEMENT_CORNERS", std::to_string(element.corners)}};
+    for (const std::string& ability : element.abilities)
+    {
+        std::string name = "ELEMENT_WITH_" + ability;
+        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+            return static_cast<char>(std::toupper(c));
+        });
+        out.emplace_back(std::move(name), "1");
+    }
+    return out;
 }
 
 } // namespace taut

@@ -31,8 +31,8 @@ constexpr KernelRow kKernels[] = {
     {"xpbd_hinge", Over::constraints, 4},
     {"xpbd_volume", Over::constraints, 4},
     {"neo_hookean", Over::constraints, 4},
-    {"pbd_stretch", Over::constraints, 2},
-    {"pbd_bend", Over::constraints, 4},
+    {"pbd_spring", Over::constraints, 2},
+    {"pbd_hinge", Over::constraints, 4},
     {"pbd_volume", Over::constraints, 4},
     {"strain_limit", Over::constraints, 2},
 };

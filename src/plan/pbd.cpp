@@ -15,11 +15,9 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/kernels/pbd_average.hpp"
-#include "taut/kernels/pbd_bend.hpp"
-#include "taut/kernels/pbd_hub.hpp"
+#include "taut/kernels/pbd_hub_spring.hpp"
 #include "taut/kernels/pbd_node.hpp"
-#include "taut/kernels/pbd_stretch.hpp"
-#include "taut/kernels/pbd_volume.hpp"
+#include "taut/kernels/pbd_spring.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -35,10 +33,10 @@ constexpr std::uint32_t kLeastChebyshev = 8;   ///< iterations below which the w
 
 constexpr std::string_view kJacobi = "pbd_jacobi";
 
-/// Passes of one sweep over the colours of a set. Params is {first, count, share, report}.
-template <template <typename> typename Bindings>
-void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_each, double stiffness,
-                  const Moment& moment)
+/// Passes of one sweep over the colours of a set. `kernel`: that of PBD for the set's element; all of them
+/// have the interface of kernels::pbd_spring.
+void record_sweep(PlanBuilder& b, std::string_view kind, std::string_view kernel, std::uint32_t vertices_each,
+                  double stiffness, const Moment& moment)
 {
     const ConstraintSet* set = find_set(b.plan, kind);
     if (set == nullptr)
@@ -46,11 +44,11 @@ void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_
     const auto share =
         static_cast<float>(pbd_share(stiffness, b.plan.iterations) * b.scene.method.relaxation);
     const std::uint32_t report = moment.last;
-    const Bindings<Use> alone = {.constraint = {set->buffer},
-                                 .position = {b.plan.position, vertices_each},
-                                 .delta = {b.plan.delta, vertices_each},
-                                 .events = {b.plan.events, 0}};
-    Bindings<Use> grouped = alone;
+    const kernels::pbd_spring::Bindings<Use> alone = {.constraint = {set->buffer},
+                                                      .position = {b.plan.position, vertices_each},
+                                                      .delta = {b.plan.delta, vertices_each},
+                                                      .events = {b.plan.events, 0}};
+    kernels::pbd_spring::Bindings<Use> grouped = alone;
     grouped.table = {set->table};
     std::uint32_t range = first_run_range(*set);
     for (const Run& run : runs_of(b, *set))
@@ -58,16 +56,17 @@ void record_sweep(PlanBuilder& b, std::string_view kind, std::uint32_t vertices_
         const std::uint32_t first = set->colour_start[run.begin], size = set->colour_start[run.end] - first;
         b.stands_for(run.end - run.begin);
         if (run.grouped())
-            b.dispatch(kind, "tail", grouped, {range, 1, share, report}, 1, size);
+            b.dispatch_by_name(kind, kernel, "tail", grouped, {range, 1, share, report}, 1, size);
         else
-            b.dispatch(kind, "", alone, {first, size, share, report}, size);
+            b.dispatch_by_name(kind, kernel, "", alone, {first, size, share, report}, size);
         range += run.grouped() ? 2 : 0;
     }
     if (set->small_bodies > 0)
     {
         stand_for_small(b, *set);
-        b.dispatch(kind, "tail", grouped, {set->small_range, set->small_bodies, share, report},
-                   set->small_bodies, set->small_constraints);
+        b.dispatch_by_name(kind, kernel, "tail", grouped,
+                           {set->small_range, set->small_bodies, share, report}, set->small_bodies,
+                           set->small_constraints);
     }
 }
 
@@ -75,10 +74,10 @@ void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 {
     const MethodSettings& m = b.scene.method;
     const auto share = static_cast<float>(pbd_share(m.stretch, b.plan.iterations) * m.relaxation);
-    const kernels::pbd_hub::Bindings<Use> uses = {.constraint = {set.buffer},
-                                                  .position = {b.plan.position, 2},
-                                                  .delta = {b.plan.delta, 2},
-                                                  .events = {b.plan.events, 0}};
+    const kernels::pbd_hub_spring::Bindings<Use> uses = {.constraint = {set.buffer},
+                                                         .position = {b.plan.position, 2},
+                                                         .delta = {b.plan.delta, 2},
+                                                         .events = {b.plan.events, 0}};
     for (std::size_t h = 0; h + 1 < set.hub_start.size(); ++h)
     {
         const std::uint32_t size = set.hub_start[h + 1] - set.hub_start[h];
@@ -181,33 +180,34 @@ Shares shares_of(const PlanBuilder& b)
             static_cast<float>(pbd_share(m.volume, b.plan.iterations))};
 }
 
+/// What one kind of element wants, into its slots.
+struct SlotPass
+{
+    std::string_view kernel;
+    std::uint32_t constraints, slots; ///< buffers
+    std::uint32_t corners, slots_each, count;
+    float share;
+};
+
 void record_slots(PlanBuilder& b, const Shares& shares, std::uint32_t report)
 {
-    const kernels::pbd_stretch::Bindings<Use> springs = {.constraint = {b.pbd.springs},
-                                                         .position = {b.plan.position, 2},
-                                                         .delta = {b.plan.delta, 2},
-                                                         .events = {b.plan.events, 0},
-                                                         .correction = {b.pbd.spring_slots}};
-    b.dispatch(kJacobi, "slots", springs, {0, b.pbd.spring_count, shares.stretch, report},
-               b.pbd.spring_count);
-    if (b.pbd.hinges != kNoBuffer)
+    const PbdBuffers& p = b.pbd;
+    const SlotPass passes[] = {
+        {"pbd_spring", p.springs, p.spring_slots, 2, 1, p.spring_count, shares.stretch},
+        {"pbd_hinge", p.hinges, p.hinge_slots, 4, 4, p.hinge_count, shares.bend},
+        {"pbd_volume", p.volumes, p.volume_slots, 4, 4, p.volume_count, shares.volume},
+    };
+    for (const SlotPass& pass : passes)
     {
-        const kernels::pbd_bend::Bindings<Use> hinges = {.constraint = {b.pbd.hinges},
-                                                         .position = {b.plan.position, 4},
-                                                         .delta = {b.plan.delta, 4},
+        if (pass.constraints == kNoBuffer)
+            continue;
+        const kernels::pbd_spring::Bindings<Use> uses = {.constraint = {pass.constraints},
+                                                         .position = {b.plan.position, pass.corners},
+                                                         .delta = {b.plan.delta, pass.corners},
                                                          .events = {b.plan.events, 0},
-                                                         .correction = {b.pbd.hinge_slots, 4}};
-        b.dispatch(kJacobi, "slots", hinges, {0, b.pbd.hinge_count, shares.bend, report}, b.pbd.hinge_count);
-    }
-    if (b.pbd.volumes != kNoBuffer)
-    {
-        const kernels::pbd_volume::Bindings<Use> volumes = {.constraint = {b.pbd.volumes},
-                                                            .position = {b.plan.position, 4},
-                                                            .delta = {b.plan.delta, 4},
-                                                            .events = {b.plan.events, 0},
-                                                            .correction = {b.pbd.volume_slots, 4}};
-        b.dispatch(kJacobi, "slots", volumes, {0, b.pbd.volume_count, shares.volume, report},
-                   b.pbd.volume_count);
+                                                         .correction = {pass.slots, pass.slots_each}};
+        b.dispatch_by_name(kJacobi, pass.kernel, "slots", uses, {0, pass.count, pass.share, report},
+                           pass.count);
     }
 }
 
@@ -287,19 +287,19 @@ void prepare_pbd_volume(PlanBuilder& b)
 
 void record_pbd_stretch(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep<kernels::pbd_stretch::Bindings>(b, "pbd_stretch", 2, b.scene.method.stretch, moment);
+    record_sweep(b, "pbd_stretch", "pbd_spring", 2, b.scene.method.stretch, moment);
     if (const ConstraintSet* set = find_set(b.plan, "pbd_stretch"))
         record_hubs(b, *set, moment);
 }
 
 void record_pbd_bend(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep<kernels::pbd_bend::Bindings>(b, "pbd_bend", 4, b.scene.method.bend, moment);
+    record_sweep(b, "pbd_bend", "pbd_hinge", 4, b.scene.method.bend, moment);
 }
 
 void record_pbd_volume(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep<kernels::pbd_volume::Bindings>(b, "pbd_volume", 4, b.scene.method.volume, moment);
+    record_sweep(b, "pbd_volume", "pbd_volume", 4, b.scene.method.volume, moment);
 }
 
 void prepare_pbd_jacobi(PlanBuilder& b)

@@ -211,6 +211,15 @@ TEST_CASE("a variant line gives its macros to the variant and 0 to every other o
     CHECK(value(variants[2], "WIDTH") == "0");
 }
 
+TEST_CASE("what an element has is a macro of the kernels that are compiled for it")
+{
+    const ElementFile element =
+        element_file("elements/rod.glsl", "//! corners 3\n//! methods pbd\n//! with bounds\n");
+    using Defines = std::vector<std::pair<std::string, std::string>>;
+    CHECK(element_defines(element) ==
+          Defines{{"ELEMENT_STEM", "rod"}, {"ELEMENT_CORNERS", "3"}, {"ELEMENT_WITH_BOUNDS", "1"}});
+}
+
 TEST_CASE("a variant line without a value is refused with its text")
 {
     try

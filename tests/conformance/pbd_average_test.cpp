@@ -1,7 +1,7 @@
 #include "taut/kernels/pbd_average.hpp"
-#include "taut/kernels/pbd_bend.hpp"
+#include "taut/kernels/pbd_hinge.hpp"
 #include "taut/kernels/pbd_node.hpp"
-#include "taut/kernels/pbd_stretch.hpp"
+#include "taut/kernels/pbd_spring.hpp"
 #include "taut/kernels/pbd_volume.hpp"
 
 #include "support/pbd_jacobi.hpp"
@@ -30,12 +30,12 @@ Buffers slots_then_average(Device& device, const PbdInput<Real>& in, const Jacob
     const auto springs = static_cast<std::uint32_t>(in.spring.size()),
                hinges = static_cast<std::uint32_t>(in.hinge.size()),
                volumes = static_cast<std::uint32_t>(in.tetrahedron.size());
-    write(make_launch(kernels::pbd_stretch::info("slots", precision),
-                      kernels::pbd_stretch::Params{0, springs, of.stretch, 1}, springs),
+    write(make_launch(kernels::pbd_spring::info("slots", precision),
+                      kernels::pbd_spring::Params{0, springs, of.stretch, 1}, springs),
           in.spring, 1, "spring_correction");
     if (of.hinges)
-        write(make_launch(kernels::pbd_bend::info("slots", precision),
-                          kernels::pbd_bend::Params{0, hinges, of.bend, 1}, hinges),
+        write(make_launch(kernels::pbd_hinge::info("slots", precision),
+                          kernels::pbd_hinge::Params{0, hinges, of.bend, 1}, hinges),
               in.hinge, 4, "hinge_correction");
     if (of.volumes)
         write(make_launch(kernels::pbd_volume::info("slots", precision),

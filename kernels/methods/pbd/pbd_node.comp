@@ -17,6 +17,9 @@
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/pbd.glsl"
+#include "elements/spring.glsl"
+#include "elements/hinge.glsl"
+#include "elements/volume.glsl"
 
 PARAMS
 {
@@ -54,63 +57,95 @@ READ(6, BendingConstraint, hinge);
 
 #include "shared/pbd_jacobi.glsl"
 
+/// Of an element of four corners.
+rvec3 row_gradient(ElementRow row, uint corner)
+{
+    rvec3 first_two = corner == 0u ? row.g0 : row.g1;
+    rvec3 last_two = corner == 2u ? row.g2 : row.g3;
+    return corner < 2u ? first_two : last_two;
+}
+
+// What an element wants of one of its corners, per inverse mass; its first corner counts it if it has no
+// gradient. `entry`: an entry of `at`.
+
+rvec3 spring_wants(uint entry)
+{
+    bool is_a = entry % 2u == 0u;
+    DistanceConstraint c = spring[entry / 2u];
+    rvec4 x0 = position[c.a];
+    rvec4 x1 = position[c.b];
+    ElementRow row = spring_row(c, rvec3((x1 - x0) + (delta[c.b] - delta[c.a])));
+    RowPush push = row_push(row, row_weight(row, x0.w, x1.w), real(stretch_share));
+    if (report != 0u && is_a && !push.usable && row.counted && x0.w + x1.w > real(0))
+        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    rvec3 p0 = row.g0 * push.scale;
+    return is_a ? p0 : -p0;
+}
+
+#if HINGES
+rvec3 hinge_wants(uint entry)
+{
+    uint corner = entry % 4u;
+    BendingConstraint c = hinge[entry / 4u];
+    rvec4 x0 = position[c.edge0];
+    rvec4 x1 = position[c.edge1];
+    rvec4 x2 = position[c.wing0];
+    rvec4 x3 = position[c.wing1];
+    rvec4 d0 = delta[c.edge0];
+    rvec3 e1 = rvec3((x1 - x0) + (delta[c.edge1] - d0));
+    rvec3 e2 = rvec3((x2 - x0) + (delta[c.wing0] - d0));
+    rvec3 e3 = rvec3((x3 - x0) + (delta[c.wing1] - d0));
+    ElementRow row = hinge_row(c, e1, e2, e3);
+    RowPush push = row_push(row, row_weight(row, x0.w, x1.w, x2.w, x3.w), real(bend_share));
+    real masses = x0.w + x1.w + x2.w + x3.w;
+    if (report != 0u && corner == 0u && !push.usable && row.counted && masses > real(0))
+        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    rvec3 wanted = row_gradient(row, corner) * push.scale;
+    return wanted;
+}
+#endif
+
+#if VOLUMES
+rvec3 tetrahedron_wants(uint entry)
+{
+    uint corner = entry % 4u;
+    VolumeConstraint c = tetrahedron[entry / 4u];
+    rvec4 x0 = position[c.a];
+    rvec4 x1 = position[c.b];
+    rvec4 x2 = position[c.c];
+    rvec4 x3 = position[c.d];
+    rvec4 d0 = delta[c.a];
+    rvec3 e1 = rvec3((x1 - x0) + (delta[c.b] - d0));
+    rvec3 e2 = rvec3((x2 - x0) + (delta[c.c] - d0));
+    rvec3 e3 = rvec3((x3 - x0) + (delta[c.d] - d0));
+    ElementRow row = volume_row(c, e1, e2, e3);
+    RowPush push = row_push(row, row_weight(row, x0.w, x1.w, x2.w, x3.w), real(volume_share));
+    push = bounded_push(push, row, x0.w, x1.w, x2.w, x3.w, e1, e2, e3);
+    real masses = x0.w + x1.w + x2.w + x3.w;
+    if (report != 0u && corner == 0u && !push.usable && row.counted && masses > real(0))
+        COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
+    rvec3 wanted = row_gradient(row, corner) * push.scale;
+    return wanted;
+}
+#endif
+
 KERNEL(count)
 {
     rvec3 sum = rvec3(real(0));
     uint constraints = at[i + 1u] - at[i];
     for (uint j = at[i]; j < at[i + 1u]; ++j)
-    {
-        uint entry = at[j];
-        DistanceConstraint c = spring[entry / 2u];
-        rvec4 xa = position[c.a];
-        rvec4 xb = position[c.b];
-        SpringPush wanted = spring_push(c, xa, xb, delta[c.a], delta[c.b], real(stretch_share));
-        bool is_a = entry % 2u == 0u;
-        sum += is_a ? rvec3(wanted.push) : -rvec3(wanted.push);
-        if (report != 0u && is_a && !wanted.usable && xa.w + xb.w > real(0) && c.rest_length > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
-    }
+        sum += spring_wants(at[j]);
 #if HINGES
     uint bends = hinges_at + i;
     constraints += at[bends + 1u] - at[bends];
     for (uint j = at[bends]; j < at[bends + 1u]; ++j)
-    {
-        uint entry = at[j];
-        uint corner = entry % 4u;
-        BendingConstraint c = hinge[entry / 4u];
-        rvec4 p0 = position[c.edge0];
-        rvec4 p1 = position[c.edge1];
-        rvec4 p2 = position[c.wing0];
-        rvec4 p3 = position[c.wing1];
-        HingePush wanted = hinge_push(c, p0, p1, p2, p3, delta[c.edge0], delta[c.edge1], delta[c.wing0],
-                                      delta[c.wing1], real(bend_share));
-        rvec3 at_edge = corner == 0u ? wanted.edge0 : wanted.edge1;
-        rvec3 at_wing = corner == 2u ? wanted.wing0 : wanted.wing1;
-        sum += corner < 2u ? at_edge : at_wing;
-        if (report != 0u && corner == 0u && !wanted.shaped && p0.w + p1.w + p2.w + p3.w > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
-    }
+        sum += hinge_wants(at[j]);
 #endif
 #if VOLUMES
     uint volumes = volumes_at + i;
     constraints += at[volumes + 1u] - at[volumes];
     for (uint j = at[volumes]; j < at[volumes + 1u]; ++j)
-    {
-        uint entry = at[j];
-        uint corner = entry % 4u;
-        VolumeConstraint c = tetrahedron[entry / 4u];
-        rvec4 p0 = position[c.a];
-        rvec4 p1 = position[c.b];
-        rvec4 p2 = position[c.c];
-        rvec4 p3 = position[c.d];
-        VolumePush wanted = volume_push(c, p0, p1, p2, p3, delta[c.a], delta[c.b], delta[c.c], delta[c.d],
-                                        real(volume_share));
-        rvec3 first_two = corner == 0u ? wanted.a : wanted.b;
-        rvec3 last_two = corner == 2u ? wanted.c : wanted.d;
-        sum += corner < 2u ? first_two : last_two;
-        if (report != 0u && corner == 0u && !wanted.usable && p0.w + p1.w + p2.w + p3.w > real(0))
-            COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
-    }
+        sum += tetrahedron_wants(at[j]);
 #endif
     rvec4 better = jacobi_step(delta[i], sum, constraints, position[i].w);
 #if CHEBYSHEV

@@ -1,10 +1,10 @@
-#include "taut/kernels/pbd_bend.hpp"
+#include "taut/kernels/pbd_hinge.hpp"
 
 #include "support/pbd_cases.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::pbd_bend::Params;
+using kernels::pbd_hinge::Params;
 
 TEMPLATE_TEST_CASE("a PBD hinge turns its four corners by its share of what is missing", "", float, double)
 {
@@ -19,7 +19,7 @@ TEMPLATE_TEST_CASE("a PBD hinge turns its four corners by its share of what is m
     for (const std::uint32_t n : {5u, count, 5u}) // before and after: colours which must not be touched
         add_hinge_colour(in, random, n);
     plant_hinges(in, in.hinge_colours[1], count);
-    check_pbd_colours<Params>(kernels::pbd_bend::info, in, in.hinge, in.hinge_colours, 1, 2, variant, share,
+    check_pbd_colours<Params>(kernels::pbd_hinge::info, in, in.hinge, in.hinge_colours, 1, 2, variant, share,
                               report);
 }
 
@@ -33,6 +33,6 @@ TEMPLATE_TEST_CASE("colours of PBD hinges in one group give what one dispatch a 
         add_hinge_colour(in, random, n);
     plant_hinges(in, in.hinge_colours[1], 64);
     for (const char* variant : {"tail", ""})
-        check_pbd_colours<Params>(kernels::pbd_bend::info, in, in.hinge, in.hinge_colours, 1, 4, variant,
+        check_pbd_colours<Params>(kernels::pbd_hinge::info, in, in.hinge, in.hinge_colours, 1, 4, variant,
                                   0.5f, true);
 }

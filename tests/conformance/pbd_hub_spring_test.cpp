@@ -1,10 +1,10 @@
-#include "taut/kernels/pbd_hub.hpp"
+#include "taut/kernels/pbd_hub_spring.hpp"
 
 #include "support/pbd_cases.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::pbd_hub::Params;
+using kernels::pbd_hub_spring::Params;
 
 namespace {
 
@@ -54,7 +54,7 @@ TEMPLATE_TEST_CASE("a PBD hub moves by the mean of its copies and every spoke by
             {"position", bytes_of(in.position)},
             {"delta", bytes_of(in.delta)},
             {"events", no_events()}};
-    c.launches = {make_launch(kernels::pbd_hub::info("", c.precision), Params{2, n, share, 1}, 1)};
+    c.launches = {make_launch(kernels::pbd_hub_spring::info("", c.precision), Params{2, n, share, 1}, 1)};
     // Every spoke sees the hub where it was, with 1/n of its mass.
     State state = pbd_state(in, true), seen = state;
     seen.position[0].w *= n;

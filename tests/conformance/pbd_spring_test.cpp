@@ -1,10 +1,10 @@
-#include "taut/kernels/pbd_stretch.hpp"
+#include "taut/kernels/pbd_spring.hpp"
 
 #include "support/pbd_cases.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
-using kernels::pbd_stretch::Params;
+using kernels::pbd_spring::Params;
 
 TEMPLATE_TEST_CASE("a PBD spring moves both ends by its share of what is missing", "", float, double)
 {
@@ -19,7 +19,7 @@ TEMPLATE_TEST_CASE("a PBD spring moves both ends by its share of what is missing
     for (const std::uint32_t n : {5u, count, 5u}) // before and after: colours which must not be touched
         add_spring_colour(in, random, n);
     plant_springs(in, in.spring_colours[1], count);
-    check_pbd_colours<Params>(kernels::pbd_stretch::info, in, in.spring, in.spring_colours, 1, 2, variant,
+    check_pbd_colours<Params>(kernels::pbd_spring::info, in, in.spring, in.spring_colours, 1, 2, variant,
                               share, report);
 }
 
@@ -32,6 +32,6 @@ TEMPLATE_TEST_CASE("colours of PBD springs in one group act one after another", 
         add_spring_colour(in, random, n);
     plant_springs(in, in.spring_colours[1], 64);
     for (const char* variant : {"tail", ""})
-        check_pbd_colours<Params>(kernels::pbd_stretch::info, in, in.spring, in.spring_colours, 1, 5,
+        check_pbd_colours<Params>(kernels::pbd_spring::info, in, in.spring, in.spring_colours, 1, 5,
                                   variant, 0.5f, true);
 }
