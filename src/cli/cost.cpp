@@ -233,6 +233,25 @@ int cost(const CostCommand& command)
     return study.sound() ? kDone : kNotSound;
 }
 
+/// How a study measures each setting.
+void add_measuring_options(CLI::App& command, CostCommand& options)
+{
+    command
+        .add_option("--repeats", options.repeats,
+                     "Timed repetitions of each setting, in turns with all others (default: 10)")
+        ->check(whole_number(1, 1000));
+    command
+        .add_option(
+            "--rest-tolerance", options.rest_tolerance,
+            "Static: what a scene moves by in a second at rest, of its displacement (default: 1e-5); "
+            "below it errors depend on when rest is called")
+        ->check(number_between(0, 0.1, Ends::closed));
+    command
+        .add_option("--linear-tolerance", options.linear_tolerance,
+                     "Of every linear solve (default: the scene's, and what designs vary)")
+        ->check(number_between(0, 1, Ends::open));
+}
+
 } // namespace
 
 void add_cost(CLI::App& app, Command& chosen)
@@ -276,20 +295,7 @@ void add_cost(CLI::App& app, Command& chosen)
         without->excludes(command->get_option(other));
     add_limit_options(*command, options->limits,
                       "Moving: frames compared at most (default: the scene's)");
-    command
-        ->add_option("--repeats", options->repeats,
-                     "Timed repetitions of each setting, in turns with all others (default: 10)")
-        ->check(whole_number(1, 1000));
-    command
-        ->add_option(
-            "--rest-tolerance", options->rest_tolerance,
-            "Static: what a scene moves by in a second at rest, of its displacement (default: 1e-5); "
-            "below it errors depend on when rest is called")
-        ->check(number_between(0, 0.1, Ends::closed));
-    command
-        ->add_option("--linear-tolerance", options->linear_tolerance,
-                     "Of every linear solve (default: the scene's, and what designs vary)")
-        ->check(number_between(0, 1, Ends::open));
+    add_measuring_options(*command, *options);
     command->add_option("--out", options->folder,
                         "Folder for cost.csv, cost.json, cost.svg, cost_work.svg and cost_gaps.md (what has "
                         "no point); with several methods also "
