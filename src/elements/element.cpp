@@ -37,6 +37,9 @@ void check_kernel(const ElementKind& kind, const KernelInfo& kernel)
                          std::to_string(kernel.bindings.empty() ? 0 : kernel.bindings[0].stride) +
                          " bytes, " + std::to_string(kind.corners) + " corners and " +
                          std::to_string(kind.values.size()) + " values take " + std::to_string(expected));
+    if (kernel.name != "xpbd_" + kind.name) // by which plans look it up
+        refuse(kind, "it has the kernel " + std::string(kernel.name) + "; pass those of the file " +
+                         kind.name + ".glsl");
 }
 
 void check_kind(const ElementKind& kind)

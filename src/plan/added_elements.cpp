@@ -34,6 +34,9 @@ void check_list(const std::string& where, const Body& body, const Body::Elements
     const ElementKind* kind = find_element(list.kind);
     if (kind == nullptr)
         return refuse(".kind is \"" + list.kind + "\"; the program has added: " + added_elements());
+    for (const Effect& effect : effect_table()) // passes, buffers and sets are told apart by it
+        if (effect.name == kind->name)
+            refuse(".kind is \"" + kind->name + "\", which an effect of Taut is called; rename the element");
     if (list.vertices.size() % kind->corners != 0)
         refuse(".vertices has " + std::to_string(list.vertices.size()) + " entries; \"" + kind->name +
                "\" takes " + std::to_string(kind->corners) + " an element");

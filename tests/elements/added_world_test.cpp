@@ -168,6 +168,25 @@ TEST_CASE("what a scene says wrong of added elements is refused with the place a
     CHECK(says(refusal(scene), "method \"vbd\" has no kernels for elements that the program adds"));
 }
 
+TEST_CASE("an element that is called as an effect is refused")
+{
+    add_elements();
+    static std::vector<KernelInfo> kernels(find_element("cubic_spring")->kernels.begin(),
+                                           find_element("cubic_spring")->kernels.end());
+    for (KernelInfo& kernel : kernels)
+        kernel.name = "xpbd_distance";
+    ElementKind kind = *find_element("cubic_spring");
+    kind.kernels = kernels;
+    kind.name = "length";
+    CHECK_THROWS_AS(add_element(kind), Error); // its kernels are another's
+    kind.name = "distance";
+    add_element(kind);
+    Scene scene = hanging_mass();
+    add_spring(scene, 1e-3);
+    scene.bodies[0].elements[0].kind = "distance";
+    CHECK(says(refusal(scene), "which an effect of Taut is called"));
+}
+
 TEST_CASE("an element that does not fit its kernels is not added")
 {
     add_elements();
