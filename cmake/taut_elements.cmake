@@ -57,6 +57,9 @@ function(taut_generate_kernel kernel stem folder out)
         DEPENDS taut-kernelc ${read_by_both} ${included}
         COMMENT "Kernel ${stem}"
         VERBATIM)
+    # A program's precompiled headers are made with other options than these.
+    set_source_files_properties(${folder}/${stem}.native.cpp ${folder}/${stem}.lanes.cpp PROPERTIES
+        SKIP_PRECOMPILE_HEADERS ON)
     set_source_files_properties(${folder}/${stem}.native.cpp PROPERTIES
         OBJECT_DEPENDS "${read_by_both}" COMPILE_DEFINITIONS TAUT_LANES=${taut_lanes}
         COMPILE_OPTIONS "${taut_kernel_options}")

@@ -1,5 +1,6 @@
 #include "taut/kernels/acad_force.hpp"
 
+#include "conformance/tolerances.hpp"
 #include "support/acad_net.hpp"
 #include "support/spring_net.hpp"
 

@@ -1,5 +1,6 @@
 #include "taut/kernels/acad_rows.hpp"
 
+#include "conformance/tolerances.hpp"
 #include "support/acad_net.hpp"
 
 using namespace taut;

@@ -1,6 +1,7 @@
 #include "taut/kernels/implicit_solids.hpp"
 
 #include "support/solid_net.hpp"
+#include "support/solid_stress.hpp"
 
 using namespace taut;
 using namespace taut::conformance;

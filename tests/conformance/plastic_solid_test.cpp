@@ -2,6 +2,8 @@
 
 #include "support/solid_net.hpp"
 
+#include <Eigen/Eigenvalues>
+
 using namespace taut;
 using namespace taut::conformance;
 

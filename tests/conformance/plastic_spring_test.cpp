@@ -1,5 +1,6 @@
 #include "taut/kernels/plastic_spring.hpp"
 
+#include "conformance/tolerances.hpp"
 #include "support/expect.hpp"
 #include "support/random.hpp"
 

@@ -150,8 +150,4 @@ inline double tolerance_of(std::string_view kernel)
     return 0;
 }
 
-/// The native executors always; software drivers because they round each operation as C++ does.
-/// Hardware may fuse products into sums and divide with up to 2.5 units of error: tolerance only.
-inline bool bitwise_equal_expected(const DeviceInfo& info) { return !info.hardware_gpu; }
-
 } // namespace taut::conformance

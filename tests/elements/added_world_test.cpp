@@ -91,7 +91,7 @@ TEST_CASE("a mass hangs from a spring of a cubic law as far down as its weight a
 TEST_CASE("a triangle of a held area that is drawn out of it comes back, and its middle stays")
 {
     add_elements();
-    for (const std::string& precision : {"float", "double"})
+    for (const std::string precision : {"float", "double"})
     {
         CAPTURE(precision);
         Scene scene = hanging_mass(precision);

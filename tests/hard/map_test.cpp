@@ -26,7 +26,7 @@ struct Cell
 
 const char* only_id() { return std::getenv("TAUT_MAP_ONLY"); } // rows of one case, for whoever works on it
 
-bool updates() { return test_detail::is_set("TAUT_MAP_UPDATE"); }
+bool updates() { return environment_has("TAUT_MAP_UPDATE"); }
 
 const std::vector<MapCase>& cases()
 {
@@ -40,7 +40,7 @@ const std::vector<MapCase>& cases()
 }
 
 /// For tests/mutants.sh: cells after the first that is not as committed are left out.
-bool stops_at_first() { return test_detail::is_set("TAUT_MAP_FIRST"); }
+bool stops_at_first() { return environment_has("TAUT_MAP_FIRST"); }
 
 /// Empty, or what keeps the cell from being as committed.
 std::string as_committed(const std::vector<Row>& table, const Cell& cell)

@@ -305,7 +305,7 @@ TEST_CASE("no blow-up is called completed, and next to nothing that is right any
             INFO("case " << k << ", " << scene.method.type << ", " << truth << ": " << word << ", "
                          << run.report.reason << "; kinetic energy " << shown(run.most, 3) << ", solved "
                          << shown(solution.most, 3) << " (per kg and vertex)");
-            if (test_detail::is_set("TAUT_NOTES"))
+            if (environment_has("TAUT_NOTES"))
                 std::printf("soundness case %d | %s | %s | %s | load residual %g, strain %g of %g | %s\n", k,
                             scene.method.type.c_str(), truth.c_str(), word.c_str(), run.report.load_residual,
                             run.strain, solution.strain, run.report.reason.c_str());
@@ -317,7 +317,7 @@ TEST_CASE("no blow-up is called completed, and next to nothing that is right any
             ++counts["refused"][std::string(to_string(error.code()))];
         }
     }
-    if (test_detail::is_set("TAUT_NOTES"))
+    if (environment_has("TAUT_NOTES"))
         for (const auto& [truth, words] : counts)
             for (const auto& [word, count] : words)
                 std::printf("soundness | %s | %s | %d\n", truth.c_str(), word.c_str(), count);

@@ -20,7 +20,7 @@ void missing_driver()
     const std::string what =
         "RADV: there is no radeon_icd*.json in the folders of Vulkan drivers; install the "
         "package mesa-vulkan-drivers";
-    if (test_detail::is_set("TAUT_REQUIRE_DEVICE"))
+    if (environment_has("TAUT_REQUIRE_DEVICE"))
         FAIL(what);
     TAUT_LEFT_OUT(what);
 }
@@ -62,7 +62,7 @@ TEST_CASE("Every kernel compiles for AMD GPUs without spilling, in the registers
     const Table now = compile_families(driver);
     if (now.rows.empty())
         return;
-    if (test_detail::is_set("TAUT_RADV_UPDATE"))
+    if (environment_has("TAUT_RADV_UPDATE"))
         write_table(table_file(), now);
     const Table committed = read_table(table_file());
     for (const std::string& fault : faults(committed, now))

@@ -4,7 +4,7 @@
 // TAUT_NOTES=1 prints one line a measured number, "D02 | vulkan | forward error | 1.02e-5"; the table of
 // docs/hard-cases.md is made of them.
 
-#include "conformance/tolerances.hpp"
+#include "support/expect.hpp"
 #include "support/skip.hpp"
 #include "support/data.hpp"
 #include "support/devices.hpp"

@@ -96,7 +96,7 @@ TEST_CASE("a free solid that starts squeezed, sheared or mirrored finds its shap
         return glm::degrees(turning(world));
     };
     const double rate = rate_with({});
-    if (test_detail::is_set("TAUT_NOTES"))
+    if (environment_has("TAUT_NOTES"))
         WARN(method << ", " << name << ", " << modulus << " Pa: " << rate << " degrees a second, without "
                     << rate_with(without_momentum(start)));
     CHECK(rate < 0.1); // 20 to 800 where the solve decides
@@ -151,7 +151,7 @@ TEST_CASE("a free solid turns on as it was turned, under every count of substeps
         return std::pair(before, turning(world));
     };
     const auto [before, after] = rates_with({});
-    if (test_detail::is_set("TAUT_NOTES"))
+    if (environment_has("TAUT_NOTES"))
     {
         const auto [had, has] = rates_with(without_momentum(scene));
         WARN(method << ", " << substeps << " substeps: keeps " << after / before << ", without "
@@ -212,7 +212,7 @@ TEST_CASE("a solid thrown into a tangle finds its shape about as often as if it 
         with += recovered(ratio, true);
         without += recovered(ratio, false);
     }
-    if (test_detail::is_set("TAUT_NOTES"))
+    if (environment_has("TAUT_NOTES"))
         WARN("of " << 2 * kTangles << " tangles " << with << " come apart, without the effect " << without);
     CHECK(with >= without - 0.03 * 2 * kTangles); // one standard deviation; all of it at once loses more
 }
@@ -238,7 +238,7 @@ TEST_CASE("a cube that is dropped flat turns less the more substeps it has", "[m
     };
     const double few = rate(10), some = rate(40), many = rate(160);
     CAPTURE(few, some, many);
-    if (test_detail::is_set("TAUT_NOTES"))
+    if (environment_has("TAUT_NOTES"))
         WARN("rad/s with 10, 40, 160 substeps: " << few << ", " << some << ", " << many);
     CHECK(many < few / 10);
     CHECK(many < glm::radians(5.0));

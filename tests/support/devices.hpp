@@ -12,90 +12,20 @@
 
 #include "taut/runtime/device.hpp"
 
-#include <algorithm>
-#include <cstdlib>
-#include <map>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace taut {
 
 /// Opened once per process. Vulkan comes with its validation layers, the native executor with at least
 /// two threads. Throws what Device::open throws. Call from one thread.
-inline std::shared_ptr<Device> test_device(const std::string& selector)
-{
-    // Never destroyed: graphics drivers are gone by the time static objects of a program end.
-    static auto& opened = *new std::map<std::string, std::shared_ptr<Device>>;
-    std::shared_ptr<Device>& device = opened[selector];
-    if (!device)
-    {
-        OpenOptions options;
-        options.validation = selector.starts_with("vulkan");
-        options.threads = std::max(2u, std::thread::hardware_concurrency());
-        device = Device::open(selector, options);
-    }
-    return device;
-}
+std::shared_ptr<Device> test_device(const std::string& selector);
 
-namespace test_detail {
-
-inline std::vector<std::string> split(const std::string& text)
-{
-    std::vector<std::string> words;
-    for (std::size_t begin = 0; begin <= text.size();)
-    {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        if (end > begin)
-            words.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return words;
-}
-
-inline bool is_set(const char* variable)
-{
-    const char* value = std::getenv(variable);
-    return value && *value && std::string(value) != "0";
-}
-
-/// Whether it opens; says so once if it does not.
-inline bool opens(const std::string& selector)
-{
-    try
-    {
-        test_device(selector);
-        return true;
-    }
-    catch (const Error& error)
-    {
-        if (error.code() != ErrorCode::no_device || is_set("TAUT_REQUIRE_DEVICE"))
-            throw;
-        left_out(selector + ": " + error.what());
-        return false;
-    }
-}
-
-inline std::vector<std::string> find_devices()
-{
-    const char* chosen = std::getenv("TAUT_TEST_DEVICES");
-    if (chosen && *chosen)
-        return split(chosen); // named by a person: a missing one fails when it is opened
-    std::vector<std::string> selectors = {"cpu:serial", "cpu", "cpu:shuffled"};
-    for (const char* selector : {"vulkan", "opengl", "opengl:spirv"})
-        if (opens(selector))
-            selectors.push_back(selector);
-    return selectors;
-}
-
-} // namespace test_detail
+/// Whether an environment variable is there, not empty and not "0".
+bool environment_has(const char* variable);
 
 /// Selectors of every executor that opens here.
-inline const std::vector<std::string>& test_devices()
-{
-    static const std::vector<std::string> selectors = test_detail::find_devices();
-    return selectors;
-}
+const std::vector<std::string>& test_devices();
 
 } // namespace taut
