@@ -80,7 +80,8 @@ bool can_run(const Device& device, Precision precision);
 /// Runs on every executor; each result must agree with the reference, and bit for bit with cpu:serial where
 /// that is promised. No validation message may appear. `look`, if any, sees what each executor left.
 /// `bitwise`: false where NaN may come out, whose bits nobody promises.
-void look_on_every_device(const Case& c, const std::function<void(const Buffers&)>& look, bool bitwise = true);
+void look_on_every_device(const Case& c, const std::function<void(const Buffers&)>& look,
+                          bool bitwise = true);
 
 inline void check_on_every_device(const Case& c) { look_on_every_device(c, nullptr); }
 
