@@ -78,3 +78,10 @@ else()
     set(TAUT_EXPAT "")
     message(WARNING "expat.h or libexpat not found: building without .vtu (Debian, Ubuntu: libexpat1-dev)")
 endif()
+
+# Exact numbers for the judge: GMP and its header for C++ (gmpxx.h needs no second library here).
+find_path(TAUT_GMP_INCLUDE gmpxx.h REQUIRED)
+find_library(TAUT_GMP NAMES gmp REQUIRED)
+add_library(taut_deps_exact INTERFACE)
+target_include_directories(taut_deps_exact SYSTEM INTERFACE ${TAUT_GMP_INCLUDE})
+target_link_libraries(taut_deps_exact INTERFACE ${TAUT_GMP})

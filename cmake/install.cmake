@@ -15,6 +15,7 @@ set(taut_public_headers
     linear/device_matrix.hpp linear/stencil.hpp linear/preconditioner.hpp linear/aggregation.hpp linear/multigrid.hpp
     linear/cg.hpp linear/small.hpp linear/solve.hpp
     world/world.hpp world/hybrid.hpp world/sleep.hpp
+    judge/judge.hpp judge/surface.hpp judge/distance.hpp judge/exact.hpp judge/linking.hpp judge/sequence.hpp judge/swept.hpp
     report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp
     report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp
     report/gas.hpp report/energy_budget.hpp report/soundness.hpp)
@@ -64,7 +65,7 @@ install(EXPORT taut-targets NAMESPACE taut:: DESTINATION ${taut_cmake_dir})
 # found them.
 set(taut_link_names)
 set(taut_link_folders)
-foreach(library IN LISTS taut_glslang_libraries TAUT_SPIRV_TOOLS_OPT TAUT_SPIRV_TOOLS TAUT_EXPAT)
+foreach(library IN LISTS taut_glslang_libraries TAUT_SPIRV_TOOLS_OPT TAUT_SPIRV_TOOLS TAUT_EXPAT TAUT_GMP)
     if(library)
         cmake_path(GET library STEM LAST_ONLY stem)
         string(REGEX REPLACE "^lib" "" stem "${stem}")

@@ -10,7 +10,7 @@
 taut_packages_build=(g++ cmake ninja-build pkg-config libvulkan-dev libvulkan-volk-dev glslang-dev
     "spirv-tools-dev|spirv-tools" spirv-headers libglm-dev libeigen3-dev catch2 nlohmann-json3-dev
     libcli11-dev libassimp-dev libegl-dev libgl-dev libstb-dev
-    libexpat1-dev)
+    libexpat1-dev libgmp-dev)
 taut_packages_run=(libvulkan1 libegl1 mesa-vulkan-drivers libegl-mesa0 libgl1-mesa-dri)
 taut_packages_test=(vulkan-validationlayers libvalijson-dev)
 taut_packages_bench=(libviennacl-dev libbullet-dev) # rivals of taut_linear_bench and taut_bullet_bench; no script installs them

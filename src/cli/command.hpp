@@ -37,6 +37,7 @@ void add_cost(CLI::App& app, Command& chosen);
 void add_compare(CLI::App& app, Command& chosen);
 void add_tune(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
+void add_judge(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
 void add_solve(CLI::App& app, Command& chosen);
 void add_tetrahedralise(CLI::App& app, Command& chosen);

@@ -37,6 +37,7 @@ cli::Command parse(int argc, char** argv, int& status)
     cli::add_compare(app, chosen);
     cli::add_tune(app, chosen);
     cli::add_check(app, chosen);
+    cli::add_judge(app, chosen);
     cli::add_schema(app, chosen);
     cli::add_solve(app, chosen);
     cli::add_tetrahedralise(app, chosen);

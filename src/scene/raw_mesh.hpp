@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -27,6 +28,10 @@ RawMesh read_obj(std::string_view text, const std::string& file);
 RawMesh read_off(std::string_view text, const std::string& file);
 RawMesh read_ply(std::string_view text, const std::string& file);
 RawMesh read_stl(std::string_view text, const std::string& file);
+
+/// A file of any of these formats, by its extension. Throws Error{io}, and Error{bad_input} also where a
+/// coordinate is beyond 1e30.
+RawMesh read_raw_mesh(const std::filesystem::path& file);
 
 /// Cuts a face into triangles at its first corner.
 void add_face(RawMesh& mesh, std::span<const std::uint32_t> corners);

@@ -45,13 +45,27 @@ void check_size(const RawMesh& raw, const std::string& file)
                                                       "; coordinates must be at most 1e30 in magnitude");
 }
 
+RawMesh parse_raw(std::string_view text, std::string extension, const std::string& file)
+{
+    RawMesh raw = reader_of(std::move(extension), file)(text, file);
+    check_size(raw, file);
+    return raw;
+}
+
+// Vertices have 32-bit numbers, and a file needs more than a byte for each.
+constexpr std::uintmax_t kMaxMeshBytes = std::uintmax_t(1) << 32;
+
 } // namespace
+
+RawMesh read_raw_mesh(const std::filesystem::path& file)
+{
+    return parse_raw(read_file(file, kMaxMeshBytes), file.extension().string(), file.string());
+}
 
 Mesh parse_mesh(std::string_view text, std::string extension, const std::string& file, double weld_distance,
                 MeshFindings& findings)
 {
-    const RawMesh raw = reader_of(std::move(extension), file)(text, file);
-    check_size(raw, file);
+    const RawMesh raw = parse_raw(text, std::move(extension), file);
     findings = {};
     Mesh mesh = clean(raw, weld_distance, findings);
     findings.skipped = raw.skipped;
@@ -66,11 +80,9 @@ Mesh parse_mesh(std::string_view text, std::string extension, const std::string&
 
 Mesh read_mesh(const std::filesystem::path& file, double weld_distance, MeshFindings* findings)
 {
-    // Vertices have 32-bit numbers, and a file needs more than a byte for each.
-    constexpr std::uintmax_t max_bytes = std::uintmax_t(1) << 32;
     MeshFindings found;
-    Mesh mesh = scene_file::parse_mesh(scene_file::read_file(file, max_bytes), file.extension().string(),
-                                       file.string(), weld_distance, found);
+    Mesh mesh = scene_file::parse_mesh(scene_file::read_file(file, scene_file::kMaxMeshBytes),
+                                       file.extension().string(), file.string(), weld_distance, found);
     if (findings)
         *findings = std::move(found);
     return mesh;

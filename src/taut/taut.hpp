@@ -1,6 +1,7 @@
 #pragma once
 // The one public include.
 
+#include "taut/judge/judge.hpp"
 #include "taut/linear/matrix_market.hpp"
 #include "taut/linear/solve.hpp"
 #include "taut/plan/plan.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// What a Newton step needs of an elastic tetrahedron in fp64: the derivative of its stress by definition, made
-// positive semidefinite by its eigenvalues.
+// What a Newton step needs of an elastic tetrahedron in fp64: the derivative of its stress by definition,
+// made positive semidefinite by its eigenvalues.
 
 #include <Eigen/Core>
 #include <glm/mat3x3.hpp>

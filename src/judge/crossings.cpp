@@ -1,0 +1,40 @@
+#include "taut/judge/crossings.hpp"
+
+#include "taut/judge/box_tree.hpp"
+#include "taut/judge/exact.hpp"
+
+#include <algorithm>
+
+namespace taut::judging {
+
+std::vector<std::array<std::uint32_t, 2>> intersecting_triangles(const Surface& surface,
+                                                                 const std::vector<glm::dvec3>& positions)
+{
+    std::vector<Box> boxes(surface.triangles.size());
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+        for (const std::uint32_t v : surface.triangles[t])
+            boxes[t].add(positions[v]);
+    const BoxTree tree(boxes);
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (std::size_t e = 0; e < surface.edges.size(); ++e)
+    {
+        const auto [a, b] = surface.edges[e];
+        Box box;
+        box.add(positions[a]);
+        box.add(positions[b]);
+        tree.overlapping(box, [&, a = a, b = b](std::uint32_t t) {
+            const Triangle& other = surface.triangles[t];
+            if (has(other, a) || has(other, b) ||
+                !segment_meets_triangle(positions[a], positions[b],
+                                        {positions[other[0]], positions[other[1]], positions[other[2]]}))
+                return;
+            for (const std::uint32_t own : surface.edge_triangles[e])
+                pairs.push_back({std::min(own, t), std::max(own, t)});
+        });
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+} // namespace taut::judging

@@ -1,0 +1,89 @@
+// taut judge: scenes, folders and point caches, and what it refuses.
+
+#include "cli/program.hpp"
+#include "support/catch.hpp"
+
+using program::Folder;
+using program::Result;
+
+namespace {
+
+/// Two sheets of 4 x 4 cells, the upper one `height` above the lower; nothing keeps them apart.
+std::string falling_sheet(double height)
+{
+    const std::string flat = R"("rotate": {"axis": [1, 0, 0], "degrees": -90})";
+    return R"({"taut": 1, "timestep": 0.02, "duration": 1, "bodies": [
+        {"grid": {"cells": [4, 4], "size": [1, 1]}, "transform": {)" +
+           flat + R"(},
+         "pins": [{"corners": ["top_left", "top_right", "bottom_left", "bottom_right"]}]},
+        {"grid": {"cells": [3, 3], "size": [0.4, 0.4]}, "velocity": [0, -2, 0],
+         "transform": {"translate": [0.1, )" +
+           std::to_string(height) + ", 0.1], " + flat + "}}]}";
+}
+
+std::string triangle_at(double z)
+{
+    return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 " + std::to_string(z) + "\nv 0.3 0.2 " +
+           std::to_string(z + 1) + "\nv 0.2 0.3 " + std::to_string(z + 1) + "\nf 1 2 3\nf 4 5 6\n";
+}
+
+} // namespace
+
+TEST_CASE("a folder of frames is judged: exit status 1 from where a triangle is pierced")
+{
+    const Folder folder;
+    folder.file("f_1.obj", triangle_at(0.5));
+    folder.file("f_2.obj", triangle_at(0.25));
+    const Result clean = folder.taut({"judge", ".", "--json"});
+    CHECK(clean.status == 0);
+    const auto before = program::parse(clean.out);
+    CHECK(before["frames"] == 2);
+    CHECK(before["frames_with_crossings"] == 0);
+    CHECK(before["judged"][1]["min_distance"] == Approx(0.25));
+    CHECK(before["judged"][1]["min_distance_of_parts"] == Approx(0.25));
+    folder.file("f_10.obj", triangle_at(-0.25));
+    const Result pierced = folder.taut({"judge", ".", "--json"});
+    CHECK(pierced.status == 1);
+    const auto after = program::parse(pierced.out);
+    CHECK(after["frames_with_crossings"] == 1);
+    CHECK(after["judged"][2]["intersecting_pairs"] == 1);
+    CHECK(after["judged"][2]["first_pairs"][0] == nlohmann::json({0, 1}));
+    const Result text = folder.taut({"judge", "."});
+    CHECK(text.status == 1);
+    CHECK_THAT(text.out, Contains("f_10.obj: triangles 0/1") && Contains("In 1 of 3 frames"));
+}
+
+TEST_CASE("a scene is run and judged: one sheet falls through another")
+{
+    const Folder folder;
+    folder.file("scene.json", falling_sheet(0.3));
+    const Result result = folder.taut({"judge", "scene.json", "--device", "cpu:serial", "--json"});
+    CHECK(result.status == 1);
+    const auto json = program::parse(result.out);
+    CHECK(json["frames"] == 51);
+    CHECK(json["judged"][0]["intersecting_pairs"] == 0);
+    CHECK(json["frames_with_crossings"] > 0);
+    const Result few = folder.taut({"judge", "scene.json", "--device", "cpu:serial", "--frames", "3"});
+    CHECK(few.status == 0);
+    CHECK_THAT(few.out, Contains("Nothing passes through anything in 4 frames."));
+}
+
+TEST_CASE("what cannot be judged is refused by name")
+{
+    const Folder folder;
+    folder.file("a.obj", triangle_at(1));
+    folder.file("note.txt", "");
+    const auto refusal = [&](const std::vector<std::string>& arguments) {
+        const Result result = folder.taut(arguments);
+        CHECK(result.status == 2);
+        CHECK(result.out.empty());
+        return result.err;
+    };
+    CHECK_THAT(refusal({"judge", "note.txt"}), Contains("note.txt is not judged; name a scene"));
+    CHECK_THAT(refusal({"judge", "none.json"}), Contains("none.json"));
+    CHECK_THAT(refusal({"judge", "a.pc2"}), Contains("needs --mesh"));
+    CHECK_THAT(refusal({"judge", ".", "--mesh", "a.obj"}), Contains("--mesh goes with a point cache"));
+    CHECK_THAT(refusal({"judge", ".", "--every", "0"}), Contains("--every"));
+    folder.file("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK_THAT(refusal({"judge", "."}), Contains("b.obj: its faces are not those of"));
+}

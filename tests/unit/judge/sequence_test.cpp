@@ -1,0 +1,116 @@
+#include "taut/judge/sequence.hpp"
+
+#include "support/catch.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+using namespace taut;
+using namespace taut::judging;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// An empty folder of its own, removed at the end.
+struct Folder
+{
+    fs::path path = fs::temp_directory_path() / "taut_judge_sequence_test";
+    Folder()
+    {
+        fs::remove_all(path);
+        fs::create_directories(path);
+    }
+    ~Folder() { fs::remove_all(path); }
+
+    fs::path write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(path / name, std::ios::binary) << text;
+        return path / name;
+    }
+};
+
+std::string obj(double z, const std::string& face = "f 1 2 3")
+{
+    return "v 0 0 " + std::to_string(z) + "\nv 1 0 0\nv 0 1 0\n" + face + "\n";
+}
+
+std::string cache(std::uint32_t points, std::uint32_t samples, const std::vector<float>& values,
+                  std::uint32_t version = 1)
+{
+    std::string text("POINTCACHE2\0", 12);
+    const auto add = [&](const auto& value) {
+        text.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    add(version);
+    add(points);
+    add(0.0f);
+    add(1.0f);
+    add(samples);
+    for (const float value : values)
+        add(value);
+    return text;
+}
+
+std::string refusal(const auto& act)
+{
+    try
+    {
+        act();
+    }
+    catch (const Error& error)
+    {
+        return error.what();
+    }
+    return "nothing";
+}
+
+} // namespace
+
+TEST_CASE("a folder gives its frames in the order of their numbers")
+{
+    const Folder folder;
+    for (const int k : {10, 2, 1})
+        folder.write("mesh_" + std::to_string(k) + ".obj", obj(k));
+    folder.write("notes.txt", "no frame");
+    const auto frames = open_folder(folder.path);
+    REQUIRE(frames->frames() == 3);
+    CHECK(frames->triangles() == std::vector<Triangle>{{0, 1, 2}});
+    CHECK(frames->positions(0)[0].z == 1);
+    CHECK(frames->positions(1)[0].z == 2);
+    CHECK(frames->positions(2)[0].z == 10);
+    folder.write("mesh_2.obj", obj(2, "f 1 3 2"));
+    CHECK_THAT(refusal([&] { frames->positions(1); }), Contains("mesh_2.obj: its faces are not those of"));
+}
+
+TEST_CASE("a folder that is missing or has no frames is refused by name")
+{
+    const Folder folder;
+    CHECK_THAT(refusal([&] { open_folder(folder.path); }), Contains("has no file that ends in .obj"));
+    CHECK_THAT(refusal([&] { open_folder(folder.path / "gone"); }), Contains("gone cannot be read"));
+}
+
+TEST_CASE("a point cache gives the frames of its mesh")
+{
+    const Folder folder;
+    const fs::path mesh = folder.write("mesh.obj", obj(0));
+    std::vector<float> values;
+    for (int k = 0; k < 18; ++k)
+        values.push_back(0.5f * static_cast<float>(k));
+    const auto frames = open_point_cache(folder.write("a.pc2", cache(3, 2, values)), mesh);
+    REQUIRE(frames->frames() == 2);
+    CHECK(frames->positions(1)[0] == glm::dvec3(4.5, 5, 5.5));
+    CHECK(frames->positions(0)[2] == glm::dvec3(3, 3.5, 4));
+    const auto refused = [&](const std::string& bytes) {
+        return refusal([&] { open_point_cache(folder.write("b.pc2", bytes), mesh); });
+    };
+    CHECK_THAT(refused(cache(4, 1, values)), Contains("moves 4 vertices; ") && Contains("has 3"));
+    CHECK_THAT(refused(cache(3, 3, values)), Contains("has 104 bytes; 3 frames take 140"));
+    CHECK_THAT(refused(cache(3, 2, values, 2)), Contains("is no point cache"));
+    CHECK_THAT(refused("POINT"), Contains("is no point cache"));
+    CHECK_THAT(refused(cache(3, 0, {})), Contains("there must be one"));
+    CHECK_THAT(refusal([&] { open_point_cache(folder.path / "none.pc2", mesh); }),
+               Contains("cannot be read"));
+}
