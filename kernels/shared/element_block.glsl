@@ -61,24 +61,55 @@ INLINE ElementBlock edge_block(ElementForm form, uint i, uint j)
     return block;
 }
 
+INLINE ElementBlock sum_of_blocks(ElementBlock a, ElementBlock b)
+{
+    ElementBlock sum;
+    sum.x = a.x + b.x;
+    sum.y = a.y + b.y;
+    sum.z = a.z + b.z;
+    return sum;
+}
+
+/// Of all corners 1 and up with one of them. No sum begins with zero: drivers leave that out, and signs of
+/// zeros would differ.
+INLINE ElementBlock block_of_others(ElementForm form, uint j)
+{
+    ElementBlock sum = edge_block(form, 1u, j);
+#if ELEMENT_CORNERS > 2
+    sum = sum_of_blocks(sum, edge_block(form, 2u, j));
+#endif
+#if ELEMENT_CORNERS > 3
+    sum = sum_of_blocks(sum, edge_block(form, 3u, j));
+#endif
+    return sum;
+}
+
 /// Of any two corners: those of corner 0 make every row and column of blocks add up to nothing.
 INLINE ElementBlock element_block(ElementForm form, uint i, uint j)
 {
-    ElementBlock sum;
-    sum.x = rvec3(real(0));
-    sum.y = rvec3(real(0));
-    sum.z = rvec3(real(0));
-    bool minus = (i == 0u) != (j == 0u);
-    for (uint a = 1u; a < uint(ELEMENT_CORNERS); ++a)
-        for (uint b = 1u; b < uint(ELEMENT_CORNERS); ++b)
-            if ((i == 0u || i == a) && (j == 0u || j == b))
-            {
-                ElementBlock block = edge_block(form, a, b);
-                sum.x += minus ? -block.x : block.x;
-                sum.y += minus ? -block.y : block.y;
-                sum.z += minus ? -block.z : block.z;
-            }
-    return sum;
+    ElementBlock block;
+    if (i > 0u && j > 0u)
+        block = edge_block(form, i, j);
+    else if (i + j > 0u)
+    {
+        block = block_of_others(form, i + j);
+        if (j == 0u)
+            block = turned_block(block);
+        block.x = -block.x;
+        block.y = -block.y;
+        block.z = -block.z;
+    }
+    else
+    {
+        block = block_of_others(form, 1u);
+#if ELEMENT_CORNERS > 2
+        block = sum_of_blocks(block, block_of_others(form, 2u));
+#endif
+#if ELEMENT_CORNERS > 3
+        block = sum_of_blocks(block, block_of_others(form, 3u));
+#endif
+    }
+    return block;
 }
 
 INLINE rvec3 block_times(ElementBlock block, rvec3 v)

@@ -17,7 +17,8 @@ namespace taut {
 namespace {
 
 /// Those with a folder of kernels over elements.
-constexpr std::array<std::string_view, 3> kMethods = {"xpbd", "pbd", "mass_spring"};
+constexpr std::array<std::string_view, 5> kMethods = {"xpbd", "pbd", "mass_spring", "implicit_euler",
+                                                      "vbd"};
 
 /// One element in plan vertices. corners <= 4.
 struct Added

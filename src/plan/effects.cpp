@@ -129,7 +129,10 @@ bool any_solid(const Scene& scene)
 
 bool any_elements(const Scene& scene) { return any_stretch(scene) || any_bending(scene); }
 
-bool any_blocks(const Scene& scene) { return any_elements(scene) || any_volume(scene) || any_solid(scene); }
+bool any_blocks(const Scene& scene)
+{
+    return any_elements(scene) || any_volume(scene) || any_solid(scene) || wants_added_elements(scene);
+}
 
 constexpr MethodSet kSweeps = only(MethodKind::xpbd) | only(MethodKind::pbd);
 constexpr MethodSet kDescents = only(MethodKind::vbd) | only(MethodKind::implicit_euler);

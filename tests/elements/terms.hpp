@@ -155,4 +155,70 @@ struct ElementNet
     }
 };
 
+/// How much curvature changes over the size of what rounds, and itself.
+template <typename Record>
+double block_size(const Record& record, std::array<glm::dvec3, Record::Energy::corners> x, double size)
+{
+    const auto values = record.values();
+    const auto here = terms_of<typename Record::Energy>(x, values);
+    double most = 0;
+    for (std::size_t k = 0; k < 3 * x.size(); ++k)
+    {
+        auto moved = x;
+        moved[k / 3][static_cast<int>(k % 3)] += 1e-6;
+        const auto there = terms_of<typename Record::Energy>(moved, values);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            for (std::size_t j = 0; j < x.size(); ++j)
+                for (int c = 0; c < 3; ++c)
+                    most = std::max({most, glm::length(here.curvature[i][j][c]),
+                                     glm::length(there.curvature[i][j][c] - here.curvature[i][j][c]) *
+                                         (size / 1e-6)});
+    }
+    return most;
+}
+
+template <typename Real, template <typename> typename Record>
+std::array<glm::dvec3, Record<Real>::Energy::corners> places(const ElementNet<Real, Record>& net,
+                                                             std::size_t k)
+{
+    std::array<glm::dvec3, Record<Real>::Energy::corners> x;
+    const auto v = corners_of(net.elements[k]);
+    for (std::size_t c = 0; c < x.size(); ++c)
+        x[c] = glm::dvec3(net.position[v[c]]) + glm::dvec3(net.delta[v[c]]);
+    return x;
+}
+
+/// E(x + w) - E(x): the difference where w is large, else the slope along the way, summed (Gauss-Legendre).
+template <typename Record>
+double rise_of(const Record& record, const std::array<glm::dvec3, Record::Energy::corners>& x,
+               const std::array<glm::dvec3, Record::Energy::corners>& w, double& size)
+{
+    using Energy = typename Record::Energy;
+    const auto values = record.values();
+    const auto at = [&](double share) {
+        auto moved = x;
+        for (std::size_t c = 0; c < x.size(); ++c)
+            moved[c] += w[c] * share;
+        return terms_of<Energy>(moved, values);
+    };
+    const auto now = at(0), then = at(1);
+    double way = 0, steep = 0;
+    for (std::size_t c = 0; c < x.size(); ++c)
+    {
+        way = std::max(way, glm::length(w[c] - w[0]));
+        steep += glm::length(now.slope[c]) + glm::length(then.slope[c]);
+    }
+    size = now.energy + then.energy + steep * (size + way) + now.stiff * size * way;
+    if (way > 1e-3)
+        return then.energy - now.energy;
+    double sum = 0;
+    constexpr double kAt[] = {0.5, 0.230765344947158, 0.769234655052842, 0.046910077030668, 0.953089922969332};
+    constexpr double kWeight[] = {0.284444444444444, 0.239314335249683, 0.239314335249683, 0.118463442528095,
+                                  0.118463442528095};
+    for (std::size_t k = 0; k < 5; ++k)
+        for (std::size_t c = 0; c < x.size(); ++c)
+            sum += kWeight[k] * glm::dot(at(kAt[k]).slope[c], w[c]);
+    return sum;
+}
+
 } // namespace taut::elements_test

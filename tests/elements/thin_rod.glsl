@@ -5,7 +5,7 @@
 //   2008, for small turns.
 // Departures: none.
 //! corners 3
-//! methods xpbd pbd mass_spring
+//! methods xpbd pbd mass_spring implicit_euler vbd
 //! with energy
 
 LAYOUT_STRUCT(ThinRod)

@@ -76,16 +76,17 @@ struct Net
     {
         return {{"position", bytes_of(position)}, {"low", bytes_of(low)},
                 {"delta", bytes_of(delta)},       {"predicted", bytes_of(predicted)},
-                {"spring", bytes_of(springs)},    {"hinge", bytes_of(hinges)},
+                {"spring", bytes_of(springs)},    {"constraint", bytes_of(hinges)},
                 {"held", bytes_of(held)},         {"step_values", bytes_of(std::vector{step})},
                 {"events", no_events()},          {"table", bytes_of(spring_table)}};
     }
 };
 
 /// The table of elements with `arity` corners; places go to `blocks`, those met for the first time marked.
+/// `own`: entries have a place for the vertex's own block, too.
 template <typename Real>
 std::vector<std::uint32_t> make_table(Net<Real>& net, const std::vector<std::uint32_t>& corners,
-                                      std::uint32_t arity, std::set<Place>& met)
+                                      std::uint32_t arity, std::set<Place>& met, bool own)
 {
     std::vector<std::vector<std::uint32_t>> at(net.count);
     std::set<std::uint32_t> counted;
@@ -110,7 +111,7 @@ std::vector<std::uint32_t> make_table(Net<Real>& net, const std::vector<std::uin
                 continue;
             at[v].push_back((arity * k + c) | (counted.insert(k).second ? kFirst : 0u));
             for (std::uint32_t other = 0; other < arity; ++other)
-                if (arity > 2 || other != c)
+                if (own || other != c)
                     at[v].push_back(place_of(v, corners[k * arity + other]));
         }
     std::vector<std::uint32_t> table;
@@ -142,8 +143,8 @@ void make_tables(Net<Real>& net)
         net.held.insert(net.held.end(), 3, net.position[v].w > 0 && used.count(v) > 0 ? 0u : 1u);
     net.blocks.clear();
     std::set<Place> met;
-    net.spring_table = make_table(net, ends, 2, met);
-    net.hinge_table = make_table(net, corners, 4, met);
+    net.spring_table = make_table(net, ends, 2, met, false);
+    net.hinge_table = make_table(net, corners, 4, met, true);
 }
 
 /// Vertices in [-1, 1]^3, some held; springs and hinges between random ones. The first springs and hinges are
