@@ -67,8 +67,8 @@ function(taut_generate_kernel kernel stem folder out)
 endfunction()
 
 # taut_add_elements(TARGET FILES FILE...): compiles the kernels of every method that an element's line
-# "//! methods" names, and adds them to TARGET, which includes "taut/kernels/<kernel>_<element>.hpp" and hands
-# all() of it to taut::add_element() (docs/how-to/add-an-element.md).
+# "//! methods" names, and adds them to TARGET, which includes "taut/kernels/<element>.hpp" and hands
+# kernels::<element>::all() to taut::add_element() (docs/how-to/add-an-element.md).
 function(taut_add_elements target)
     cmake_parse_arguments(PARSE_ARGV 1 given "" "" "FILES")
     if(NOT given_FILES)
@@ -83,16 +83,39 @@ function(taut_add_elements target)
             message(FATAL_ERROR "taut_add_elements(${target}): there is no file ${path}")
         endif()
         cmake_path(GET path STEM element)
+        set(stems)
         foreach(kernel IN LISTS kernels)
             taut_is_for(${kernel} ${path} wanted)
             if(wanted)
                 cmake_path(GET kernel STEM stem)
                 taut_generate_kernel(${kernel} ${stem}_${element} ${folder}/taut/kernels outputs ${path})
                 target_sources(${target} PRIVATE ${outputs})
+                list(APPEND stems ${stem}_${element})
             endif()
         endforeach()
+        taut_list_kernels(${element} ${folder}/taut/kernels/${element}.hpp ${stems})
     endforeach()
     target_include_directories(${target} PRIVATE ${folder} ${taut_kernel_folder} ${taut_native_folder})
+endfunction()
+
+# taut_list_kernels(ELEMENT HEADER STEMS...): writes the header that names all kernels of an element.
+function(taut_list_kernels element header)
+    set(includes)
+    set(calls)
+    foreach(stem IN LISTS ARGN)
+        string(APPEND includes "#include \"taut/kernels/${stem}.hpp\"\n")
+        string(APPEND calls "${stem}::all(), ")
+    endforeach()
+    file(CONFIGURE OUTPUT ${header} @ONLY CONTENT "// Generated. Do not edit.
+#pragma once
+${includes}
+#include <span>
+#include <vector>
+
+namespace taut::kernels::${element} {
+inline std::vector<std::span<const KernelInfo>> all() { return {${calls}}; }
+} // namespace taut::kernels::${element}
+")
 endfunction()
 
 # taut_is_for(KERNEL FILE OUT): whether the kernel is compiled for the element in FILE: its line "//! each element

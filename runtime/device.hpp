@@ -6,6 +6,7 @@
 #include "taut/runtime/base/dispatch.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/kernel_info.hpp"
+#include "taut/runtime/base/registry.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -210,6 +211,8 @@ public:
         std::string_view variant = {};
         Precision precision = Precision::float32;
         std::string_view label = {}; ///< empty: the kernel's name
+        /// Of another kernel with the same bindings and parameters; empty: the one of the Bindings.
+        std::string_view kernel = {};
     };
 
     /// Adds one dispatch over `count` elements (or groups); a count of 0 is checked but adds nothing.
@@ -220,7 +223,7 @@ public:
     Recorder& dispatch(const Bindings<Binding>& bindings, const typename Bindings<Binding>::Params& params,
                        std::uint32_t count, const Form& form)
     {
-        const KernelInfo& kernel = Bindings<Binding>::info(form.variant, form.precision);
+        const KernelInfo& kernel = kernel_of<Bindings<Binding>>(form);
         return add(kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)), count, {},
                    form.label);
     }
@@ -254,7 +257,7 @@ public:
                                 const typename Bindings<Binding>::Params& params, Binding group_counts,
                                 std::uint32_t largest_count, const Form& form)
     {
-        const KernelInfo& kernel = Bindings<Binding>::info(form.variant, form.precision);
+        const KernelInfo& kernel = kernel_of<Bindings<Binding>>(form);
         return add(kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
                    largest_count, std::move(group_counts), form.label);
     }
@@ -273,6 +276,12 @@ public:
     std::unique_ptr<Recording> finish();
 
 private:
+    template <typename Bindings>
+    static const KernelInfo& kernel_of(const Form& form)
+    {
+        return form.kernel.empty() ? Bindings::info(form.variant, form.precision)
+                                   : find_kernel(form.kernel, form.variant, form.precision);
+    }
     Recorder& add(const KernelInfo&, std::vector<Binding>, std::span<const std::byte> params,
                   std::uint32_t count, std::optional<Binding> indirect, std::string_view label);
     BufferRange intern(const Binding& binding);

@@ -5,7 +5,7 @@
 //   gradients.
 // Departures: those of shared/hinge.glsl.
 //! corners 4
-//! methods xpbd pbd
+//! methods xpbd pbd mass_spring implicit_euler
 #include "shared/hinge.glsl"
 
 #define hinge_record BendingConstraint

@@ -1,28 +1,25 @@
 // By how much a Newton step, whole and halved again and again, would raise the incremental potential
-// 1/2 |displacement - guess|_M^2 + h^2 (energy of springs, hinges and tetrahedra): partial sums for every
-// trial, of vertices (no variant), springs, hinges, tetrahedra. Differences are formed element by element,
-// so that they are not lost in the potential itself.
+// 1/2 |displacement - guess|_M^2 + h^2 (energy of springs, tetrahedra and other elements): partial sums for
+// every trial, of vertices (no variant), springs, tetrahedra; those of others are implicit_euler_rise.comp's.
+// Differences are formed element by element, so that they are not lost in the potential itself.
 //
 // Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2.
 // Departures: a damper counts with the direction that its spring has before the step.
-// Bytes per vertex 60, per spring end 60 and a spring 24, per hinge corner 44 and a hinge 24, per corner of a
-// tetrahedron 44 and a tetrahedron 72 (float).
+// Bytes per vertex 60, per spring end 60 and a spring 24, per corner of a tetrahedron 44 and a tetrahedron 72
+// (float).
 //! variant springs SPRINGS=1
-//! variant hinges HINGES=1
 //! variant solids SOLIDS=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
-#if HINGES
-#include "shared/hinge.glsl"
-#elif SOLIDS
+#if SOLIDS
 #include "shared/solid.glsl"
 #endif
 #include "shared/rise.glsl"
 
 PARAMS
 {
-    uint count; // vertices, springs, hinges or tetrahedra
+    uint count; // vertices, springs or tetrahedra
     uint chunk; // of them a group
     uint groups;
     uint trials; // 1 and the number of halvings
@@ -40,9 +37,6 @@ WRITE(3, real, partials); // trials * parts * groups
 READ(4, Spring, spring);
 READ_ONE(5, StepValues, step_values);
 READ(6, rvec4, low); // m
-#elif HINGES
-READ(4, BendingConstraint, hinge);
-READ_ONE(5, StepValues, step_values);
 #elif SOLIDS
 READ(4, SolidTetrahedron, solid);
 READ_ONE(5, StepValues, step_values);
@@ -72,30 +66,6 @@ real rise_of(uint k, real share)
     real along = len > real(0) ? dot(d, w) / len : real(0);
     real gone = len > real(0) ? dot(d, before) / len * real(lift) : real(0);
     return elastic + (h * s.damping) * (along * (gone + real(0.5) * along));
-}
-#elif HINGES
-rvec3 between(uint from, uint to, real share)
-{
-    rvec3 way = rvec3(position[to] - position[from]) + rvec3(delta[to] - delta[from]);
-    return way + (step_of(to) - step_of(from)) * (share / real(lift));
-}
-
-HingeShape shape_of(BendingConstraint c, real share)
-{
-    return hinge_shape(between(c.edge0, c.edge1, share), between(c.edge0, c.wing0, share),
-                       between(c.edge0, c.wing1, share));
-}
-
-real rise_of(uint k, real share)
-{
-    BendingConstraint c = hinge[k];
-    real h = step_values[0].substep;
-    HingeShape now = shape_of(c, real(0));
-    HingeShape then = shape_of(c, share);
-    real turn = angle_difference(then.angle, now.angle);
-    real both = real(2) * angle_difference(now.angle, c.rest_angle) + turn;
-    real rise = real(0.5) * ((h / c.compliance) * h) * ((turn * real(lift)) * (both * real(lift)));
-    return now.shaped && then.shaped ? rise : real(0);
 }
 #elif SOLIDS
 rvec3 between(uint from, uint to)

@@ -9,6 +9,8 @@
 //   hinge_row(record, e1, ...)    its constraint C, by the differences of its corners from corner 0, m
 // under the names OF_ELEMENT(record), OF_ELEMENT(v0)(record), OF_ELEMENT(row)(record, ELEMENT_EDGES). A line
 // `//! with ABILITY` of the element's file is the macro ELEMENT_WITH_ABILITY, in capitals.
+// An element may give its energy and its slopes instead of C: shared/element_form.glsl; C then follows
+// (shared/element_row.glsl).
 // A kernel over several kinds at once includes their files by name and has none of these macros.
 #ifndef TAUT_SHARED_ELEMENT_GLSL
 #define TAUT_SHARED_ELEMENT_GLSL
@@ -28,6 +30,26 @@ struct ElementRow
     rbool counted;          // where it has none, that is worth an event
     rvec3 g0, g1, g2, g3;
     real s0, s1, s2, s3;    // squared lengths of the gradients of C
+};
+
+/// A 3 x 3 block by its rows.
+struct ElementBlock
+{
+    rvec3 x, y, z;
+};
+
+/// Slopes and curvature of an element's energy (shared/element_form.glsl).
+struct ElementForm
+{
+    rbool shaped;         // the element has a shape here; otherwise slopes and curvature are zero
+    rbool counted;        // where it has none, that is worth an event
+    rvec3 f0, f1, f2, f3; // slopes by the corners, N
+#ifdef ELEMENT_WITH_ENERGY
+    ElementBlock b11, b12, b13, b22, b23, b33; // curvature between the corners 1 and up, N/m
+#else
+    rvec3 n0, n1, n2, n3; // gradients of C
+    real stiffness;       // 1 / compliance
+#endif
 };
 
 /// sum w_i |grad_i C|^2 over two, three and four corners; w_i: inverse masses, 1/kg.
@@ -52,17 +74,32 @@ INLINE real row_weight(ElementRow row, real w0, real w1, real w2, real w3)
 #ifdef ELEMENT_STEM
 #if ELEMENT_CORNERS == 2
 #define ELEMENT_EDGES e1
+#define ELEMENT_EDGE_PARAMETERS rvec3 e1
 #define ELEMENT_MASSES x0.w, x1.w
 #define ELEMENT_MASS (x0.w + x1.w)
 #elif ELEMENT_CORNERS == 3
 #define ELEMENT_EDGES e1, e2
+#define ELEMENT_EDGE_PARAMETERS rvec3 e1, rvec3 e2
 #define ELEMENT_MASSES x0.w, x1.w, x2.w
 #define ELEMENT_MASS (x0.w + x1.w + x2.w)
 #else
 #define ELEMENT_EDGES e1, e2, e3
+#define ELEMENT_EDGE_PARAMETERS rvec3 e1, rvec3 e2, rvec3 e3
 #define ELEMENT_MASSES x0.w, x1.w, x2.w, x3.w
 #define ELEMENT_MASS (x0.w + x1.w + x2.w + x3.w)
 #endif
+
+/// The slope at corner 0 of an element that gives those of the others: moving all alike changes nothing.
+INLINE rvec3 slope_of_first(ElementForm form)
+{
+#if ELEMENT_CORNERS == 2
+    return -form.f1;
+#elif ELEMENT_CORNERS == 3
+    return -(form.f1 + form.f2);
+#else
+    return -((form.f1 + form.f2) + form.f3);
+#endif
+}
 #endif
 
 #endif

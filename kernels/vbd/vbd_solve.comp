@@ -27,6 +27,7 @@
 //! variant volumes HINGES=1 VOLUMES=1
 //! variant volumes_damped HINGES=1 VOLUMES=1 DAMPED=1
 //! variant elastic HINGES=1 ELASTIC=1 DAMPED=1
+//! variant added HINGES=1 ELASTIC=1 DAMPED=1 ADDED=1
 //! variant tail TAIL=1
 //! variant tail_hinges TAIL=1 HINGES=1
 //! variant tail_damped TAIL=1 DAMPED=1
@@ -56,7 +57,11 @@ PARAMS
 READ(0, uint, row);        // four words a row, five with tetrahedra: shared/vbd_rows.glsl
 READ(1, Spring, end);      // a = this vertex, b = the other; those of row k end where row k + 1 begins
 READ(2, rvec4, position);  // xyz m, w = inverse mass 1/kg
+#if ADDED
+READ(3, rvec4, block); // what inertia and added elements bring (kernels/methods/vbd/vbd.comp)
+#else
 READ(3, rvec4, predicted); // xyz: inertial guess of the displacement, m; w = inertia m / h^2, kg/s^2
+#endif
 #if TAIL
 GROUP_UPDATE(4, rvec4, delta); // displacement since the start of the substep, m
 #else
@@ -103,12 +108,20 @@ void solve(uint k)
     uint v = row_word(k, 0u);
     rvec4 x = position[v];
     rvec4 d = delta[v];
+#if ADDED
+    rvec4 known = block[3u * v];
+    real inertia = known.w;
+    rvec3 f = rvec3(known);
+    rvec3 diagonal = rvec3(block[3u * v + 1u]);
+    rvec3 mixed = rvec3(block[3u * v + 2u]);
+#else
     rvec4 y = predicted[v];
     real inertia = y.w;
     rvec3 f = rvec3(y - d) * inertia;
-    real even = inertia;                // the block's multiple of the identity
-    rvec3 diagonal = rvec3(real(0));    // the rest: xx, yy, zz
-    rvec3 mixed = rvec3(real(0));       // xy, xz, yz
+    rvec3 diagonal = rvec3(real(0)); // the block beside `even`: xx, yy, zz
+    rvec3 mixed = rvec3(real(0));    // xy, xz, yz
+#endif
+    real even = inertia; // the block's multiple of the identity
 #if DAMPED
     real inverse_substep = sqrt(inertia * x.w);
     rvec3 moved = rvec3(d - low[v]);

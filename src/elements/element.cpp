@@ -28,16 +28,24 @@ std::uint32_t aligned(std::uint32_t bytes, std::uint32_t to) { return (bytes + t
     throw Error(ErrorCode::bad_input, "element \"" + kind.name + "\": " + why);
 }
 
+/// Bytes of the record that a kernel reads of each element; 0 if it reads none.
+std::uint32_t record_of(const KernelInfo& kernel)
+{
+    for (const BindingInfo& binding : kernel.bindings)
+        if (binding.name == "constraint")
+            return binding.stride;
+    return 0;
+}
+
 void check_kernel(const ElementKind& kind, const KernelInfo& kernel)
 {
-    const std::uint32_t expected = record_bytes(kind, kernel.precision);
-    if (kernel.bindings.empty() || kernel.bindings[0].stride != expected)
+    const std::uint32_t expected = record_bytes(kind, kernel.precision), found = record_of(kernel);
+    if (found != expected)
         refuse(kind, "the record of kernel " + std::string(kernel.name) + " in " +
-                         std::string(to_string(kernel.precision)) + " takes " +
-                         std::to_string(kernel.bindings.empty() ? 0 : kernel.bindings[0].stride) +
+                         std::string(to_string(kernel.precision)) + " takes " + std::to_string(found) +
                          " bytes, " + std::to_string(kind.corners) + " corners and " +
                          std::to_string(kind.values.size()) + " values take " + std::to_string(expected));
-    if (kernel.name != "xpbd_" + kind.name) // by which plans look it up
+    if (!kernel.name.ends_with("_" + kind.name)) // by which plans look it up
         refuse(kind, "it has the kernel " + std::string(kernel.name) + "; pass those of the file " +
                          kind.name + ".glsl");
 }
@@ -51,9 +59,10 @@ void check_kind(const ElementKind& kind)
     if (kind.energy == nullptr)
         refuse(kind, "it has no energy; reports could not tell motion that it made from motion it was given");
     if (kind.kernels.empty())
-        refuse(kind, "it has no kernels; pass kernels::xpbd_" + kind.name + "::all()");
-    for (const KernelInfo& kernel : kind.kernels)
-        check_kernel(kind, kernel);
+        refuse(kind, "it has no kernels; pass kernels::" + kind.name + "::all()");
+    for (const auto& kernels : kind.kernels)
+        for (const KernelInfo& kernel : kernels)
+            check_kernel(kind, kernel);
 }
 
 } // namespace
@@ -73,7 +82,8 @@ void add_element(const ElementKind& kind)
     for (const ElementKind& other : all.list)
         if (other.name == kind.name)
             refuse(kind, "there is one of this name; each name can be added once");
-    register_kernels(kind.kernels);
+    for (const auto& kernels : kind.kernels)
+        register_kernels(kernels);
     all.list.push_back(kind);
 }
 
@@ -85,6 +95,15 @@ const ElementKind* find_element(std::string_view name)
         if (kind.name == name)
             return &kind;
     return nullptr;
+}
+
+bool has_kernel(const ElementKind& kind, std::string_view kernel)
+{
+    const std::string name = std::string(kernel) + "_" + kind.name;
+    for (const auto& kernels : kind.kernels)
+        if (!kernels.empty() && kernels.front().name == name)
+            return true;
+    return false;
 }
 
 std::string added_elements()

@@ -20,7 +20,8 @@ struct ElementKind
     std::string name;                ///< stem of its GLSL file; also the label of its passes and buffers
     std::uint32_t corners = 2;       ///< vertices of one element, 2 to 4, as its line `//! corners` says
     std::vector<std::string> values; ///< names of the reals that follow the corners in its record, in order
-    std::span<const KernelInfo> kernels; ///< kernels::xpbd_<name>::all()
+    /// kernels::<name>::all(): those of every method that its line `//! methods` names.
+    std::vector<std::span<const KernelInfo>> kernels;
     /// J, >= 0, in fp64, of one element with its corners at `x` (m). Reports count it.
     double (*energy)(std::span<const glm::dvec3> x, std::span<const double> values) = nullptr;
 };
@@ -35,6 +36,9 @@ void add_element(const ElementKind& kind);
 
 /// Null if nobody has added it. The pointer stays good. Safe from several threads.
 const ElementKind* find_element(std::string_view name);
+
+/// Whether the kind has `kernel`, a method's kernel by its own stem ("xpbd", "vbd_rise").
+bool has_kernel(const ElementKind& kind, std::string_view kernel);
 
 /// "cubic_spring", "fan"; "none" where nothing was added.
 std::string added_elements();

@@ -1,11 +1,13 @@
-// Elements that the program has added: from Body::elements to coloured records and passes of XPBD. Their
-// kernels are those of any element (kernels/methods/xpbd/xpbd.comp).
+// Elements that the program has added: from Body::elements to records, and to passes of XPBD and PBD. Their
+// kernels are those of any element (kernels/methods/).
 
 #include "taut/plan/added_elements.hpp"
 
 #include "taut/elements/element.hpp"
 #include "taut/plan/coloured_set.hpp"
+#include "taut/plan/pbd.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,10 @@
 
 namespace taut {
 namespace {
+
+/// Those with a folder of kernels over elements.
+constexpr std::array<std::string_view, 5> kMethods = {"xpbd", "pbd", "mass_spring", "implicit_euler",
+                                                      "vbd"};
 
 /// One element in plan vertices. corners <= 4.
 struct Added
@@ -60,6 +66,43 @@ void check_list(const std::string& where, const Body& body, const Body::Elements
     }
 }
 
+/// Throws where the scene's method cannot move elements of this kind.
+void check_method(const std::string& where, const Scene& scene, const ElementKind& kind)
+{
+    const std::string& method = scene.method.type;
+    if (std::find(std::begin(kMethods), std::end(kMethods), method) == std::end(kMethods))
+        throw Error(ErrorCode::unsupported, where + ": method \"" + method +
+                                                "\" has no kernels for elements that the program adds; use " +
+                                                scene_file::listing(kMethods));
+    if (!has_kernel(kind, method))
+        throw Error(ErrorCode::unsupported, where + ": \"" + kind.name + "\" has no kernels for method \"" +
+                                                method + "\"; name it in the line \"//! methods\" of " +
+                                                kind.name + ".glsl");
+    if (method_of(scene) == MethodKind::pbd && !pbd_is_coloured(scene))
+        throw Error(ErrorCode::unsupported, where + ": method.scheme \"" + scene.method.scheme +
+                                                "\" does not move elements that the program adds; use "
+                                                "\"coloured\"");
+}
+
+/// Whether the method moves elements by their force, which a rigid one does not have.
+bool needs_force(const Scene& scene)
+{
+    const MethodKind kind = method_of(scene);
+    return kind != MethodKind::xpbd && kind != MethodKind::pbd;
+}
+
+void check_force(const std::string& where, const Body& body, const Body::Elements& list)
+{
+    const ElementKind& kind = *find_element(list.kind);
+    const auto& x = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+    for (std::size_t k = 0; k < list.vertices.size() / kind.corners; ++k)
+        if (!std::isfinite(energy_of(kind, list, k, x)))
+            throw Error(ErrorCode::unsupported,
+                        where + ": element " + std::to_string(k) +
+                            " has no finite energy where it starts, so no force (is it rigid?); change "
+                            ".values, or use \"xpbd\"");
+}
+
 /// The elements of one kind of a body of which a corner moves.
 std::vector<Added> acting(const PlanBuilder& b, std::size_t body, const ElementKind& kind)
 {
@@ -86,10 +129,10 @@ std::vector<Added> acting(const PlanBuilder& b, std::size_t body, const ElementK
 
 /// Records as kernels read them: corners, then values.
 template <typename Real>
-std::vector<std::byte> packed(const ElementKind& kind, const std::vector<Added>& elements,
-                              Precision precision)
+std::vector<std::byte> packed(const ElementKind& kind, const std::vector<Added>& elements)
 {
-    const std::size_t size = record_bytes(kind, precision);
+    const std::size_t size =
+        record_bytes(kind, sizeof(Real) == sizeof(double) ? Precision::float64 : Precision::float32);
     const std::size_t at = (4 * kind.corners + sizeof(Real) - 1) / sizeof(Real) * sizeof(Real);
     std::vector<std::byte> out(size * elements.size());
     for (std::size_t k = 0; k < elements.size(); ++k)
@@ -123,9 +166,9 @@ void prepare_kind(PlanBuilder& b, const ElementKind& kind)
         return;
     with_real(b.plan.precision, [&](auto zero) {
         set.buffer = b.add_buffer<std::byte>(set.kind, set.kind + " constraints",
-                                             packed<decltype(zero)>(kind, flat, b.plan.precision));
+                                             packed<decltype(zero)>(kind, flat));
     });
-    add_set(b, set, std::move(table), {set.kind, true});
+    add_set(b, set, std::move(table), {set.kind, b.method.kind == MethodKind::xpbd});
 }
 
 /// Kinds in the order in which the scene names them first.
@@ -150,10 +193,9 @@ void check_added_elements(const Scene& scene)
             const Body& body = scene.bodies[b];
             const std::string where = place(scene, b, k);
             check_list(where, body, body.elements[k]);
-            if (method_of(scene) != MethodKind::xpbd)
-                throw Error(ErrorCode::unsupported, where + ": method \"" + scene.method.type +
-                                                        "\" has no kernels for elements that the program "
-                                                        "adds; use \"xpbd\"");
+            check_method(where, scene, *find_element(body.elements[k].kind));
+            if (needs_force(scene))
+                check_force(where, body, body.elements[k]);
             if (body.material.tear_strain > 0)
                 throw Error(ErrorCode::unsupported, where + ": a body with tear_strain " +
                                                         "cannot have them, since tearing splits vertices");
@@ -161,6 +203,39 @@ void check_added_elements(const Scene& scene)
 }
 
 bool wants_added_elements(const Scene& scene) { return !kinds_of(scene).empty(); }
+
+double energy_of(const ElementKind& kind, const Body::Elements& list, std::size_t element,
+                 std::span<const glm::dvec3> x)
+{
+    std::array<glm::dvec3, 4> corner{};
+    for (std::uint32_t c = 0; c < kind.corners; ++c)
+        corner[c] = x[list.vertices[element * kind.corners + c]];
+    const std::size_t values = kind.values.size();
+    return kind.energy(std::span(corner).first(kind.corners),
+                       std::span(list.values).subspan(element * values, values));
+}
+
+std::uint32_t AddedSet::count() const { return static_cast<std::uint32_t>(vertices.size()) / kind->corners; }
+
+std::vector<AddedSet> added_sets(const PlanBuilder& b)
+{
+    std::vector<AddedSet> out;
+    for (const ElementKind* kind : kinds_of(b.scene))
+    {
+        std::vector<Added> all;
+        for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
+            for (const Added& e : acting(b, body, *kind))
+                all.push_back(e);
+        if (all.empty())
+            continue;
+        AddedSet set{kind, {}, {}};
+        for (const Added& e : all)
+            set.vertices.insert(set.vertices.end(), e.vertex.begin(), e.vertex.begin() + kind->corners);
+        with_real(b.plan.precision, [&](auto zero) { set.records = packed<decltype(zero)>(*kind, all); });
+        out.push_back(std::move(set));
+    }
+    return out;
+}
 
 void prepare_added_elements(PlanBuilder& b)
 {
@@ -172,7 +247,12 @@ void record_added_elements(PlanBuilder& b, const Moment& moment)
 {
     for (const ElementKind* kind : kinds_of(b.scene))
         if (const ConstraintSet* set = find_set(b.plan, kind->name))
-            record_colours(b, *set, "xpbd_" + kind->name, kind->corners, moment);
+        {
+            if (b.method.kind == MethodKind::xpbd)
+                record_colours(b, *set, "xpbd_" + kind->name, kind->corners, moment);
+            else // wholly, in every iteration: stiffnesses of pbd are those of materials
+                record_pbd_sweep(b, *set, "pbd_" + kind->name, kind->corners, 1, moment);
+        }
 }
 
 } // namespace taut

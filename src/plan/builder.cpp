@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace taut {
@@ -174,6 +175,23 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
             cost.bytes_per_step += touched * (binding.access == Access::update ? 2 : 1);
     }
     add_pass(effect, std::move(pass));
+}
+
+void PlanBuilder::dispatch_by_name(std::string_view effect, std::string_view name,
+                                   std::initializer_list<std::pair<std::string_view, Use>> bindings,
+                                   std::initializer_list<std::uint32_t> params, std::uint32_t count,
+                                   std::uint64_t elements)
+{
+    const KernelInfo& kernel = find_kernel(name, {}, plan.precision);
+    std::vector<NamedBinding> named;
+    for (const auto& [word, use] : bindings)
+        named.push_back({word, use.is_set()});
+    std::vector<Use> uses;
+    for (const std::size_t place : places_in_slot_order(kernel, named))
+        uses.push_back((bindings.begin() + place)->second);
+    assert(params.size() == kernel.params.size());
+    add_dispatch(effect, kernel, uses, std::as_bytes(std::span(params)), count,
+                 elements == 0 ? count : elements);
 }
 
 void PlanBuilder::add_pass(std::string_view effect, Dispatch pass)

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstring>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <span>
@@ -114,6 +115,13 @@ public:
         add_dispatch(effect, kernel, in_slot_order(kernel, bindings), std::as_bytes(std::span(&params, 1)),
                      count, elements == 0 ? count : elements);
     }
+
+    /// The same of a kernel that has no header here, one of an element that the program has added: every
+    /// binding by its name, parameters in their order.
+    void dispatch_by_name(std::string_view effect, std::string_view name,
+                          std::initializer_list<std::pair<std::string_view, Use>> bindings,
+                          std::initializer_list<std::uint32_t> params, std::uint32_t count,
+                          std::uint64_t elements = 0);
 
     /// The same with 12 bytes of a buffer as group counts, read when the dispatch starts; `count` is the
     /// most.

@@ -8,6 +8,7 @@
 #include "taut/plan/builder.hpp"
 #include "taut/plan/colliders.hpp"
 #include "taut/plan/constraints.hpp"
+#include "taut/plan/corner_forces.hpp"
 #include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/limits.hpp"
@@ -113,6 +114,9 @@ bool any_bending(const Scene& scene)
     });
 }
 
+/// Elements that hand their forces to corner_sum.
+bool any_corners(const Scene& scene) { return any_bending(scene) || wants_added_elements(scene); }
+
 bool any_volume(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), holds_volumes);
@@ -125,7 +129,10 @@ bool any_solid(const Scene& scene)
 
 bool any_elements(const Scene& scene) { return any_stretch(scene) || any_bending(scene); }
 
-bool any_blocks(const Scene& scene) { return any_elements(scene) || any_volume(scene) || any_solid(scene); }
+bool any_blocks(const Scene& scene)
+{
+    return any_elements(scene) || any_volume(scene) || any_solid(scene) || wants_added_elements(scene);
+}
 
 constexpr MethodSet kSweeps = only(MethodKind::xpbd) | only(MethodKind::pbd);
 constexpr MethodSet kDescents = only(MethodKind::vbd) | only(MethodKind::implicit_euler);
@@ -147,6 +154,9 @@ constexpr Effect kEffectsBefore[] = {
     {"spring_force", Stage::force, any_stretch, prepare_spring_force, record_spring_force,
      kMassSpring | kConstraints},
     {"hinge_force", Stage::force, any_bending, prepare_hinge_force, record_hinge_force, kMassSpring | kAcad},
+    {"added_elements", Stage::force, wants_added_elements, prepare_added_forces, record_added_forces,
+     kMassSpring},
+    {"corner_sum", Stage::force, any_corners, prepare_corner_sum, record_corner_sum, kMassSpring | kAcad},
     {"force_kick", Stage::force, [](const Scene& s) { return has_bodies(s) && wants_kick(s); },
      prepare_force_kick, record_force_kick, kMassSpring | kConstraints | kAcad},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
@@ -159,7 +169,7 @@ constexpr Effect kEffectsBefore[] = {
     {"volume", Stage::solve, any_volume, prepare_volume, record_volume, only(MethodKind::xpbd)},
     {"neo_hookean", Stage::solve, any_solid, prepare_neo_hookean, record_neo_hookean, only(MethodKind::xpbd)},
     {"added_elements", Stage::solve, wants_added_elements, prepare_added_elements, record_added_elements,
-     only(MethodKind::xpbd)}, // on account of each kind
+     kSweeps}, // on account of each kind
     {"surface_volume", Stage::solve, any_surface_volume, prepare_surface_volume, record_surface_volume,
      kMassSpring},
     {"pbd_stretch", Stage::solve,
@@ -204,6 +214,11 @@ constexpr Effect kEffectsAfter[] = {
      nullptr, record_spring_force_after, kMassSpring},
     {"hinge_force", Stage::after, [](const Scene& s) { return any_bending(s) && wants_forces_after(s); },
      nullptr, record_hinge_force_after, kMassSpring},
+    {"added_elements", Stage::after,
+     [](const Scene& s) { return wants_added_elements(s) && wants_forces_after(s); }, nullptr,
+     record_added_forces_after, kMassSpring},
+    {"corner_sum", Stage::after, [](const Scene& s) { return any_corners(s) && wants_forces_after(s); },
+     nullptr, record_corner_sum, kMassSpring},
     {"force_kick", Stage::after, [](const Scene& s) { return has_bodies(s) && wants_kick_after(s); }, nullptr,
      record_force_kick_after, kMassSpring},
 };

@@ -14,6 +14,7 @@
 
 #include "taut/plan/implicit_euler.hpp"
 
+#include "taut/plan/added_elements.hpp"
 #include "taut/plan/implicit_product.hpp"
 #include "taut/plan/implicit_system.hpp"
 #include "taut/plan/implicit_table.hpp"
@@ -38,15 +39,20 @@ struct Elements
 {
     std::vector<StretchElement> springs;
     std::vector<BendElement> hinges;
+    std::vector<AddedSet> added;
     std::vector<SolidElement> solids;
-    AllCorners corners;
+    AllCorners corners; ///< springs, hinges if there are any, added ones, tetrahedra
 };
 
 Elements acting_elements(PlanBuilder& b)
 {
-    Elements out{all_springs(b), all_hinges(b), all_solids(b), {}};
-    out.corners = {Corners{2, corners_of(out.springs)}, Corners{4, corners_of(out.hinges)},
-                   Corners{4, corners_of(out.solids)}};
+    Elements out{all_springs(b), all_hinges(b), added_sets(b), all_solids(b), {}};
+    out.corners.push_back({2, corners_of(out.springs), false});
+    if (!out.hinges.empty())
+        out.corners.push_back({4, corners_of(out.hinges)});
+    for (const AddedSet& set : out.added)
+        out.corners.push_back({set.kind->corners, set.vertices});
+    out.corners.push_back({4, corners_of(out.solids)});
     return out;
 }
 
@@ -64,8 +70,16 @@ void add_records(PlanBuilder& b, ImplicitEuler& m, const Elements& elements)
         springs.push_back({}); // a binding has bytes; no entry of the table leads here
     m.springs = b.add_buffer<layout::Spring<Real>>(kName, "springs", springs);
     if (!elements.hinges.empty())
-        m.hinges = b.add_buffer<layout::BendingConstraint<Real>>(
-            kName, "hinges", records_of(elements.hinges, bending_record<Real>));
+        m.kinds.push_back({std::string(kName), "hinge",
+                           b.add_buffer<layout::BendingConstraint<Real>>(
+                               kName, "hinges", records_of(elements.hinges, bending_record<Real>)),
+                           kNoBuffer, static_cast<std::uint32_t>(elements.hinges.size()), 4});
+    for (const AddedSet& set : elements.added)
+    {
+        const std::string& name = set.kind->name;
+        m.kinds.push_back({name, name, b.add_buffer<std::byte>(name, name + " constraints", set.records),
+                           kNoBuffer, set.count(), set.kind->corners});
+    }
     if (elements.solids.empty())
         return;
     m.solids = b.add_buffer<layout::SolidTetrahedron<Real>>(kName, "tetrahedra",
@@ -74,14 +88,14 @@ void add_records(PlanBuilder& b, ImplicitEuler& m, const Elements& elements)
         b.add_buffer(kName, "state of tetrahedra", elements.solids.size() * TAUT_SOLID_STATE * sizeof(Real));
 }
 
-void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std::uint32_t arity,
+void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std::uint32_t words,
                  std::string_view what)
 {
     if (b.traits.executor.starts_with("cpu"))
         return;
     const std::uint32_t n = b.plan.vertex_count;
     const std::uint32_t groups = linear::group_count_for(3 * n, b.paper()->info());
-    const std::uint64_t trips = implicit_trips(table, n, arity, linear::make_grid(n, groups).chunk);
+    const std::uint64_t trips = implicit_trips(table, n, words, linear::make_grid(n, groups).chunk);
     if (trips > kMaxLoopTrips)
         throw Error(ErrorCode::limit, "method implicit_euler: the " + std::string(what) +
                                           " at one vertex and those that share its lane make " +
@@ -139,16 +153,13 @@ ImplicitBuffers product_buffers(PlanBuilder& b, const ImplicitEuler& m)
                        b.on_paper(b.plan.step_values),
                        b.on_paper(m.springs),
                        b.on_paper(m.spring_table),
-                       nullptr,
-                       nullptr,
+                       {},
                        nullptr,
                        nullptr,
                        nullptr};
-    if (m.hinge_count > 0)
-    {
-        at.hinges = b.on_paper(m.hinges);
-        at.hinge_table = b.on_paper(m.hinge_table);
-    }
+    for (const ImplicitKind& kind : m.kinds)
+        at.kinds.push_back({"implicit_euler_product_" + kind.stem, b.on_paper(kind.records),
+                            b.on_paper(kind.table)});
     if (m.solid_count > 0)
     {
         at.solids = b.on_paper(m.solids);
@@ -156,6 +167,22 @@ ImplicitBuffers product_buffers(PlanBuilder& b, const ImplicitEuler& m)
         at.solid_table = b.on_paper(m.solid_table);
     }
     return at;
+}
+
+/// `tables` as implicit_tables() makes them of `corners`: springs first, tetrahedra last.
+void add_tables(PlanBuilder& b, ImplicitEuler& m, const AllCorners& corners,
+                const std::vector<std::vector<std::uint32_t>>& tables)
+{
+    const auto add = [&](std::size_t k, std::string_view effect, const std::string& what) {
+        check_trips(b, tables[k], corners[k].words(), what);
+        return b.add_buffer<std::uint32_t>(effect, what + " at a vertex", tables[k]);
+    };
+    m.spring_table = add(0, kName, "springs");
+    for (std::size_t k = 0; k < m.kinds.size(); ++k)
+        m.kinds[k].table =
+            add(1 + k, m.kinds[k].effect, m.kinds[k].effect == kName ? "hinges" : m.kinds[k].stem);
+    if (m.solid_count > 0)
+        m.solid_table = add(tables.size() - 1, kName, "tetrahedra");
 }
 
 /// Matrix (stored, or of its diagonal blocks alone), tables, preconditioner, solver.
@@ -166,20 +193,8 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
     const linear::UploadOptions options{linear::Format::bcsr3, b.plan.precision, false, 0, false, true};
     const auto matrix = linear::DeviceMatrix::upload(b.paper(), pattern, options);
     const std::vector<std::uint32_t> slots = matrix->slots(pattern);
-    const ImplicitTables tables = implicit_tables(solved, elements.corners, pattern, slots);
-    check_trips(b, tables.springs, 2, "springs");
+    add_tables(b, m, elements.corners, implicit_tables(solved, elements.corners, pattern, slots));
     m.values = b.adopt(kName, matrix->values());
-    m.spring_table = b.add_buffer<std::uint32_t>(kName, "springs at a vertex", tables.springs);
-    if (m.hinge_count > 0)
-    {
-        check_trips(b, tables.hinges, 4, "hinges");
-        m.hinge_table = b.add_buffer<std::uint32_t>(kName, "hinges at a vertex", tables.hinges);
-    }
-    if (m.solid_count > 0)
-    {
-        check_trips(b, tables.solids, 4, "tetrahedra");
-        m.solid_table = b.add_buffer<std::uint32_t>(kName, "tetrahedra at a vertex", tables.solids);
-    }
     add_marks(b, m, solved);
     const auto kind = linear::Preconditioner::block_jacobi;
     const auto inverse =
@@ -248,7 +263,6 @@ void prepare_implicit_euler(PlanBuilder& b)
     m.scale = power_below(heaviest);
     m.lift = power_below(b.plan.timestep / b.plan.substeps);
     m.spring_count = static_cast<std::uint32_t>(elements.springs.size());
-    m.hinge_count = static_cast<std::uint32_t>(elements.hinges.size());
     m.solid_count = static_cast<std::uint32_t>(elements.solids.size());
     m.damped = std::any_of(elements.springs.begin(), elements.springs.end(),
                            [](const StretchElement& e) { return e.damping > 0; });

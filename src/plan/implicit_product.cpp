@@ -1,9 +1,9 @@
-// Based on: kernels/implicit/implicit_product.comp, implicit_hinge_product.comp, implicit_solid_product.comp.
+// Based on: kernels/implicit/implicit_product.comp, implicit_euler_product.comp, implicit_solid_product.comp.
 // Departures: none.
 
 #include "taut/plan/implicit_product.hpp"
 
-#include "taut/kernels/implicit_hinge_product.hpp"
+#include "taut/kernels/implicit_euler_product_hinge.hpp"
 #include "taut/kernels/implicit_product.hpp"
 #include "taut/kernels/implicit_solid_product.hpp"
 
@@ -30,18 +30,19 @@ void ImplicitProduct::record_springs(Recorder& recorder, const linear::Gate& gat
                    {grid.count, grid.chunk, gate.groups, at_.scale});
 }
 
-void ImplicitProduct::record_hinges(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
+void ImplicitProduct::record_kind(Recorder& recorder, const linear::Gate& gate,
+                                  const ImplicitKindBuffers& kind, const Pass& pass) const
 {
     const linear::Grid grid = linear::make_grid(at_.vertices, gate.groups);
-    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel},
-                   kernels::implicit_hinge_product::Bindings<Binding>{.position = at_.position,
-                                                                      .delta = at_.delta,
-                                                                      .hinge = at_.hinges,
-                                                                      .table = at_.hinge_table,
-                                                                      .step_values = at_.step_values,
-                                                                      .x = pass.x,
-                                                                      .y = pass.y,
-                                                                      .partials = pass.partials},
+    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel, kind.kernel},
+                   kernels::implicit_euler_product_hinge::Bindings<Binding>{.position = at_.position,
+                                                                            .delta = at_.delta,
+                                                                            .constraint = kind.records,
+                                                                            .table = kind.table,
+                                                                            .step_values = at_.step_values,
+                                                                            .x = pass.x,
+                                                                            .y = pass.y,
+                                                                            .partials = pass.partials},
                    {grid.count, grid.chunk, gate.groups, at_.scale});
 }
 
@@ -64,9 +65,9 @@ void ImplicitProduct::record_product(Recorder& recorder, const linear::Gate& gat
 {
     const Pass plain = {"", x, y, {}, {}};
     const Pass last = {partials.is_set() ? "dot" : "", x, y, partials, {}};
-    record_springs(recorder, gate, at_.hinges || at_.solids ? plain : last);
-    if (at_.hinges)
-        record_hinges(recorder, gate, at_.solids ? plain : last);
+    record_springs(recorder, gate, at_.kinds.empty() && !at_.solids ? last : plain);
+    for (const ImplicitKindBuffers& kind : at_.kinds)
+        record_kind(recorder, gate, kind, &kind == &at_.kinds.back() && !at_.solids ? last : plain);
     if (at_.solids)
         record_solids(recorder, gate, last);
 }
@@ -76,8 +77,8 @@ void ImplicitProduct::record_residual(Recorder& recorder, const linear::Gate& ga
                                       Binding r) const
 {
     record_springs(recorder, gate, {"residual", x, r, {}, b});
-    if (at_.hinges)
-        record_hinges(recorder, gate, {"residual", x, r, {}, {}});
+    for (const ImplicitKindBuffers& kind : at_.kinds)
+        record_kind(recorder, gate, kind, {"residual", x, r, {}, {}});
     if (at_.solids)
         record_solids(recorder, gate, {"residual", x, r, {}, {}});
 }

@@ -3,9 +3,19 @@
 
 #include "taut/linear/operator.hpp"
 
+#include <string>
+#include <vector>
+
 namespace taut {
 
-/// Buffers on paper; without hinges or tetrahedra theirs are null.
+/// Elements of one kind, formed again by kernels/methods/implicit_euler/.
+struct ImplicitKindBuffers
+{
+    std::string kernel; ///< "implicit_euler_product_hinge"
+    BufferPtr records, table;
+};
+
+/// Buffers on paper; without tetrahedra theirs are null.
 struct ImplicitBuffers
 {
     std::uint32_t vertices = 0;
@@ -13,11 +23,11 @@ struct ImplicitBuffers
     float scale = 1; ///< the system is in these units of mass
     BufferPtr position, delta, step_values;
     BufferPtr springs, spring_table; ///< always; a table without entries for the mass alone
-    BufferPtr hinges, hinge_table;   ///< null: none
-    BufferPtr solids, solid_state, solid_table; ///< likewise
+    std::vector<ImplicitKindBuffers> kinds;
+    BufferPtr solids, solid_state, solid_table; ///< null: none
 };
 
-/// (M + h^2 K + h D) x by gathering, with springs and hinges formed again from the places of their
+/// (M + h^2 K + h D) x by gathering, with springs and other elements formed again from the places of their
 /// corners, and tetrahedra from what implicit_solids left.
 class ImplicitProduct final : public linear::Operator
 {
@@ -38,7 +48,7 @@ private:
         Binding x, y, partials, b; ///< the last two where the variant has them
     };
     void record_springs(Recorder&, const linear::Gate&, const Pass&) const;
-    void record_hinges(Recorder&, const linear::Gate&, const Pass&) const;
+    void record_kind(Recorder&, const linear::Gate&, const ImplicitKindBuffers&, const Pass&) const;
     void record_solids(Recorder&, const linear::Gate&, const Pass&) const;
     ImplicitBuffers at_;
 };

@@ -7,9 +7,10 @@
 #include "taut/plan/implicit_system.hpp"
 
 #include "taut/kernels/dot.hpp"
+#include "taut/kernels/implicit_euler_hinge.hpp"
+#include "taut/kernels/implicit_euler_rise_hinge.hpp"
 #include "taut/kernels/implicit_force.hpp"
 #include "taut/kernels/implicit_guess.hpp"
-#include "taut/kernels/implicit_hinges.hpp"
 #include "taut/kernels/implicit_hold.hpp"
 #include "taut/kernels/implicit_matrix.hpp"
 #include "taut/kernels/implicit_momentum.hpp"
@@ -56,17 +57,18 @@ void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
                                                              .values = {m.values, 9},
                                                              .events = {b.plan.events, 0}};
     b.dispatch(kName, "", springs, {n, report, m.scale}, n);
-    if (m.hinge_count > 0)
+    for (const ImplicitKind& kind : m.kinds)
     {
-        const kernels::implicit_hinges::Bindings<Use> hinges = {.position = {b.plan.position},
-                                                                .delta = {b.plan.delta},
-                                                                .hinge = {m.hinges},
-                                                                .table = {m.hinge_table, 2},
-                                                                .step_values = {b.plan.step_values, 0},
-                                                                .b = {m.solve->b(), 3},
-                                                                .values = {m.values, 9},
-                                                                .events = {b.plan.events, 0}};
-        b.dispatch(kName, "", hinges, {n, report, m.scale, m.lift}, n);
+        const kernels::implicit_euler_hinge::Bindings<Use> uses = {.position = {b.plan.position},
+                                                                   .delta = {b.plan.delta},
+                                                                   .constraint = {kind.records},
+                                                                   .table = {kind.table, 2},
+                                                                   .step_values = {b.plan.step_values, 0},
+                                                                   .b = {m.solve->b(), 3},
+                                                                   .values = {m.values, 9},
+                                                                   .events = {b.plan.events, 0}};
+        b.dispatch_by_name(kind.effect, "implicit_euler_" + kind.stem, "", uses,
+                           {n, report, m.scale, m.lift}, n);
     }
     if (m.solid_count == 0)
         return;
@@ -150,6 +152,25 @@ void record_push(PlanBuilder& b, const ImplicitEuler& m, Moment moment)
     record_colliders(b, moment);
 }
 
+/// The part of elements of one kind.
+void record_rise(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder, const ImplicitKind& kind,
+                 std::uint32_t part)
+{
+    const linear::Gate always{m.solve->groups(), nullptr, 0};
+    const linear::Grid grid = linear::make_grid(kind.count, always.groups);
+    const std::string kernel = "implicit_euler_rise_" + kind.stem;
+    linear::launch(recorder, always, {"", b.plan.precision, kind.effect, kernel},
+                   kernels::implicit_euler_rise_hinge::Bindings<Recorder::Binding>{
+                       .position = b.on_paper(b.plan.position),
+                       .delta = b.on_paper(b.plan.delta),
+                       .x = b.on_paper(m.solve->x()),
+                       .partials = m.trials,
+                       .constraint = b.on_paper(kind.records),
+                       .step_values = b.on_paper(b.plan.step_values)},
+                   {grid.count, grid.chunk, always.groups, b.scene.method.line_search + 1, part, m.parts(),
+                    m.scale, m.lift});
+}
+
 void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
 {
     const linear::Gate always{m.solve->groups(), nullptr, 0};
@@ -170,8 +191,8 @@ void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
     if (m.spring_count > 0)
         add("springs", m.spring_count,
             {.spring = b.on_paper(m.springs), .step_values = step_values, .low = b.on_paper(b.plan.low)});
-    if (m.hinge_count > 0)
-        add("hinges", m.hinge_count, {.step_values = step_values, .hinge = b.on_paper(m.hinges)});
+    for (const ImplicitKind& kind : m.kinds)
+        record_rise(b, m, recorder, kind, part++);
     if (m.solid_count > 0)
         add("solids", m.solid_count, {.step_values = step_values, .solid = b.on_paper(m.solids)});
 }

@@ -9,11 +9,19 @@
 
 namespace taut {
 
+/// Elements of one kind that go through kernels/methods/implicit_euler/.
+struct ImplicitKind
+{
+    std::string effect, stem; ///< who pays; the element's, of which its kernels are named
+    std::uint32_t records = kNoBuffer, table = kNoBuffer, count = 0;
+    std::uint32_t corners = 4;
+};
+
 /// Everything that the passes of a Newton step bind. Kept by the builder until the plan is made.
 struct ImplicitEuler
 {
     std::uint32_t springs = kNoBuffer, spring_table = kNoBuffer, spring_count = 0;
-    std::uint32_t hinges = kNoBuffer, hinge_table = kNoBuffer, hinge_count = 0;
+    std::vector<ImplicitKind> kinds; ///< hinges, and what the program has added
     std::uint32_t solids = kNoBuffer, solid_table = kNoBuffer, solid_state = kNoBuffer, solid_count = 0;
     std::uint32_t held = kNoBuffer, values = kNoBuffer;
     std::uint32_t marks = kNoBuffer; ///< as held, in this Newton step
@@ -27,7 +35,8 @@ struct ImplicitEuler
     BufferPtr trials;                        ///< partial sums of the line search
     std::uint32_t parts() const
     {
-        return 1u + (spring_count > 0 ? 1u : 0u) + (hinge_count > 0 ? 1u : 0u) + (solid_count > 0 ? 1u : 0u);
+        return 1u + (spring_count > 0 ? 1u : 0u) + static_cast<std::uint32_t>(kinds.size()) +
+               (solid_count > 0 ? 1u : 0u);
     }
 };
 

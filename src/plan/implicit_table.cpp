@@ -12,9 +12,6 @@ namespace {
 constexpr std::uint32_t kFirst = 0x80000000u;
 constexpr std::uint32_t kNowhere = 0xffffffffu;
 
-/// Words of an entry: the element, and a place for each other corner (springs) or each corner (the others).
-std::uint32_t entry_words(std::uint32_t arity) { return arity == 2 ? 2 : arity + 1; }
-
 void add_neighbours(std::vector<std::vector<std::uint32_t>>& of, const std::vector<bool>& solved,
                     const Corners& elements)
 {
@@ -60,7 +57,7 @@ private:
 
 std::vector<std::uint32_t> table_of(const std::vector<bool>& solved, const Corners& elements, Places& places)
 {
-    const std::uint32_t arity = elements.arity, words = entry_words(arity);
+    const std::uint32_t arity = elements.arity, words = elements.words();
     const auto count = static_cast<std::uint32_t>(solved.size());
     std::vector<std::uint32_t> entries(count + 1, 0);
     for (const std::uint32_t v : elements.vertices)
@@ -86,7 +83,7 @@ std::vector<std::uint32_t> table_of(const std::vector<bool>& solved, const Corne
             table[at++] = (arity * k + c) | mark;
             mark = 0;
             for (std::uint32_t other = 0; other < arity; ++other)
-                if (arity > 2 || other != c)
+                if (elements.own || other != c)
                     table[at++] = places.take(corner[c], corner[other]);
         }
     }
@@ -135,14 +132,15 @@ linear::SparseMatrix implicit_pattern(const std::vector<bool>& solved, const All
     return out;
 }
 
-ImplicitTables implicit_tables(const std::vector<bool>& solved, const AllCorners& elements,
-                               const linear::SparseMatrix& pattern, std::span<const std::uint32_t> slots)
+std::vector<std::vector<std::uint32_t>> implicit_tables(const std::vector<bool>& solved,
+                                                        const AllCorners& elements,
+                                                        const linear::SparseMatrix& pattern,
+                                                        std::span<const std::uint32_t> slots)
 {
     Places places(pattern, slots);
-    ImplicitTables out;
-    out.springs = table_of(solved, elements[0], places);
-    out.hinges = table_of(solved, elements[1], places);
-    out.solids = table_of(solved, elements[2], places);
+    std::vector<std::vector<std::uint32_t>> out;
+    for (const Corners& kind : elements)
+        out.push_back(table_of(solved, kind, places));
     return out;
 }
 
@@ -187,7 +185,7 @@ FreeParts free_parts(std::span<const double> inverse_mass, const AllCorners& ele
 }
 
 std::uint64_t implicit_trips(std::span<const std::uint32_t> table, std::uint32_t vertices,
-                             std::uint32_t arity, std::uint32_t chunk)
+                             std::uint32_t words, std::uint32_t chunk)
 {
     std::uint64_t most = 0;
     for (std::uint32_t first = 0; first < vertices; first += chunk)
@@ -195,7 +193,7 @@ std::uint64_t implicit_trips(std::span<const std::uint32_t> table, std::uint32_t
         std::uint64_t trips[TAUT_LINEAR_GROUP] = {};
         for (std::uint32_t v = first; v < std::min(vertices, first + chunk); ++v)
             trips[(v - first) % std::size(trips)] +=
-                (table[2 * (v + 1)] - table[2 * v]) / entry_words(arity) + 1;
+                (table[2 * (v + 1)] - table[2 * v]) / words + 1;
         most = std::max(most, *std::max_element(std::begin(trips), std::end(trips)));
     }
     return most;

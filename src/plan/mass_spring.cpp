@@ -11,7 +11,6 @@
 #include "taut/plan/mass_spring.hpp"
 
 #include "taut/kernels/force_kick.hpp"
-#include "taut/kernels/hinge_force.hpp"
 #include "taut/kernels/slot_sum.hpp"
 #include "taut/kernels/spring_force.hpp"
 #include "taut/kernels/spring_slots.hpp"
@@ -29,27 +28,6 @@
 
 namespace taut {
 namespace {
-
-ForceBuffers& forces(PlanBuilder& b)
-{
-    if (!b.forces)
-        b.forces = std::make_shared<ForceBuffers>();
-    return *b.forces;
-}
-
-void add_force_buffer(PlanBuilder& b, std::string_view effect)
-{
-    ForceBuffers& f = forces(b);
-    if (f.force == kNoBuffer)
-        f.force =
-            b.add_buffer(effect, "inner forces", std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
-}
-
-/// Elements that an invocation of one vertex visits, on average, for the accounts.
-std::uint32_t per_vertex(const PlanBuilder& b, std::uint64_t ends)
-{
-    return static_cast<std::uint32_t>(ends / std::max(b.plan.vertex_count, 1u) + 1);
-}
 
 void record_gather(PlanBuilder& b, std::uint32_t report)
 {
@@ -93,23 +71,6 @@ void record_springs(PlanBuilder& b, bool report)
         record_slots(b, report);
 }
 
-void record_hinges(PlanBuilder& b, bool report)
-{
-    const ForceBuffers& f = forces(b);
-    if (f.hinges == 0)
-        return;
-    const std::uint32_t n = b.plan.vertex_count, each = per_vertex(b, 4 * std::uint64_t(f.hinges));
-    const kernels::hinge_force::Bindings<Use> uses = {.start = {f.hinge_start},
-                                                      .incident = {f.hinge_incident, each},
-                                                      .hinge = {f.hinge_records, each},
-                                                      .position = {b.plan.position, 4 * each},
-                                                      .low = {b.plan.low, 4 * each},
-                                                      .force = {f.force},
-                                                      .events = {b.plan.events, 0}};
-    const std::uint32_t add = f.springs > 0;
-    b.dispatch("hinge_force", "", uses, {n, add, report}, n);
-}
-
 void record_kick(PlanBuilder& b, float force_share, float gravity_share)
 {
     const std::uint32_t n = b.plan.vertex_count;
@@ -120,8 +81,6 @@ void record_kick(PlanBuilder& b, float force_share, float gravity_share)
                                                      .events = {b.plan.events, 0}};
     b.dispatch("force_kick", "", uses, {n, force_share, gravity_share}, n);
 }
-
-bool report_now(const PlanBuilder& b, const Moment& moment) { return moment.substep + 1 == b.plan.substeps; }
 
 /// Explicit Euler multiplies a mode's amplitude by sqrt(1 + h^2 omega^2) in every substep.
 void warn_of_growth(PlanBuilder& b)
@@ -137,6 +96,28 @@ void warn_of_growth(PlanBuilder& b)
 }
 
 } // namespace
+
+ForceBuffers& forces(PlanBuilder& b)
+{
+    if (!b.forces)
+        b.forces = std::make_shared<ForceBuffers>();
+    return *b.forces;
+}
+
+void add_force_buffer(PlanBuilder& b, std::string_view effect)
+{
+    ForceBuffers& f = forces(b);
+    if (f.force == kNoBuffer)
+        f.force =
+            b.add_buffer(effect, "inner forces", std::uint64_t(b.plan.vertex_count) * 4 * b.real_size());
+}
+
+std::uint32_t per_vertex(const PlanBuilder& b, std::uint64_t ends)
+{
+    return static_cast<std::uint32_t>(ends / std::max(b.plan.vertex_count, 1u) + 1);
+}
+
+bool report_now(const PlanBuilder& b, const Moment& moment) { return moment.substep + 1 == b.plan.substeps; }
 
 void add_inner_forces(PlanBuilder& b, std::string_view effect, std::uint32_t springs)
 {
@@ -160,7 +141,7 @@ bool wants_kick(const Scene& scene)
 {
     return wants_kick_after(scene) ||
            std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
-               return has_springs(b) ||
+               return has_springs(b) || !b.elements.empty() ||
                       (b.material.bending_stiffness > 0 && !b.mesh.triangles.empty());
            });
 }
@@ -203,19 +184,6 @@ void prepare_spring_force(PlanBuilder& b)
     add_force_buffer(b, "spring_force");
 }
 
-void prepare_hinge_force(PlanBuilder& b)
-{
-    const HingeBuffers hinges = make_hinge_buffers(b, "hinge_force");
-    ForceBuffers& f = forces(b);
-    f.hinges = static_cast<std::uint32_t>(hinges.elements.size());
-    if (f.hinges == 0)
-        return;
-    f.hinge_start = hinges.start;
-    f.hinge_incident = hinges.incident;
-    f.hinge_records = hinges.records;
-    add_force_buffer(b, "hinge_force");
-}
-
 void prepare_force_kick(PlanBuilder& b)
 {
     if (wants_kick_after(b.scene))
@@ -224,9 +192,7 @@ void prepare_force_kick(PlanBuilder& b)
 }
 
 void record_spring_force(PlanBuilder& b, const Moment& moment) { record_springs(b, report_now(b, moment)); }
-void record_hinge_force(PlanBuilder& b, const Moment& moment) { record_hinges(b, report_now(b, moment)); }
 void record_spring_force_after(PlanBuilder& b, const Moment&) { record_springs(b, false); }
-void record_hinge_force_after(PlanBuilder& b, const Moment&) { record_hinges(b, false); }
 
 void record_force_kick(PlanBuilder& b, const Moment&)
 {

@@ -5,19 +5,36 @@
 
 namespace taut {
 
-/// What the effects spring_force, hinge_force and force_kick share while a plan is made.
+/// What the effects that form forces share while a plan is made.
 struct ForceBuffers
 {
-    std::uint32_t force = kNoBuffer; ///< rvec4 per vertex, N: of springs and hinges
+    std::uint32_t force = kNoBuffer; ///< rvec4 per vertex, N
     std::uint32_t springs = 0;       ///< that can act
-    std::uint32_t hinges = 0;
     bool damped = false; ///< any spring has a damper
     bool node_centric = true;
     std::uint32_t start = kNoBuffer,
                   ends = kNoBuffer; ///< node-centric: layout::Spring<real>, a = this vertex
     std::uint32_t records = kNoBuffer, incident = kNoBuffer, slots = kNoBuffer; ///< spring-centric
-    std::uint32_t hinge_start = kNoBuffer, hinge_incident = kNoBuffer, hinge_records = kNoBuffer;
+
+    /// Elements of one kind that write a slot a corner (kernels/methods/mass_spring/mass_spring.comp).
+    struct Kind
+    {
+        std::string effect, kernel;
+        std::uint32_t records = kNoBuffer, corners = 2, count = 0, first = 0; ///< first: slot
+    };
+    std::vector<Kind> kinds;
+    std::vector<std::uint32_t> slot_vertex; ///< plan vertex, by slot
+    std::uint32_t corner_start = kNoBuffer, corner_incident = kNoBuffer, corner_slots = kNoBuffer;
 };
+
+/// The forces of the plan that is made.
+ForceBuffers& forces(PlanBuilder& builder);
+/// Makes their buffer on account of `effect`, unless it is there.
+void add_force_buffer(PlanBuilder& builder, std::string_view effect);
+/// Elements that an invocation of one vertex visits, on average, for the accounts.
+std::uint32_t per_vertex(const PlanBuilder& builder, std::uint64_t ends);
+/// Whether passes of this moment count what reports ask for.
+bool report_now(const PlanBuilder& builder, const Moment& moment);
 
 /// For a method that forms the forces of its springs itself: makes the buffer.
 void add_inner_forces(PlanBuilder& builder, std::string_view effect, std::uint32_t springs);
@@ -34,14 +51,11 @@ bool wants_kick_after(const Scene& scene);
 double velocity_lead(const Scene& scene);
 
 void prepare_spring_force(PlanBuilder& builder);
-void prepare_hinge_force(PlanBuilder& builder);
 void prepare_force_kick(PlanBuilder& builder);
 void record_spring_force(PlanBuilder& builder, const Moment& moment);
-void record_hinge_force(PlanBuilder& builder, const Moment& moment);
 void record_force_kick(PlanBuilder& builder, const Moment& moment);
 /// The same after the guess.
 void record_spring_force_after(PlanBuilder& builder, const Moment& moment);
-void record_hinge_force_after(PlanBuilder& builder, const Moment& moment);
 void record_force_kick_after(PlanBuilder& builder, const Moment& moment);
 
 } // namespace taut

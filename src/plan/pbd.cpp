@@ -33,43 +33,6 @@ constexpr std::uint32_t kLeastChebyshev = 8;   ///< iterations below which the w
 
 constexpr std::string_view kJacobi = "pbd_jacobi";
 
-/// Passes of one sweep over the colours of a set. `kernel`: that of PBD for the set's element; all of them
-/// have the interface of kernels::pbd_spring.
-void record_sweep(PlanBuilder& b, std::string_view kind, std::string_view kernel, std::uint32_t vertices_each,
-                  double stiffness, const Moment& moment)
-{
-    const ConstraintSet* set = find_set(b.plan, kind);
-    if (set == nullptr)
-        return;
-    const auto share =
-        static_cast<float>(pbd_share(stiffness, b.plan.iterations) * b.scene.method.relaxation);
-    const std::uint32_t report = moment.last;
-    const kernels::pbd_spring::Bindings<Use> alone = {.constraint = {set->buffer},
-                                                      .position = {b.plan.position, vertices_each},
-                                                      .delta = {b.plan.delta, vertices_each},
-                                                      .events = {b.plan.events, 0}};
-    kernels::pbd_spring::Bindings<Use> grouped = alone;
-    grouped.table = {set->table};
-    std::uint32_t range = first_run_range(*set);
-    for (const Run& run : runs_of(b, *set))
-    {
-        const std::uint32_t first = set->colour_start[run.begin], size = set->colour_start[run.end] - first;
-        b.stands_for(run.end - run.begin);
-        if (run.grouped())
-            b.dispatch_by_name(kind, kernel, "tail", grouped, {range, 1, share, report}, 1, size);
-        else
-            b.dispatch_by_name(kind, kernel, "", alone, {first, size, share, report}, size);
-        range += run.grouped() ? 2 : 0;
-    }
-    if (set->small_bodies > 0)
-    {
-        stand_for_small(b, *set);
-        b.dispatch_by_name(kind, kernel, "tail", grouped,
-                           {set->small_range, set->small_bodies, share, report}, set->small_bodies,
-                           set->small_constraints);
-    }
-}
-
 void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 {
     const MethodSettings& m = b.scene.method;
@@ -271,6 +234,38 @@ void check_pbd(const Scene& scene, const DeviceTraits&)
                         std::to_string(kLeastChebyshev) + "; use more, or 0");
 }
 
+void record_pbd_sweep(PlanBuilder& b, const ConstraintSet& set, std::string_view kernel,
+                      std::uint32_t vertices_each, double stiffness, const Moment& moment)
+{
+    const auto share =
+        static_cast<float>(pbd_share(stiffness, b.plan.iterations) * b.scene.method.relaxation);
+    const std::uint32_t report = moment.last;
+    const kernels::pbd_spring::Bindings<Use> alone = {.constraint = {set.buffer},
+                                                      .position = {b.plan.position, vertices_each},
+                                                      .delta = {b.plan.delta, vertices_each},
+                                                      .events = {b.plan.events, 0}};
+    kernels::pbd_spring::Bindings<Use> grouped = alone;
+    grouped.table = {set.table};
+    std::uint32_t range = first_run_range(set);
+    for (const Run& run : runs_of(b, set))
+    {
+        const std::uint32_t first = set.colour_start[run.begin], size = set.colour_start[run.end] - first;
+        b.stands_for(run.end - run.begin);
+        if (run.grouped())
+            b.dispatch_by_name(set.kind, kernel, "tail", grouped, {range, 1, share, report}, 1, size);
+        else
+            b.dispatch_by_name(set.kind, kernel, "", alone, {first, size, share, report}, size);
+        range += run.grouped() ? 2 : 0;
+    }
+    if (set.small_bodies > 0)
+    {
+        stand_for_small(b, set);
+        b.dispatch_by_name(set.kind, kernel, "tail", grouped,
+                           {set.small_range, set.small_bodies, share, report}, set.small_bodies,
+                           set.small_constraints);
+    }
+}
+
 void prepare_pbd_stretch(PlanBuilder& b)
 {
     prepare_springs(b, {"pbd_stretch", false, ColouringOptions{}.hub_degree});
@@ -287,19 +282,23 @@ void prepare_pbd_volume(PlanBuilder& b)
 
 void record_pbd_stretch(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep(b, "pbd_stretch", "pbd_spring", 2, b.scene.method.stretch, moment);
-    if (const ConstraintSet* set = find_set(b.plan, "pbd_stretch"))
-        record_hubs(b, *set, moment);
+    const ConstraintSet* set = find_set(b.plan, "pbd_stretch");
+    if (set == nullptr)
+        return;
+    record_pbd_sweep(b, *set, "pbd_spring", 2, b.scene.method.stretch, moment);
+    record_hubs(b, *set, moment);
 }
 
 void record_pbd_bend(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep(b, "pbd_bend", "pbd_hinge", 4, b.scene.method.bend, moment);
+    if (const ConstraintSet* set = find_set(b.plan, "pbd_bend"))
+        record_pbd_sweep(b, *set, "pbd_hinge", 4, b.scene.method.bend, moment);
 }
 
 void record_pbd_volume(PlanBuilder& b, const Moment& moment)
 {
-    record_sweep(b, "pbd_volume", "pbd_volume", 4, b.scene.method.volume, moment);
+    if (const ConstraintSet* set = find_set(b.plan, "pbd_volume"))
+        record_pbd_sweep(b, *set, "pbd_volume", 4, b.scene.method.volume, moment);
 }
 
 void prepare_pbd_jacobi(PlanBuilder& b)

@@ -22,6 +22,10 @@ double chebyshev_weight(double spectral_radius, std::uint32_t iteration);
 void prepare_pbd_stretch(PlanBuilder& builder);
 void prepare_pbd_bend(PlanBuilder& builder);
 void prepare_pbd_volume(PlanBuilder& builder);
+/// Passes of one sweep over the colours of a set. `kernel`: that of PBD for the set's element; all of them
+/// have the interface of kernels::pbd_spring. `stiffness`: of method.stretch and its like, 0 to 1.
+void record_pbd_sweep(PlanBuilder& builder, const ConstraintSet& set, std::string_view kernel,
+                      std::uint32_t vertices_each, double stiffness, const Moment& moment);
 void record_pbd_stretch(PlanBuilder& builder, const Moment& moment);
 void record_pbd_bend(PlanBuilder& builder, const Moment& moment);
 void record_pbd_volume(PlanBuilder& builder, const Moment& moment);

@@ -140,21 +140,4 @@ std::vector<Element> of_all_bodies(PlanBuilder& b, std::vector<Element> (*acting
 std::vector<StretchElement> all_springs(PlanBuilder& b) { return of_all_bodies(b, acting_springs); }
 std::vector<BendElement> all_hinges(PlanBuilder& b) { return of_all_bodies(b, acting_hinges); }
 
-HingeBuffers make_hinge_buffers(PlanBuilder& b, std::string_view effect)
-{
-    HingeBuffers out;
-    out.elements = all_hinges(b);
-    if (out.elements.empty())
-        return out;
-    out.at = incidence_of(b.plan.vertex_count, out.elements);
-    with_real(b.plan.precision, [&](auto zero) {
-        using Real = decltype(zero);
-        out.records = b.add_buffer<layout::BendingConstraint<Real>>(
-            effect, "hinges", records_of(out.elements, bending_record<Real>));
-    });
-    out.start = b.add_buffer<std::uint32_t>(effect, "hinges at a vertex, start", out.at.start);
-    out.incident = b.add_buffer<std::uint32_t>(effect, "hinges at a vertex", out.at.entries);
-    return out;
-}
-
 } // namespace taut

@@ -64,16 +64,4 @@ std::vector<BendElement> acting_hinges(PlanBuilder& builder, std::size_t body);
 std::vector<StretchElement> all_springs(PlanBuilder& builder);
 std::vector<BendElement> all_hinges(PlanBuilder& builder);
 
-/// Hinges on the device, kNoBuffer where a scene has none; incident entries are 4 * hinge + corner (edge0,
-/// edge1, wing0, wing1).
-struct HingeBuffers
-{
-    std::vector<BendElement> elements; ///< as all_hinges
-    Incidence at;
-    std::uint32_t records = kNoBuffer; ///< layout::BendingConstraint<real>
-    std::uint32_t start = kNoBuffer;
-    std::uint32_t incident = kNoBuffer;
-};
-HingeBuffers make_hinge_buffers(PlanBuilder& builder, std::string_view effect);
-
 } // namespace taut

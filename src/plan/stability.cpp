@@ -6,6 +6,7 @@
 //   (Jury). Velocity Verlet asks for h^2 k (1 + a) < 4 (1 + a^2) with a = 1 - h c / 2, which follows from it.
 #include "taut/plan/stability.hpp"
 
+#include "taut/plan/added_stiffness.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -72,9 +73,11 @@ std::vector<double> stiffness_rows(const std::vector<StretchElement>& springs,
 
 RateBounds rate_bounds(const std::vector<StretchElement>& springs, const std::vector<BendElement>& hinges,
                        const std::vector<double>& mass, const std::vector<bool>& held,
-                       std::span<const glm::dvec3> x)
+                       std::span<const glm::dvec3> x, std::span<const double> more)
 {
-    const std::vector<double> stiff = stiffness_rows(springs, hinges, mass.size(), x);
+    std::vector<double> stiff = stiffness_rows(springs, hinges, mass.size(), x);
+    for (std::size_t v = 0; v < more.size(); ++v)
+        stiff[v] += more[v];
     std::vector<double> damp(mass.size(), 0.0);
     for (const StretchElement& s : springs)
         for (const std::uint32_t v : {s.a, s.b})
@@ -105,7 +108,8 @@ RateBounds rate_bounds(const Scene& resolved)
         {
             if (x->empty())
                 continue;
-            const RateBounds own = rate_bounds(springs, hinges, mass, held, *x);
+            const RateBounds own =
+                rate_bounds(springs, hinges, mass, held, *x, added_stiffness_rows(body, *x));
             out.stiffness = std::max(out.stiffness, own.stiffness);
             out.damping = std::max(out.damping, own.damping);
         }

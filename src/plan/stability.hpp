@@ -32,12 +32,14 @@ std::vector<double> stiffness_rows(const std::vector<StretchElement>& springs,
 
 /// Springs count at their stiffest (along their direction; no shorter than half their rest length, where the
 /// compressed direction across would be stiffer), hinges by their gradients at `x`; those without an area
-/// there count nothing. Elements index `mass` [kg], `held` and `x` [m].
+/// there count nothing. Elements index `mass` [kg], `held` and `x` [m]. `more`: row sums of |K| of other
+/// elements, N/m, none or one a vertex.
 RateBounds rate_bounds(const std::vector<StretchElement>& springs, const std::vector<BendElement>& hinges,
                        const std::vector<double>& mass, const std::vector<bool>& held,
-                       std::span<const glm::dvec3> x);
+                       std::span<const glm::dvec3> x, std::span<const double> more = {});
 
-/// The same over all bodies of a resolved scene, at rest and at the start: the larger.
+/// The same over all bodies of a resolved scene, with elements that the program has added, at rest and at the
+/// start: the larger. Elements that grow stiffer as they move are not foreseen.
 RateBounds rate_bounds(const Scene& resolved);
 
 /// Longest step, s, with which semi-implicit Euler and velocity Verlet stay bounded:

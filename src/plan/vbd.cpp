@@ -57,17 +57,21 @@ std::vector<std::vector<std::uint32_t>> colours_of(const PlanBuilder& b, const B
         for (std::uint32_t v = first; v < end; ++v)
             free.push_back(b.inverse_mass[v] > 0);
         VertexGraph graph(std::move(free));
-        const auto add = [&](const auto& element) {
+        const auto add_corners = [&](const auto& corners) {
             std::vector<std::uint32_t> own;
-            for (const std::uint32_t v : corners_of(element))
+            for (const std::uint32_t v : corners)
                 own.push_back(v - first);
             if (own.front() < end - first) // unsigned: neither before nor behind the body
                 graph.add(own, static_cast<std::uint32_t>(own.size()));
         };
+        const auto add = [&](const auto& element) { add_corners(corners_of(element)); };
         std::for_each(elements.springs.begin(), elements.springs.end(), add);
         std::for_each(elements.hinges.begin(), elements.hinges.end(), add);
         std::for_each(elements.volumes.begin(), elements.volumes.end(), add);
         std::for_each(elements.solids.begin(), elements.solids.end(), add);
+        for (const AddedSet& set : elements.added)
+            for (std::size_t k = 0; k < set.count(); ++k)
+                add_corners(std::span(set.vertices).subspan(k * set.kind->corners, set.kind->corners));
         graph.finish();
         const std::vector<glm::uvec3> places = box_places(b, body);
         const VertexColours found =
@@ -87,7 +91,8 @@ std::vector<BlockBuffers::Run> runs_of(const PlanBuilder& b,
                                        const std::vector<std::vector<std::uint32_t>>& colours,
                                        std::uint32_t each, std::uint32_t most)
 {
-    const std::uint32_t limit = small_colour(b.traits) / std::max(each, 1u);
+    // Added elements bring their part in passes before each colour's.
+    const std::uint32_t limit = b.blocks->apart ? 0 : small_colour(b.traits) / std::max(each, 1u);
     std::vector<BlockBuffers::Run> runs;
     std::uint32_t row = 0;
     for (std::size_t c = 0; c < colours.size();)
@@ -181,7 +186,8 @@ void prepare_vbd(PlanBuilder& b)
     f.damped = std::any_of(elements.springs.begin(), elements.springs.end(),
                            [](const StretchElement& e) { return e.damping > 0; });
     f.volumes = !elements.volumes.empty();
-    f.elastic = !elements.solids.empty();
+    f.apart = !elements.added.empty();
+    f.elastic = !elements.solids.empty() || f.apart; // rows of that kind hold all others
     std::uint32_t most = 0;
     for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
         most = std::max(most, elements.at(v));
@@ -189,6 +195,7 @@ void prepare_vbd(PlanBuilder& b)
     f.runs = runs_of(b, colours, f.near(), most);
     f.omega = chebyshev_factors(b.scene.method.spectral_radius, b.plan.iterations);
     prepare_vbd_start(b, f);
+    prepare_vbd_added(b, f, elements, colours);
     prepare_acceleration(b, f);
     ConstraintSet set;
     set.kind = "vbd_solve";
@@ -211,7 +218,7 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
     kernels::vbd_solve::Bindings<Use> uses = {.row = {f.row, f.row_words()},
                                               .end = {f.ends, f.springs_each},
                                               .position = {b.plan.position, near},
-                                              .predicted = {b.plan.predicted},
+                                              .predicted = {f.apart ? kNoBuffer : b.plan.predicted},
                                               .delta = {b.plan.delta, near},
                                               .events = {b.plan.events, 0}};
     if (f.corners != kNoBuffer)
@@ -219,7 +226,9 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
     const bool damped = f.damped || f.elastic; // elastic rows have one variant, with dampers
     if (damped)
         uses.low = {b.plan.low, f.damped ? 1 + f.springs_each : 1};
-    std::string kinds = f.elastic ? "elastic" : f.volumes ? "volumes" : f.hinges ? "hinges" : "";
+    if (f.apart)
+        uses.block = {f.block, 3};
+    std::string kinds = f.apart ? "added" : f.elastic ? "elastic" : f.volumes ? "volumes" : f.hinges ? "hinges" : "";
     if (damped && !f.elastic)
         kinds += kinds.empty() ? "damped" : "_damped";
     for (const BlockBuffers::Run& run : f.runs)
@@ -228,6 +237,7 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
             std::string(run.grouped() ? "tail" : "") + (run.grouped() && !kinds.empty() ? "_" : "") + kinds;
         const kernels::vbd_solve::Params params{run.first, run.rows, moment.last,
                                                 static_cast<float>(b.scene.method.relaxation)};
+        record_vbd_added(b, run, moment.last);
         b.stands_for(run.colours);
         b.dispatch("vbd_solve", variant, uses, params, run.grouped() ? 1 : run.rows, run.rows);
     }

@@ -20,10 +20,22 @@ struct BlockBuffers
     };
     std::vector<Run> runs;
     std::uint32_t rows = 0;                          ///< vertices that move
+    /// Elements of one kind that the program has added (kernels/methods/vbd/).
+    struct Kind
+    {
+        std::string name;
+        std::uint32_t corners = 2, count = 0;
+        std::uint32_t records = kNoBuffer;
+        std::uint32_t rows = kNoBuffer;  ///< which are at the vertex of each row
+        std::uint32_t parts = kNoBuffer; ///< which are each group's of the bodies' sums
+    };
+    std::vector<Kind> kinds;
+    std::uint32_t block = kNoBuffer; ///< what they come to at each vertex
     /// Of a row on average, for the accounts.
     std::uint32_t springs_each = 0, hinges_each = 0, tetrahedra_each = 0;
     bool hinges = false, damped = false;
     bool volumes = false, elastic = false; ///< held volumes, neo-Hookean tetrahedra
+    bool apart = false; ///< there are added elements; then rows are as with tetrahedra
     bool tetrahedra() const { return volumes || elastic; }
     std::uint32_t row_words() const { return tetrahedra() ? 5 : 4; }
     /// Words of the corners, and positions beside its own, that a row reads on average.
@@ -37,6 +49,7 @@ struct BlockBuffers
     }
     /// Of bodies' sums (vbd_rise, vbd_drift): groups, and where in `row` their table is.
     std::uint32_t groups = 0, table = 0, sums = kNoBuffer;
+    std::vector<std::uint32_t> group_start; ///< first of each body, and the end
     bool loose = false; ///< a body of which nothing is held
     std::uint32_t row = kNoBuffer, ends = kNoBuffer, corners = kNoBuffer;
     std::uint32_t share = kNoBuffer, support = kNoBuffer;                    ///< adaptive start

@@ -165,6 +165,8 @@ void add_lists(PlanBuilder& b, BlockBuffers& f, const BlockElements& elements,
     f.row = b.add_buffer<std::uint32_t>("vbd_solve", "rows", row);
     f.ends = b.add_buffer<layout::Spring<Real>>("vbd_solve", "spring ends", lists.ends);
     append(lists.hinges, lists.tetrahedra);
+    if (lists.hinges.empty())
+        lists.hinges.push_back({}); // never read
     if (f.hinges || f.tetrahedra())
         f.corners = b.add_buffer<typename Corner::Record>(
             "vbd_solve", f.tetrahedra() ? "corners of hinges and tetrahedra" : "hinge corners", lists.hinges);
@@ -182,6 +184,9 @@ BlockElements elements_of(PlanBuilder& b)
         append(out.volumes, acting_volumes(b, body));
         append(out.solids, acting_solids(b, body));
     }
+    out.added = added_sets(b);
+    for (const AddedSet& set : out.added)
+        out.at_added.push_back(incidence_of(b.plan.vertex_count, set.vertices, set.kind->corners));
     out.at_spring = incidence_of(b.plan.vertex_count, out.springs);
     out.at_hinge = incidence_of(b.plan.vertex_count, out.hinges);
     out.at_volume = incidence_of(b.plan.vertex_count, out.volumes);

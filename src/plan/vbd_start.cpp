@@ -15,6 +15,7 @@
 #include "taut/kernels/vbd_shift.hpp"
 #include "taut/kernels/vbd_start.hpp"
 #include "taut/plan/body_parts.hpp"
+#include "taut/plan/vbd_rows.hpp"
 
 #include "taut/kernels/shared/vbd_parts.h"
 
@@ -61,6 +62,7 @@ void record_rise(PlanBuilder& b, bool ended)
     if (f.corners != kNoBuffer)
         uses.corner = {f.corners, f.corners_each()};
     b.dispatch("vbd_start", variant_of(f), uses, {f.groups, ended ? 1u : 0u, f.table}, f.groups, f.rows);
+    record_vbd_added_rise(b);
 }
 
 /// No start above the fallback.
@@ -119,6 +121,7 @@ std::vector<std::uint32_t> guard_table(const PlanBuilder& b, BlockBuffers& f,
                                        std::span<const GuardedRow> row_of)
 {
     BodyParts parts;
+    f.group_start = {0};
     for (std::size_t body = 0; guarded(b) && body < b.scene.bodies.size(); ++body)
     {
         const std::uint32_t first = b.plan.body_start[body], end = b.plan.body_start[body + 1];
@@ -131,6 +134,7 @@ std::vector<std::uint32_t> guard_table(const PlanBuilder& b, BlockBuffers& f,
             }
         const bool held = rows.size() < end - first;
         parts.add(rows, elements, held);
+        f.group_start.push_back(parts.groups());
         f.loose |= !held && !rows.empty();
     }
     f.groups = parts.groups();

@@ -52,26 +52,6 @@ Rise spring(const Net<Real>& net, const layout::Spring<Real>& s, const Long3& st
     return out;
 }
 
-template <typename Real>
-Rise hinge(const Net<Real>& net, const layout::BendingConstraint<Real>& c, const std::array<Long3, 4>& step)
-{
-    const auto v = corners_of(c);
-    std::array<glm::dvec3, 4> then{};
-    double size = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-    {
-        then[k] = net.between(v[0], v[k]) + glm::dvec3(step[k] - step[0]);
-        size += double(glm::length(step[k]));
-    }
-    const HingeTerms now = hinge_terms(net, c), later = hinge_terms(then);
-    if (!now.shaped || !later.shaped)
-        return {};
-    const double turn = std::remainder(later.angle - now.angle, 2 * 3.14159265358979323846);
-    const double off = std::remainder(now.angle - double(c.rest_angle), 2 * 3.14159265358979323846);
-    const double factor = net.h() * net.h() / double(c.compliance);
-    return {factor * turn * (off + turn / 2), factor * 8 * now.shape * later.shape};
-}
-
 using Long33 = glm::mat<3, 3, long double>;
 
 long double shape_of(const Long33& f)
@@ -114,7 +94,7 @@ Rise solid(const SolidNet<Real>& in, std::size_t k, const std::array<Long3, 4>& 
 TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the potential", "", float, double)
 {
     using Real = TestType;
-    const std::string variant = GENERATE("", "springs", "hinges", "solids");
+    const std::string variant = GENERATE("", "springs", "solids");
     const std::uint32_t trials = GENERATE(1u, 5u, 17u);
     for (const std::uint32_t count : {4u, 63u, 65u, 129u, 300u})
     {
@@ -123,8 +103,7 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
         if (variant == "solids")
             net = in.net;
         Dealt dealt;
-        dealt.count = static_cast<std::uint32_t>(variant == "springs"  ? net.springs.size()
-                                                 : variant == "hinges" ? net.hinges.size()
+        dealt.count = static_cast<std::uint32_t>(variant == "springs" ? net.springs.size()
                                                  : variant == "solids" ? in.solids.size()
                                                                        : count);
         dealt.groups = dealt.count > 200 ? 3 : 1;
@@ -159,13 +138,6 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
                 if (variant == "springs")
                     rise = spring(net, net.springs[k],
                                   step(net.springs[k].a, share) - step(net.springs[k].b, share));
-                else if (variant == "hinges")
-                {
-                    std::array<Long3, 4> steps;
-                    for (std::size_t v = 0; v < 4; ++v)
-                        steps[v] = step(corners_of(net.hinges[k])[v], share);
-                    rise = hinge(net, net.hinges[k], steps);
-                }
                 else if (variant == "solids")
                 {
                     std::array<Long3, 4> steps;

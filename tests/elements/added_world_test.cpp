@@ -152,7 +152,7 @@ TEST_CASE("what a scene says wrong of added elements is refused with the place a
     CHECK(refusal(scene) == "nothing");
     list.kind = "quartic";
     CHECK(says(refusal(scene), "bodies[0].elements[0].kind is \"quartic\""));
-    CHECK(says(refusal(scene), "\"cubic_spring\", \"held_area\""));
+    CHECK(says(refusal(scene), "\"cubic_spring\", \"held_area\", \"thin_rod\""));
     list.kind = "cubic_spring";
     list.vertices = {0, 1, 1};
     CHECK(says(refusal(scene), ".vertices has 3 entries; \"cubic_spring\" takes 2"));
@@ -164,19 +164,24 @@ TEST_CASE("what a scene says wrong of added elements is refused with the place a
     list.values = {1, std::nan("")};
     CHECK(says(refusal(scene), ".values[1] (compliance) is not finite"));
     list.values = {1, 1e-3};
-    scene.method.type = "vbd";
-    CHECK(says(refusal(scene), "method \"vbd\" has no kernels for elements that the program adds"));
+    scene.method.type = "acad";
+    CHECK(says(refusal(scene), "method \"acad\" has no kernels for elements that the program adds"));
+    scene.method.type = "mass_spring";
+    scene.method.stability = "ignore";
+    CHECK(refusal(scene) == "nothing");
+    list.values = {1, 0};
+    CHECK(says(refusal(scene), "element 0 has no finite energy where it starts"));
 }
 
 TEST_CASE("an element that is called as an effect is refused")
 {
     add_elements();
-    static std::vector<KernelInfo> kernels(find_element("cubic_spring")->kernels.begin(),
-                                           find_element("cubic_spring")->kernels.end());
+    const std::span<const KernelInfo> good = find_element("cubic_spring")->kernels.front();
+    static std::vector<KernelInfo> kernels(good.begin(), good.end());
     for (KernelInfo& kernel : kernels)
         kernel.name = "xpbd_distance";
     ElementKind kind = *find_element("cubic_spring");
-    kind.kernels = kernels;
+    kind.kernels = {kernels};
     kind.name = "length";
     CHECK_THROWS_AS(add_element(kind), Error); // its kernels are another's
     kind.name = "distance";

@@ -4,7 +4,7 @@
 // Based on: the law of Duffing's oscillator without its linear part.
 // Departures: none.
 //! corners 2
-//! methods xpbd
+//! methods xpbd pbd mass_spring implicit_euler vbd
 
 LAYOUT_STRUCT(CubicSpring)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// The two elements of tests/elements as everybody else would write them: an energy in fp64, and nothing of
+// The elements of tests/elements as everybody else would write them: an energy in fp64, and nothing of
 // their kernels. Tests differentiate it by dual numbers.
 
 #include "support/dual.hpp"
@@ -32,6 +32,7 @@ T length_of(const Point<T>& a)
 struct CubicSpringEnergy
 {
     static constexpr std::uint32_t corners = 2;
+    static constexpr bool quadratic = false;
     template <typename T>
     T operator()(const std::array<Point<T>, 2>& x, std::span<const double> values) const
     {
@@ -44,6 +45,7 @@ struct CubicSpringEnergy
 struct HeldAreaEnergy
 {
     static constexpr std::uint32_t corners = 3;
+    static constexpr bool quadratic = false;
     template <typename T>
     T operator()(const std::array<Point<T>, 3>& x, std::span<const double> values) const
     {
@@ -51,6 +53,24 @@ struct HeldAreaEnergy
         const Point<T> c = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
         const T grown = T(0.5) * length_of(c) - T(values[0]);
         return grown * grown / T(2 * values[1]);
+    }
+};
+
+/// values: stiffness N/m.
+struct ThinRodEnergy
+{
+    static constexpr std::uint32_t corners = 3;
+    static constexpr bool quadratic = true;
+    template <typename T>
+    T operator()(const std::array<Point<T>, 3>& x, std::span<const double> values) const
+    {
+        T squares = T(0);
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const T bow = x[2][k] - x[1][k] - (x[1][k] - x[0][k]);
+            squares = squares + bow * bow;
+        }
+        return squares * T(0.5 * values[0]);
     }
 };
 
@@ -64,7 +84,7 @@ double energy_of(std::span<const glm::dvec3> x, std::span<const double> values)
     return Energy()(corner, values);
 }
 
-/// Both are added once a process.
+/// All are added once a process.
 void add_elements();
 
 } // namespace taut::elements_test

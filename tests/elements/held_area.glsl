@@ -3,7 +3,7 @@
 // Based on: the gradients of a triangle's area, half its unit normal turned by its edges.
 // Departures: none.
 //! corners 3
-//! methods xpbd
+//! methods xpbd pbd mass_spring implicit_euler vbd
 
 LAYOUT_STRUCT(HeldArea)
 {

@@ -45,7 +45,7 @@ HingeTerms hinge_terms(const Net<Real>& net, const layout::BendingConstraint<Rea
 
 template <typename Real>
 std::vector<std::uint32_t> make_table(Net<Real>& net, const std::vector<std::uint32_t>& corners,
-                                      std::uint32_t arity, std::set<Place>& met)
+                                      std::uint32_t arity, std::set<Place>& met, bool own)
 {
     std::vector<std::vector<std::uint32_t>> at(net.count);
     std::set<std::uint32_t> counted;
@@ -70,7 +70,7 @@ std::vector<std::uint32_t> make_table(Net<Real>& net, const std::vector<std::uin
                 continue;
             at[v].push_back((arity * k + c) | (counted.insert(k).second ? kFirst : 0u));
             for (std::uint32_t other = 0; other < arity; ++other)
-                if (arity > 2 || other != c)
+                if (own || other != c)
                     at[v].push_back(place_of(v, corners[k * arity + other]));
         }
     std::vector<std::uint32_t> table;
@@ -102,8 +102,8 @@ void make_tables(Net<Real>& net)
         net.held.insert(net.held.end(), 3, net.position[v].w > 0 && used.count(v) > 0 ? 0u : 1u);
     net.blocks.clear();
     std::set<Place> met;
-    net.spring_table = make_table(net, ends, 2, met);
-    net.hinge_table = make_table(net, corners, 4, met);
+    net.spring_table = make_table(net, ends, 2, met, false);
+    net.hinge_table = make_table(net, corners, 4, met, true);
 }
 
 template <typename Real>
@@ -243,7 +243,7 @@ std::vector<Sized> product_of(const Net<Real>& net, const std::map<Place, SizedB
 
 #define TAUT_NET_OF(Real)                                                                                    \
     template std::vector<std::uint32_t> make_table(Net<Real>&, const std::vector<std::uint32_t>&,            \
-                                                   std::uint32_t, std::set<Place>&);                         \
+                                                   std::uint32_t, std::set<Place>&, bool);                   \
     template Net<Real> random_net(std::uint32_t, std::uint64_t);                                             \
     template void make_tables(Net<Real>&);                                                                   \
     template SpringTerms spring_terms(const Net<Real>&, const layout::Spring<Real>&, bool);                  \

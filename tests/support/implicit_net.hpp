@@ -75,16 +75,17 @@ struct Net
     {
         return {{"position", bytes_of(position)}, {"low", bytes_of(low)},
                 {"delta", bytes_of(delta)},       {"predicted", bytes_of(predicted)},
-                {"spring", bytes_of(springs)},    {"hinge", bytes_of(hinges)},
+                {"spring", bytes_of(springs)},    {"constraint", bytes_of(hinges)},
                 {"held", bytes_of(held)},         {"step_values", bytes_of(std::vector{step})},
                 {"events", no_events()},          {"table", bytes_of(spring_table)}};
     }
 };
 
 /// The table of elements with `arity` corners; places go to `blocks`, those met for the first time marked.
+/// `own`: entries have a place for the vertex's own block, too.
 template <typename Real>
 std::vector<std::uint32_t> make_table(Net<Real>& net, const std::vector<std::uint32_t>& corners,
-                                      std::uint32_t arity, std::set<Place>& met);
+                                      std::uint32_t arity, std::set<Place>& met, bool own);
 
 template <typename Real>
 void make_tables(Net<Real>& net);

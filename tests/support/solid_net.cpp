@@ -18,7 +18,7 @@ void make_solid_table(SolidNet<Real>& in)
         net.held.insert(net.held.end(), 3, net.position[v].w > 0 && used.count(v) > 0 ? 0u : 1u);
     net.blocks.clear();
     std::set<Place> met;
-    in.table = make_table(net, corners, 4, met);
+    in.table = make_table(net, corners, 4, met, true);
 }
 
 template <typename Real>

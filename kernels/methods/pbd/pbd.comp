@@ -13,6 +13,7 @@
 #include "shared/layouts.h"
 #include "shared/pbd.glsl"
 #include TAUT_ELEMENT
+#include "shared/element_row.glsl"
 
 PARAMS
 {

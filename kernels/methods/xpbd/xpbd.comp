@@ -26,6 +26,7 @@
 #include "shared/compliance.glsl"
 #include "shared/element.glsl"
 #include TAUT_ELEMENT
+#include "shared/element_row.glsl"
 
 PARAMS
 {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdio>
 #include <taut/elements/element.hpp>
-#include <taut/kernels/xpbd_cubic_spring.hpp>
+#include <taut/kernels/cubic_spring.hpp>
 #include <taut/taut.hpp>
 
 namespace {
@@ -16,8 +16,8 @@ double energy(std::span<const glm::dvec3> x, std::span<const double> values)
 
 int main()
 {
-    taut::add_element({"cubic_spring", 2, {"rest_length", "compliance"},
-                       taut::kernels::xpbd_cubic_spring::all(), energy});
+    taut::add_element({"cubic_spring", 2, {"rest_length", "compliance"}, taut::kernels::cubic_spring::all(),
+                       energy});
     taut::Scene scene = taut::parse_scene(R"({"taut": 1, "damping": 4, "method": {"substeps": 20},
         "bodies": [{"chain": {"links": 1}, "material": {"stretch_stiffness": 0}, "vertex_masses": [0.2, 0.2],
                     "pins": [{"corner": "first"}]}]})");

@@ -49,14 +49,14 @@ TEST_CASE("mass-spring is one gather, one kick and the two passes of motion in a
     CHECK(plan.largest_substep > 0);
     scene.bodies[0].material.bending_stiffness = 1e-5;
     plan = make_plan(scene);
-    CHECK(effects(plan) == Words{"force_kick", "hinge_force", "motion", "spring_force"});
-    CHECK(plan.passes.size() == 20 * 5 + 1);
+    CHECK(effects(plan) == Words{"corner_sum", "force_kick", "hinge_force", "motion", "spring_force"});
+    CHECK(plan.passes.size() == 20 * 6 + 1); // hinges into slots, and their sum
     scene.method.iterations = 7; // means nothing here
-    CHECK(make_plan(scene).passes.size() == 20 * 5 + 1);
+    CHECK(make_plan(scene).passes.size() == 20 * 6 + 1);
     scene.method.integrator = "explicit";
-    CHECK(make_plan(scene).passes.size() == 20 * 6);
+    CHECK(make_plan(scene).passes.size() == 20 * 7);
     scene.method.integrator = "verlet";
-    CHECK(make_plan(scene).passes.size() == 20 * 8);
+    CHECK(make_plan(scene).passes.size() == 20 * 10);
     scene.bodies[0].material.stretch_stiffness = 0;
     scene.bodies[0].material.bending_stiffness = 0;
     CHECK(make_plan(scene).passes.size() == 20 * 4); // Verlet's own gravity

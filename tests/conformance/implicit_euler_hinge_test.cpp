@@ -1,11 +1,11 @@
-#include "taut/kernels/implicit_hinges.hpp"
+#include "taut/kernels/implicit_euler_hinge.hpp"
 
 #include "support/implicit_net.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("implicit_hinges adds forces and Gauss-Newton blocks of hinges", "", float, double)
+TEMPLATE_TEST_CASE("implicit_euler_hinge adds forces and Gauss-Newton blocks of hinges", "", float, double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(4u, 63u, 64u, 65u, 127u, 128u, 1000u);
@@ -24,8 +24,8 @@ TEMPLATE_TEST_CASE("implicit_hinges adds forces and Gauss-Newton blocks of hinge
     c.in["table"] = bytes_of(net.hinge_table);
     c.in["b"] = bytes_of(side);
     c.in["values"] = bytes_of(before);
-    c.launches = {make_launch(kernels::implicit_hinges::info("", c.precision),
-                              kernels::implicit_hinges::Params{count, report, net.scale, net.lift}, count)};
+    c.launches = {make_launch(kernels::implicit_euler_hinge::info("", c.precision),
+                              kernels::implicit_euler_hinge::Params{count, report, net.scale, net.lift}, count)};
     std::uint32_t degenerate = 0, unused = 0;
     const auto blocks = hinge_system(net, degenerate);
     const auto springs = spring_system(net, unused);

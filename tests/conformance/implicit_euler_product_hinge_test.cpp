@@ -1,11 +1,11 @@
-#include "taut/kernels/implicit_hinge_product.hpp"
+#include "taut/kernels/implicit_euler_product_hinge.hpp"
 
 #include "support/implicit_net.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("implicit_hinge_product adds hinges formed from places", "", float, double)
+TEMPLATE_TEST_CASE("implicit_euler_product_hinge adds hinges formed from places", "", float, double)
 {
     using Real = TestType;
     const std::string variant = GENERATE("", "dot", "residual");
@@ -25,13 +25,13 @@ TEMPLATE_TEST_CASE("implicit_hinge_product adds hinges formed from places", "", 
         c.precision = precision_of<Real>();
         c.in = net.buffers();
         if (net.hinges.empty()) // a buffer has bytes
-            c.in["hinge"] = Bytes(sizeof(layout::BendingConstraint<Real>));
+            c.in["constraint"] = Bytes(sizeof(layout::BendingConstraint<Real>));
         c.in["table"] = bytes_of(net.hinge_table);
         c.in["x"] = bytes_of(x);
         c.in["y"] = bytes_of(y);
         c.in["partials"] = bytes_of(std::vector<Real>(dealt.groups, Real(7)));
-        const kernels::implicit_hinge_product::Params params{count, dealt.chunk(), dealt.groups, net.scale};
-        c.launches = {make_launch(kernels::implicit_hinge_product::info(variant, c.precision), params,
+        const kernels::implicit_euler_product_hinge::Params params{count, dealt.chunk(), dealt.groups, net.scale};
+        c.launches = {make_launch(kernels::implicit_euler_product_hinge::info(variant, c.precision), params,
                                   dealt.dispatched())};
         std::uint32_t unused = 0;
         const auto more = product_of(net, hinge_system(net, unused), x);
