@@ -111,7 +111,7 @@ static_assert(std::size(kShapes) == kColliderKinds);
 const ColliderShape& collider_shape(ColliderKind kind) { return kShapes[static_cast<std::size_t>(kind)]; }
 
 ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, Precision precision,
-                                        std::uint32_t substeps, double time)
+                                        std::uint32_t substeps, double from, double to)
 {
     const ColliderShape& shape = collider_shape(kind);
     const auto append = precision == Precision::float64 ? shape.append_double : shape.append_float;
@@ -119,7 +119,7 @@ ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, P
     for (std::uint32_t s = 0; s < shape.copies(substeps); ++s)
         for (const Collider& c : scene.colliders)
             if (c.kind == kind)
-                append(out, c, time + scene.timestep * s / substeps, time + scene.timestep);
+                append(out, c, s == substeps ? to : from + scene.timestep * s / substeps, to);
     return out;
 }
 

@@ -32,8 +32,8 @@ struct ColliderShape
 
 const ColliderShape& collider_shape(ColliderKind kind);
 
-/// The records of all colliders of a kind for the time step that begins at `time`.
+/// The records of all colliders of a kind for the time step between two times, s.
 ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, Precision precision,
-                                        std::uint32_t substeps, double time);
+                                        std::uint32_t substeps, double from, double to);
 
 } // namespace taut

@@ -60,11 +60,13 @@ void record_external_force(PlanBuilder& b, const Moment&)
 
 // ---------------------------------------------------------------- held vertices that move
 
+bool is_led(const Pin& pin) { return pin.moved_by_program || !pin.motion.empty(); }
+
 bool wants_pin_motion(const Scene& scene)
 {
     for (const Body& body : scene.bodies)
         for (const Pin& pin : body.pins)
-            if (!pin.motion.empty() && !pin.vertices.empty())
+            if (is_led(pin) && !pin.vertices.empty())
                 return true;
     return false;
 }
@@ -75,16 +77,19 @@ void prepare_pin_motion(PlanBuilder& b)
     std::vector<std::uint32_t> vertices;
     for (std::uint32_t body = 0; body < b.scene.bodies.size(); ++body)
         for (std::uint32_t p = 0; p < b.scene.bodies[body].pins.size(); ++p)
-            for (const std::uint32_t own : b.scene.bodies[body].pins[p].vertices)
+        {
+            const Pin& pin = b.scene.bodies[body].pins[p];
+            for (std::uint32_t own = 0; own < pin.vertices.size(); ++own)
             {
-                const std::uint32_t v = b.vertex(body, own);
-                const bool moves = !taken[v] && !b.scene.bodies[body].pins[p].motion.empty();
+                const std::uint32_t v = b.vertex(body, pin.vertices[own]);
+                const bool moves = !taken[v] && is_led(pin);
                 taken[v] = true;
                 if (!moves)
                     continue;
-                b.plan.moving_pins.push_back({v, body, p, b.start[v]});
+                b.plan.moving_pins.push_back({v, body, p, b.start[v], own});
                 vertices.push_back(v);
             }
+        }
     b.pin_vertices = b.add_buffer<std::uint32_t>("pin_motion", "pin vertices", vertices);
     b.plan.pin_targets = b.add_buffer("pin_motion", "pin targets", vertices.size() * 8 * b.real_size());
     b.plan.buffers[b.plan.pin_targets].host_written = true;

@@ -115,6 +115,7 @@ struct MovingPin
     std::uint32_t vertex = 0; ///< in the plan's order
     std::uint32_t body = 0, pin = 0;
     glm::dvec3 rest{0};
+    std::uint32_t own = 0; ///< its place in Pin::vertices
 };
 
 /// What a vertex' half kick at a step is taken from (src/world/at_step.hpp).

@@ -27,7 +27,9 @@ double least_distance(const Pin& a, const Pin& b, std::span<const glm::dvec3> x)
     return out;
 }
 
-bool either_moves(const Pin& a, const Pin& b) { return !a.motion.empty() || !b.motion.empty(); }
+bool led(const Pin& pin) { return pin.moved_by_program || !pin.motion.empty(); }
+
+bool either_moves(const Pin& a, const Pin& b) { return led(a) || led(b); }
 
 /// m: over what length a body is drawn where its pins move: to the nearest pin that moves otherwise, or the
 /// body itself.
@@ -58,9 +60,11 @@ double drawn_stiffness(const Body& body)
     return length > 0 ? stiff / (length * length) : 0;
 }
 
+/// Nobody knows where a program takes a pin.
 bool turns(const Pin& pin)
 {
-    return std::any_of(pin.motion.begin(), pin.motion.end(),
+    return pin.moved_by_program ||
+           std::any_of(pin.motion.begin(), pin.motion.end(),
                        [](const Keyframe& key) { return key.rotate_degrees != 0; });
 }
 

@@ -19,17 +19,7 @@ namespace {
 /// that speed, in one blow. The rest of it is squeezed until it moves as fast, and springs back: as a ball
 /// from a racket.
 constexpr double kThrown = 2;
-constexpr double kSampleTurn = 0.25; ///< rad: a chord this wide is 0.3 % shorter than its arc
-
-/// Corners of the box of some places; a rigid motion moves none of the places faster than the fastest corner.
-std::vector<glm::dvec3> box_corners(const glm::dvec3& low, const glm::dvec3& high)
-{
-    std::vector<glm::dvec3> out;
-    for (int k = 0; k < 8; ++k)
-        out.emplace_back((k & 1) != 0 ? high.x : low.x, (k & 2) != 0 ? high.y : low.y,
-                         (k & 4) != 0 ? high.z : low.z);
-    return out;
-}
+constexpr int kLines = 7; ///< that stand for the way between two keys, more than chords() asks for
 
 /// A motion, and the corners of what it carries.
 struct Mover
@@ -51,57 +41,11 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
             if (!pin.motion.empty() && held.low.x <= held.high.x)
                 out.push_back({pin.motion, box_corners(held.low, held.high), true});
         }
+    // Of a plane, the part that the bodies can be at.
     for (const Collider& c : scene.colliders)
-    {
-        // Of a plane, the part that the bodies can be at.
-        const ColliderSolid solid = solid_of(c);
-        const ColliderFrame rest = rest_frame(c);
-        // A line along y keeps its ends, a box the ball round it.
-        const glm::dvec3 along = solid.is_box() ? glm::dvec3(0) : glm::abs(rest.y * solid.half.y);
-        const double size = !solid.bounded   ? model.diameter
-                            : solid.is_box() ? glm::length(solid.half)
-                                             : solid.radius;
-        if (!c.motion.empty())
-            out.push_back(
-                {c.motion, box_corners(rest.centre - along - size, rest.centre + along + size), false});
-    }
+        if (!c.motion.empty() && !c.moved_by_program)
+            out.push_back({c.motion, collider_corners(c, model.diameter), false});
     return out;
-}
-
-/// rad/s: no stretch between two keys turns faster.
-double fastest_turn(const std::vector<Keyframe>& motion)
-{
-    double out = 0;
-    for (std::size_t k = 1; k < motion.size(); ++k)
-        out = std::max(out, glm::distance(rotation_of(motion[k]), rotation_of(motion[k - 1])) /
-                                (motion[k].time - motion[k - 1].time));
-    return out;
-}
-
-/// What a mover does between two times, added to `reach`; `velocity` [m/s] is that of each corner before, and
-/// after, `change` [m/s] by how much it has changed in all.
-void extend(const Mover& mover, double from, double to, std::vector<glm::dvec3>& velocity,
-            std::vector<double>& change, MoverReach& reach)
-{
-    const double turn = fastest_turn(mover.motion) * (to - from) / kSampleTurn;
-    const int samples = 8 + static_cast<int>(std::min(turn, 1e5));
-    for (std::size_t c = 0; c < mover.corners.size(); ++c)
-    {
-        glm::dvec3 before = pose(mover.motion, from, mover.corners[c]);
-        for (int k = 1; k <= samples; ++k)
-        {
-            const glm::dvec3 now = pose(mover.motion, from + (to - from) * k / samples, mover.corners[c]);
-            const glm::dvec3 v = (now - before) * (samples / (to - from));
-            change[c] += glm::distance(v, velocity[c]);
-            velocity[c] = v;
-            reach.speed = std::max(reach.speed, glm::length(v));
-            reach.travel = std::max(reach.travel, glm::distance(now, mover.corners[c]));
-            reach.low = glm::min(reach.low, glm::min(now, before));
-            reach.high = glm::max(reach.high, glm::max(now, before));
-            before = now;
-        }
-        reach.change = std::max(reach.change, change[c]);
-    }
 }
 
 std::vector<MoverPath> paths_of(const std::vector<Mover>& movers)
@@ -110,21 +54,20 @@ std::vector<MoverPath> paths_of(const std::vector<Mover>& movers)
     for (const Mover& mover : movers)
     {
         MoverPath path{mover.holds, {{}}};
-        std::vector<glm::dvec3> velocity(mover.corners.size(), glm::dvec3(0));
-        std::vector<double> change(mover.corners.size(), 0.0);
+        MoverTrack track;
         for (const Keyframe& key : mover.motion)
             if (key.time > path.reach.back().time)
             {
-                MoverReach next = path.reach.back();
-                next.time = key.time;
-                extend(mover, path.reach.back().time, key.time, velocity, change, next);
-                path.reach.push_back(next);
+                const double from = path.reach.back().time;
+                follow(track, mover.motion, mover.corners, from, key.time,
+                       kLines + chords(mover.motion, from, key.time));
+                path.reach.push_back(track.reach);
             }
         // It stops at its last key.
         MoverReach rest = path.reach.back();
         rest.time = std::numeric_limits<double>::infinity();
-        for (std::size_t c = 0; c < change.size(); ++c)
-            rest.change = std::max(rest.change, change[c] + glm::length(velocity[c]));
+        for (std::size_t c = 0; c < track.change.size(); ++c)
+            rest.change = std::max(rest.change, track.change[c] + glm::length(track.velocity[c]));
         path.reach.push_back(rest);
         out.push_back(std::move(path));
     }
@@ -154,7 +97,10 @@ double deepest_start(const Scene& scene, const PhysicalModel& model)
     double depth = 0;
     for (const Collider& c : scene.colliders)
     {
-        const reference::Surface surface = reference::surface_at(c, 0);
+        Collider start = c;
+        if (c.moved_by_program)
+            start.motion.clear();
+        const reference::Surface surface = reference::surface_at(start, 0);
         for (std::size_t i = 0; i < model.start.size(); ++i)
             if (!model.pinned[i])
                 depth = std::max(depth, model.gap[i] - surface.touch(model.start[i], 0).height);
@@ -196,8 +142,8 @@ double largest_violation(const Scene& scene, const PhysicalModel& model)
     return out;
 }
 
-/// N: of all triangles in a wind of this speed, were each square to it.
-double largest_wind_force(const Scene& scene, double speed)
+/// N s^2/m^2: the force on all triangles, were each square to the wind, over the square of its speed.
+double wind_drag(const Scene& scene)
 {
     double out = 0;
     for (const Body& body : scene.bodies)
@@ -205,7 +151,7 @@ double largest_wind_force(const Scene& scene, double speed)
         {
             const auto& x = body.mesh.positions;
             const double area = 0.5 * glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
-            out += 0.5 * scene.wind.density * speed * speed * area *
+            out += 0.5 * scene.wind.density * area *
                    (body.material.drag + body.material.friction_drag);
         }
     return out;
@@ -229,7 +175,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved)
       violation_(largest_violation(resolved, model_)),
       depenetration_(resolved.depenetration_speed),
       wind_speed_(largest_wind(resolved.wind)),
-      wind_force_(largest_wind_force(resolved, wind_speed_))
+      wind_drag_(wind_drag(resolved))
 {
     lightest_ = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < model_.mass.size(); ++i)
@@ -242,32 +188,38 @@ EnergyBudget::EnergyBudget(const Scene& resolved)
     gravity_start_ = gravity_energy(model_, model_.start);
 }
 
-MoverReach EnergyBudget::reach_at(double time, std::span<const glm::dvec3> x) const
+MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const
 {
     MoverReach out;
+    const bool moved = !paths_.empty() || !drive.moved.empty();
     std::vector<Extent> rooms;
-    for (std::size_t b = 0; !paths_.empty() && b + 1 < model_.body_start.size(); ++b)
-        rooms.push_back(room_of(model_, x, model_.body_start[b], model_.body_start[b + 1], time));
-    for (const MoverPath& path : paths_)
-    {
-        // The stretch that `time` lies in counts whole.
-        const auto end = std::lower_bound(path.reach.begin(), path.reach.end(), time,
-                                          [](const MoverReach& r, double t) { return r.time < t; });
-        const MoverReach& reach = end == path.reach.end() ? path.reach.back() : *end;
-        const bool meets = path.holds || std::any_of(rooms.begin(), rooms.end(), [&](const Extent& room) {
+    for (std::size_t b = 0; moved && b + 1 < model_.body_start.size(); ++b)
+        rooms.push_back(room_of(model_, x, model_.body_start[b], model_.body_start[b + 1], drive.time));
+    const auto add = [&](bool holds, const MoverReach& reach) {
+        const bool meets = holds || std::any_of(rooms.begin(), rooms.end(), [&](const Extent& room) {
                                return glm::all(glm::lessThanEqual(reach.low, room.high)) &&
                                       glm::all(glm::lessThanEqual(room.low, reach.high));
                            });
-        const double passed_on = std::max(kPulls * reach.change, path.holds ? 0.0 : kHits * reach.speed);
+        const double passed_on = std::max(kPulls * reach.change, holds ? 0.0 : kHits * reach.speed);
         out.speed = std::max(out.speed, meets ? passed_on : 0.0);
         out.travel = std::max(out.travel, meets ? reach.travel : 0.0);
+    };
+    for (const MoverPath& path : paths_)
+    {
+        // The stretch that the time lies in counts whole.
+        const auto end = std::lower_bound(path.reach.begin(), path.reach.end(), drive.time,
+                                          [](const MoverReach& r, double t) { return r.time < t; });
+        add(path.holds, end == path.reach.end() ? path.reach.back() : *end);
     }
+    for (const DrivenMover& mover : drive.moved)
+        add(mover.holds, mover.reach);
     return out;
 }
 
 EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive) const
 {
-    const MoverReach reach = reach_at(drive.time, x);
+    const MoverReach reach = reach_at(drive, x);
+    const double wind = std::max(wind_speed_, drive.wind), wind_force = wind_drag_ * wind * wind;
     const double g = glm::length(model_.gravity);
     double in = start_ - gas_energy(model_, x);
     double root = 0; // what is added to sqrt(E)
@@ -279,17 +231,17 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         in += mass_ * (g * depth_ + 0.5 * kThrown * kThrown * depenetration_ * depenetration_);
     const double way = reach.travel + std::max(depth_, 0.0);
     in += 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
-    if (wind_force_ > 0)
+    if (wind_force > 0)
     {
         double moved = 0;
         for (std::size_t i = 0; i < x.size(); ++i)
             moved = std::max(moved, glm::distance(x[i], model_.start[i]));
-        in += wind_force_ * moved;
+        in += wind_force * moved;
     }
-    root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force_ > 0 ? kHits * wind_speed_ : 0.0);
+    root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force > 0 ? kHits * wind : 0.0);
     if (drive.push > 0)
         root += drive.push / std::sqrt(2 * lightest_);
-    if (root == 0 && wind_force_ == 0 && model_.gases.empty())
+    if (root == 0 && wind_force == 0 && model_.gases.empty())
         in -= damped_;
     const DrawnEnergy drawn = drawn_->at(drive.time, way);
     const auto with = [&](double elastic) {

@@ -3,6 +3,7 @@
 // gas and forces can have put in since. Soundness (soundness.hpp) compares runs with it.
 
 #include "taut/report/model.hpp"
+#include "taut/world/mover.hpp"
 #include "taut/world/world.hpp"
 
 #include <cmath>
@@ -11,16 +12,6 @@
 #include <vector>
 
 namespace taut {
-
-/// How far and how fast something that a scene moves by itself has gone by a time, and where it was.
-struct MoverReach
-{
-    double time = 0;   ///< s: end of the stretch
-    double speed = 0;  ///< m/s, largest so far
-    double change = 0; ///< m/s, of all changes of its velocity so far
-    double travel = 0; ///< m, longest way so far
-    glm::dvec3 low{HUGE_VAL}, high{-HUGE_VAL}; ///< m, box of all places so far
-};
 
 /// Pins that move, or a collider that does.
 struct MoverPath
@@ -50,7 +41,8 @@ struct EnergyMost
 class EnergyBudget
 {
 public:
-    /// `resolved` as the world had it at the start, before anything tore.
+    /// `resolved` as the world had it at the start, before anything tore; what its program moves counts by
+    /// WorldDrive::moved.
     explicit EnergyBudget(const Scene& resolved);
 
     const PhysicalModel& model() const { return model_; }
@@ -77,7 +69,7 @@ public:
 
 private:
     /// Of all that can have touched bodies that are at `x`, together; `speed` is what they can pass on.
-    MoverReach reach_at(double time, std::span<const glm::dvec3> x) const;
+    MoverReach reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const;
 
     PhysicalModel model_;
     std::vector<MoverPath> paths_;
@@ -87,7 +79,7 @@ private:
     double violation_ = 0;     ///< m: largest of what rigid elements must put right at the start
     double depenetration_ = 0; ///< m/s
     double wind_speed_ = 0;    ///< m/s
-    double wind_force_ = 0;    ///< N, of all triangles together
+    double wind_drag_ = 0;     ///< N s^2/m^2: of all triangles together, over the square of the wind's speed
 };
 
 } // namespace taut

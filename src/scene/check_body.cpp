@@ -112,6 +112,8 @@ void check_pin(const Pin& pin, const Checker& out)
 {
     if (pin.vertices.empty() && !pin.use_box && pin.corners.empty() && pin.edges.empty() && pin.faces.empty())
         out.error("", "holds nothing; it must name vertices, a box, corners, edges or faces");
+    if (pin.moved_by_program && !pin.motion.empty())
+        out.error("moved_by_program", "is true beside a motion; leave one of the two out");
 }
 
 void check_pin_box(const Pin& pin, const Checker& out)

@@ -1,11 +1,17 @@
-// The pose of something that moves by keyframes.
+// The pose of something that moves by keyframes, or on from a pose.
+//
+// Based on: Rodrigues' formula; Hamilton's product of turns as quaternions (both as in any textbook of
+//   kinematics).
 
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut {
 
@@ -33,6 +39,20 @@ glm::dvec3 apply(const Pose& pose, const glm::dvec3& rest)
     return pose.centre + turned + pose.translate;
 }
 
+glm::dquat quaternion_of(const glm::dvec3& rotation)
+{
+    const double angle = glm::length(rotation);
+    return angle > 0 ? glm::angleAxis(angle, rotation / angle) : glm::dquat(1, 0, 0, 0);
+}
+
+void set_rotation(Keyframe& key, const glm::dvec3& rotation)
+{
+    const double angle = glm::length(rotation);
+    key.rotate_degrees = glm::degrees(angle);
+    if (angle > 0)
+        key.rotate_axis = rotation / angle;
+}
+
 } // namespace
 
 glm::dvec3 rotation_of(const Keyframe& key)
@@ -40,6 +60,63 @@ glm::dvec3 rotation_of(const Keyframe& key)
     const double length = glm::length(key.rotate_axis);
     const glm::dvec3 axis = length > 0 ? key.rotate_axis / length : glm::dvec3(0);
     return axis * glm::radians(key.rotate_degrees);
+}
+
+double turn_between(const Keyframe& a, const Keyframe& b)
+{
+    return glm::distance(rotation_of(a), rotation_of(b));
+}
+
+void take_short_way(Keyframe& from, Keyframe& to)
+{
+    double least = turn_between(from, to);
+    if (least <= glm::pi<double>())
+        return;
+    Keyframe first = from, second = to;
+    for (Keyframe* key : {&first, &second})
+        key->rotate_degrees = std::remainder(key->rotate_degrees, 360.0);
+    for (int a = -1; a <= 1; ++a)
+        for (int b = -1; b <= 1; ++b)
+        {
+            Keyframe one = first, other = second;
+            one.rotate_degrees += 360.0 * a;
+            other.rotate_degrees += 360.0 * b;
+            if (const double turn = turn_between(one, other); turn < least)
+            {
+                least = turn;
+                from = one;
+                to = other;
+            }
+        }
+}
+
+Keyframe about(const Keyframe& pose, const glm::dvec3& centre)
+{
+    Keyframe out = pose;
+    if (pose.rotate_degrees != 0)
+        out.translate = apply(pose_of(pose), centre) - centre;
+    out.rotate_centre = centre;
+    return out;
+}
+
+Keyframe moved_on(const Keyframe& pose, const glm::dvec3& centre, const glm::dvec3& velocity,
+                  const glm::dvec3& turn, double seconds)
+{
+    Keyframe out = about(pose, centre);
+    out.translate += velocity * seconds;
+    const glm::dvec3 had = rotation_of(pose), more = turn * seconds;
+    if (more == glm::dvec3(0))
+        return out;
+    if (glm::cross(had, more) == glm::dvec3(0)) // about one axis angles add up
+        set_rotation(out, had + more);
+    else
+    {
+        const glm::dquat q = quaternion_of(more) * quaternion_of(had);
+        const double sine = glm::length(glm::dvec3(q.x, q.y, q.z));
+        const double angle = 2 * std::atan2(sine, q.w);
+        set_rotation(out, sine > 0 ? glm::dvec3(q.x, q.y, q.z) * (angle / sine) : glm::dvec3(0));
+    }
+    return out;
 }
 
 glm::dvec3 pose(const std::vector<Keyframe>& motion, double time, const glm::dvec3& rest)

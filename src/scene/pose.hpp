@@ -1,5 +1,5 @@
 #pragma once
-// What pose() of scene.hpp is made of. Internal.
+// What pose() of scene.hpp is made of, and poses that go on. Internal.
 
 #include "taut/scene/scene.hpp"
 
@@ -7,5 +7,20 @@ namespace taut {
 
 /// rad: the axis times the angle of a key, which pose() takes to be linear between keys; 0 without an axis.
 glm::dvec3 rotation_of(const Keyframe& key);
+
+/// rad: the turn between two keys, as pose() makes it.
+double turn_between(const Keyframe& a, const Keyframe& b);
+
+/// Where that is more than half a turn: describes the same two poses so that it is the least, by angles that
+/// differ by full turns.
+void take_short_way(Keyframe& from, Keyframe& to);
+
+/// The same pose, turned about `centre` [m, at rest].
+Keyframe about(const Keyframe& pose, const glm::dvec3& centre);
+
+/// A pose after `seconds`, with a `velocity` [m/s] of where `centre` [m, at rest] is and a `turn` [rad/s,
+/// axis times rate] about it.
+Keyframe moved_on(const Keyframe& pose, const glm::dvec3& centre, const glm::dvec3& velocity,
+                  const glm::dvec3& turn, double seconds);
 
 } // namespace taut

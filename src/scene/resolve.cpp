@@ -162,7 +162,8 @@ void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Chec
                                scene_file::shown(pin.box_max) +
                                " holds no vertex at the start; boxes are in world space, m");
     std::sort(vertices.begin(), vertices.end());
-    pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .faces = {}, .motion = std::move(pin.motion)};
+    pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .faces = {}, .motion = std::move(pin.motion),
+              .moved_by_program = pin.moved_by_program};
     for (const std::uint32_t vertex : vertices)
         if (!held[vertex])
         {

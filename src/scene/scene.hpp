@@ -109,6 +109,8 @@ struct Pin
     std::vector<std::string>
         faces; ///< box: "left", "right" (along x), "bottom", "top" (y), "back", "front" (z)
     std::vector<Keyframe> motion;
+    /// Led by World::set_pin_targets and set_pin_pose; held in place until then. Not together with `motion`.
+    bool moved_by_program = false;
 };
 
 struct Transform
@@ -212,6 +214,9 @@ struct Collider
     double rotate_degrees = 0;
     double friction = 0; ///< Coulomb coefficient, >= 0; 0 = no friction effect
     std::vector<Keyframe> motion;
+    /// Set by a World whose program moves the collider: `motion` is then that of the last step alone, and the
+    /// last key is where it is.
+    bool moved_by_program = false;
 };
 
 /// The words of MethodSettings::type.

@@ -158,6 +158,8 @@ constexpr Key kPin[] = {
         .words(kBoxFaces),
     key<&Pin::faces>("faces", "several").choice().words(kBoxFaces).ranges("list of the same"),
     list<&Pin::motion>("motion", "how the vertices are led", kKeyframeTable),
+    key<&Pin::moved_by_program>("moved_by_program", "the program leads them while it runs, not `motion`")
+        .see("how", "how-to/move-things-from-a-program.md"),
 };
 
 constexpr Key kPinBox[] = {

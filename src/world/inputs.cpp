@@ -8,6 +8,7 @@
 #include "taut/kernels/shared/layouts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -41,9 +42,9 @@ InputWrite step_values(const Scene& scene, const Plan& plan)
 }
 
 template <typename Real>
-InputWrite wind(const Scene& scene, const Plan& plan, double time)
+InputWrite wind(const Scene& scene, const Plan& plan, const Stretch& step)
 {
-    const glm::dvec3 from = wind_at(scene.wind, time), to = wind_at(scene.wind, time + scene.timestep);
+    const glm::dvec3 from = wind_at(scene.wind, step.from), to = wind_at(scene.wind, step.to);
     layout::WindValues<Real> w{};
     w.start_x = static_cast<Real>(from.x);
     w.start_y = static_cast<Real>(from.y);
@@ -55,33 +56,52 @@ InputWrite wind(const Scene& scene, const Plan& plan, double time)
     return write_of(plan.wind, std::vector{w});
 }
 
+/// Where a pin that the program moves is to have one of its vertices, at the start and the end of the step.
+std::array<glm::dvec3, 2> by_program(const ProgramMotion& program, const MovingPin& pin)
+{
+    const auto move = std::find_if(program.pins.begin(), program.pins.end(), [&](const PinMove& m) {
+        return m.body == pin.body && m.pin == pin.pin;
+    });
+    if (move == program.pins.end())
+        return {pin.rest, pin.rest};
+    return {move->from[pin.own], move->to[pin.own]};
+}
+
 template <typename Real>
-InputWrite pin_targets(const Scene& scene, const Plan& plan, double time)
+InputWrite pin_targets(const Scene& scene, const Plan& plan, const Stretch& step,
+                       const ProgramMotion& program)
 {
     std::vector<glm::vec<4, Real>> out;
-    for (const MovingPin& pin : plan.moving_pins)
+    for (const MovingPin& moving : plan.moving_pins)
     {
-        const auto& motion = scene.bodies[pin.body].pins[pin.pin].motion;
-        for (const double t : {time, time + scene.timestep})
-            out.emplace_back(glm::vec<3, Real>(pose(motion, t, pin.rest)), Real(0));
+        const Pin& pin = scene.bodies[moving.body].pins[moving.pin];
+        const std::array<glm::dvec3, 2> ends =
+            pin.moved_by_program
+                ? by_program(program, moving)
+                : std::array{pose(pin.motion, step.from, moving.rest),
+                             pose(pin.motion, step.to, moving.rest)};
+        for (const glm::dvec3& end : ends)
+            out.emplace_back(glm::vec<3, Real>(end), Real(0));
     }
     return write_of(plan.pin_targets, out);
 }
 
 template <typename Real>
-std::vector<InputWrite> inputs(const Scene& scene, const Plan& plan, double time)
+std::vector<InputWrite> inputs(const Scene& scene, const Plan& plan, const Stretch& step,
+                               const ProgramMotion& program)
 {
     std::vector<InputWrite> writes;
     if (plan.step_values != kNoBuffer)
         writes.push_back(step_values<Real>(scene, plan));
     for (std::size_t row = 0; row < kColliderKinds; ++row)
         if (plan.colliders[row] != kNoBuffer)
-            writes.push_back({plan.colliders[row], collider_records(scene, static_cast<ColliderKind>(row),
-                                                                    plan.precision, plan.substeps, time)});
+            writes.push_back(
+                {plan.colliders[row], collider_records(scene, static_cast<ColliderKind>(row), plan.precision,
+                                                       plan.substeps, step.from, step.to)});
     if (plan.wind != kNoBuffer)
-        writes.push_back(wind<Real>(scene, plan, time));
+        writes.push_back(wind<Real>(scene, plan, step));
     if (plan.pin_targets != kNoBuffer)
-        writes.push_back(pin_targets<Real>(scene, plan, time));
+        writes.push_back(pin_targets<Real>(scene, plan, step, program));
     return writes;
 }
 
@@ -90,14 +110,19 @@ std::vector<InputWrite> inputs(const Scene& scene, const Plan& plan, double time
 bool inputs_move(const Scene& scene, const Plan& plan)
 {
     const bool gusts = plan.wind != kNoBuffer && !scene.wind.keys.empty();
-    return gusts || !plan.moving_pins.empty() || std::any_of(scene.colliders.begin(), scene.colliders.end(),
-                                                    [](const Collider& c) { return !c.motion.empty(); });
+    const bool led = std::any_of(plan.moving_pins.begin(), plan.moving_pins.end(), [&](const MovingPin& m) {
+        return !scene.bodies[m.body].pins[m.pin].moved_by_program;
+    });
+    return gusts || led || std::any_of(scene.colliders.begin(), scene.colliders.end(), [](const Collider& c) {
+               return !c.motion.empty() && !c.moved_by_program;
+           });
 }
 
-std::vector<InputWrite> step_inputs(const Scene& scene, const Plan& plan, double time)
+std::vector<InputWrite> step_inputs(const Scene& scene, const Plan& plan, const Stretch& step,
+                                    const ProgramMotion& program)
 {
-    return plan.precision == Precision::float64 ? inputs<double>(scene, plan, time)
-                                                : inputs<float>(scene, plan, time);
+    return plan.precision == Precision::float64 ? inputs<double>(scene, plan, step, program)
+                                                : inputs<float>(scene, plan, step, program);
 }
 
 } // namespace taut

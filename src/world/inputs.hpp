@@ -3,6 +3,7 @@
 
 #include "taut/plan/plan.hpp"
 #include "taut/scene/scene.hpp"
+#include "taut/world/program_motion.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -16,10 +17,18 @@ struct InputWrite
     std::vector<std::byte> bytes;
 };
 
-/// True if anything but the first step's values changes from step to step.
+/// The time of a step, s.
+struct Stretch
+{
+    double from = 0, to = 0;
+};
+
+/// True if a scene changes anything but the first step's values from step to step by itself.
 bool inputs_move(const Scene& scene, const Plan& plan);
 
-/// Step values, colliders and pin targets for the step from `time` to `time + timestep`.
-std::vector<InputWrite> step_inputs(const Scene& scene, const Plan& plan, double time);
+/// Step values, colliders, wind and pin targets of a step; colliders and wind that the program moves have
+/// their keys in the scene.
+std::vector<InputWrite> step_inputs(const Scene& scene, const Plan& plan, const Stretch& step,
+                                    const ProgramMotion& program = {});
 
 } // namespace taut

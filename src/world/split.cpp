@@ -12,6 +12,7 @@
 #include "taut/world/at_step.hpp"
 #include "taut/world/beside.hpp"
 #include "taut/world/carry.hpp"
+#include "taut/world/moved.hpp"
 #include "taut/world/split_side.hpp"
 
 #include <glm/vec4.hpp>
@@ -105,6 +106,7 @@ struct SplitWorld::Impl
     SplitCosts costs;
     double share = 1;
     std::uint64_t steps = 0;
+    Moved program;
     bool moves = false; ///< inputs change from step to step
     bool stale = true;  ///< they have not been handed over
 
@@ -161,9 +163,11 @@ void SplitWorld::Impl::measure()
 std::array<std::vector<InputWrite>, 2> SplitWorld::Impl::take_inputs()
 {
     std::array<std::vector<InputWrite>, 2> inputs;
+    const Stretch step{time(), static_cast<double>(steps + 1) * scene.timestep};
+    const bool ordered = program.begin_step(scene, step.from, step.to);
     for (std::size_t s = 0; s < 2; ++s)
-        if ((moves || stale) && !sides[s].idle())
-            inputs[s] = step_inputs(scene, sides[s].part.plan, time());
+        if ((moves || stale || ordered) && !sides[s].idle())
+            inputs[s] = step_inputs(scene, sides[s].part.plan, step, program.values());
     stale = false;
     return inputs;
 }
@@ -244,6 +248,8 @@ SplitWorld::SplitWorld(const Scene& scene, std::shared_ptr<Device> first, std::s
     my.whole = make_plan(my.scene, traits_of_both(*my.sides[0].device, *my.sides[1].device),
                          without_groups(options.plan));
     my.moves = inputs_move(my.scene, my.whole);
+    my.program.start(my.scene);
+    moved_ = &my.program;
     double share = options.share;
     if (share < 0)
     {
@@ -273,6 +279,7 @@ void SplitWorld::step()
     }
     for (const SplitSide& side : my.sides)
         side.device->wait();
+    my.program.end_step(my.scene.timestep);
     ++my.steps;
 }
 

@@ -18,7 +18,7 @@ struct SplitOptions
 /// Steps a scene on two devices that both have a part of its vertices. Bodies may be cut: what stands beside
 /// the cut is exchanged through the host, between the segments of a step, and results are those of one
 /// device, bit for bit where both are software executors. Takes the methods xpbd and pbd (scheme "coloured").
-class SplitWorld
+class SplitWorld : public ProgramMoves
 {
 public:
     /// Plans both parts; with a negative share it times both halves first. Two native devices run side by

@@ -60,8 +60,10 @@ Pace World::Impl::pace(const Clock& of) const
 std::vector<InputWrite> World::Impl::take_inputs()
 {
     std::vector<InputWrite> inputs;
-    if (moves || stale)
-        inputs = step_inputs(scene, plan, time());
+    const Stretch step{clock.at(steps), clock.at(steps + 1)};
+    const bool ordered = program.begin_step(scene, step.from, step.to);
+    if (moves || stale || ordered)
+        inputs = step_inputs(scene, plan, step, program.values());
     stale = false;
     if (forces_changed)
     {
@@ -172,6 +174,7 @@ std::vector<std::byte> World::Impl::raw(std::uint32_t buffer) const
 
 void World::Impl::count_step()
 {
+    program.end_step(scene.timestep);
     ++steps;
     guessed = true;
     push += force_sum * scene.timestep;
@@ -228,6 +231,8 @@ World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOpti
     impl_->traits = traits;
     impl_->plan = make_plan(impl_->scene, traits, options.plan);
     impl_->moves = inputs_move(impl_->scene, impl_->plan);
+    impl_->program.start(impl_->scene);
+    moved_ = &impl_->program;
     impl_->restart_clock({});
     impl_->create_buffers();
     if (impl_->plan.force != kNoBuffer)
@@ -275,9 +280,16 @@ glm::dvec3 World::gravity_impulse() const
 WorldDrive World::drive() const
 {
     const Clock& clock = impl_->clock;
-    return {time(), impl_->plan.timestep / impl_->plan.substeps,
-            clock.fall_length + glm::length(clock.gravity) * (time() - clock.time), clock.steady,
-            impl_->push};
+    WorldDrive out{time(), impl_->plan.timestep / impl_->plan.substeps,
+                   clock.fall_length + glm::length(clock.gravity) * (time() - clock.time), clock.steady,
+                   impl_->push};
+    const ProgramMotion& values = impl_->program.values();
+    for (const ColliderMove& move : values.colliders)
+        out.moved.push_back({false, move.track.reach});
+    for (const PinMove& move : values.pins)
+        out.moved.push_back({true, move.track.reach});
+    out.wind = values.wind ? values.wind->fastest : 0;
+    return out;
 }
 const Plan& World::plan() const { return impl_->plan; }
 const Scene& World::scene() const { return impl_->scene; }

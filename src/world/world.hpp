@@ -5,6 +5,8 @@
 #include "taut/runtime/base/status.hpp"
 #include "taut/runtime/device.hpp"
 #include "taut/scene/scene.hpp"
+#include "taut/world/program_motion.hpp"
+#include "taut/world/program_moves.hpp"
 
 #include <array>
 #include <memory>
@@ -42,6 +44,7 @@ struct WorldState
     std::vector<std::vector<std::byte>> kept = {}; ///< of Plan::kept, in its order
     std::vector<std::byte> coasting = {}; ///< of Plan::coasting; nothing follows from it but velocities()
     std::vector<std::byte> owed = {};     ///< of Plan::owed, a vertex; missing: nothing is owed
+    ProgramMotion moved = {}; ///< orders that wait for the next step among it; empty: nothing was moved
 };
 
 /// What kernels counted since the world was made.
@@ -61,6 +64,13 @@ struct SolverReport
     Status last = Status::zero_right_hand_side; ///< how the last one ended
 };
 
+/// What a program has moved, since the world was made or by the state that was restored.
+struct DrivenMover
+{
+    bool holds = false; ///< a pin
+    MoverReach reach;
+};
+
 /// What has driven a world from outside since it was made, for accounts of energy.
 struct WorldDrive
 {
@@ -69,6 +79,8 @@ struct WorldDrive
     double fall = 0;            ///< m/s, integral of the length of gravity over time
     bool steady_gravity = true; ///< it has been that of the scene all the time
     double push = 0;            ///< N s, integral of the lengths of all external forces
+    std::vector<DrivenMover> moved = {}; ///< colliders and pins
+    double wind = 0;            ///< m/s, the fastest that the program has set
 };
 
 /// Device time of one step, summed by effect.
@@ -86,7 +98,7 @@ struct WorldOptions
     std::optional<DeviceTraits> traits = std::nullopt;
 };
 
-class World
+class World : public ProgramMoves
 {
 public:
     /// Resolves the scene if its bodies have no meshes yet, plans it for the device, uploads, records.

@@ -3,6 +3,7 @@
 
 #include "taut/world/at_step.hpp"
 #include "taut/world/inputs.hpp"
+#include "taut/world/moved.hpp"
 #include "taut/world/tearing.hpp"
 #include "taut/world/world.hpp"
 
@@ -21,6 +22,7 @@ struct World::Impl
     std::uint64_t steps = 0;
     bool guessed = false; ///< the buffer of predictions is of the last substep: no restore() since
     Clock clock;
+    Moved program;
     bool moves = false;               ///< inputs change from step to step
     bool stale = true;                ///< inputs have changed since they were last written
     std::vector<std::byte> forces;    ///< set from outside, as plan.force; empty without that effect

@@ -51,6 +51,7 @@ void World::Impl::replace_scene(const TornScene& next)
     for (const PlanSolver& solver : plan.solvers)
         logs.push_back(raw(solver.log));
     const Plan before = std::exchange(plan, make_plan(next.scene, traits, options));
+    program.tear(scene, next.scene, next.origin);
     scene = next.scene;
     torn += next.splits;
     overlong = 0;
@@ -97,6 +98,7 @@ WorldState World::state() const
         out.kept.push_back(impl_->raw(buffer));
     out.coasting = impl_->raw(plan.coasting);
     out.owed = impl_->raw(plan.owed);
+    out.moved = impl_->program.values();
     return out;
 }
 
@@ -152,6 +154,8 @@ void World::restore(const WorldState& state)
         throw Error(ErrorCode::bad_input, "restore: the clock is not that of step " +
                                               std::to_string(state.step) +
                                               ": it must be finite and begin at that step or before");
+    impl_->program.check(impl_->scene, state.moved);
+    impl_->program.assign(impl_->scene, state.moved);
     for (const auto& [buffer, bytes] : parts)
         if (buffer != kNoBuffer)
             impl_->device->write(impl_->buffers[buffer], 0, *bytes);

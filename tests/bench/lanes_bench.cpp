@@ -78,7 +78,7 @@ public:
             bytes_.push_back(b.bytes);
             std::copy(b.initial.begin(), b.initial.end(), data_.back());
         }
-        for (const InputWrite& w : step_inputs(scene, plan, 0))
+        for (const InputWrite& w : step_inputs(scene, plan, {0, scene.timestep}))
             std::copy(w.bytes.begin(), w.bytes.end(), data_[w.buffer]);
     }
 

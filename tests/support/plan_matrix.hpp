@@ -31,7 +31,7 @@ public:
         const auto position = device_->read<double>(buffers_[plan_.position], 4 * plan_.vertex_count);
         for (std::size_t w = 3; w < position.size(); w += 4)
             inverse_mass_.push_back(position[w]);
-        for (const InputWrite& input : step_inputs(scene, plan_, 0))
+        for (const InputWrite& input : step_inputs(scene, plan_, {0, scene.timestep}))
             device_->write(buffers_[input.buffer], 0, input.bytes);
         recording_ = device_->compile({buffers_, plan_.passes, plan_.barrier_before});
     }

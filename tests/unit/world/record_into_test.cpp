@@ -2,6 +2,7 @@
 
 #include "unit/runtime/vulkan_host.hpp"
 
+#include "support/program_moves.hpp"
 #include "support/scenes.hpp"
 
 #include "taut/world/world.hpp"
@@ -56,6 +57,30 @@ TEST_CASE("steps that wait or run together move the world as steps one by one do
         flights.wait();
         CHECK(own.state().position == recorded.state().position);
         CHECK(own.state().velocity == recorded.state().velocity);
+    }
+    CHECK(host->messages.empty());
+}
+
+TEST_CASE("what the program moves is as by keyframes with several frames in flight")
+{
+    const auto host = vulkan_test::Host::open();
+    if (!host)
+        return;
+    const std::size_t in_flight = GENERATE(1u, 2u, 3u, 4u);
+    {
+        const std::shared_ptr<Device> device = adopt(host->context());
+        World by_keys(test::moved_scene(true), device), recorded(test::moved_scene(false), device);
+        vulkan_test::Flights flights(*host, in_flight);
+        for (std::size_t k = 1; k <= test::kMovedSteps; ++k)
+        {
+            by_keys.step();
+            test::order(recorded, k);
+            recorded.record_into(flights.begin());
+            flights.submit();
+        }
+        flights.wait();
+        CHECK((by_keys.state().position == recorded.state().position));
+        CHECK((by_keys.state().velocity == recorded.state().velocity));
     }
     CHECK(host->messages.empty());
 }
