@@ -154,12 +154,30 @@ struct Shape
     double radius = 0.5;           ///< ball: m
 };
 
+/// How deformable surfaces meet each other (docs/contact.md). Two surfaces of radii r and s keep their middles
+/// r + s apart.
+struct SceneContact
+{
+    bool between = false;  ///< different bodies meet; false = none does: no effect unless a body meets itself
+    double thickness = -1; ///< m, radius of all surfaces that give none; < 0 = each material's `thickness`
+    double friction = 0;   ///< Coulomb coefficient of all surfaces that give none, >= 0
+};
+
+/// The same of one body's surface.
+struct BodyContact
+{
+    bool self = false;     ///< the surface meets itself
+    double thickness = -1; ///< m, its radius; < 0 = as the scene says
+    double friction = -1;  ///< Coulomb coefficient; < 0 = as the scene says
+};
+
 struct Body
 {
     std::string name;
     Shape shape;
     Material material;
     Transform transform;
+    BodyContact contact;
     std::vector<Pin> pins;
     glm::dvec3 velocity{0}; ///< m/s at start
     /// Per-vertex overrides, for tests and tools; empty = from shape and material.
@@ -297,6 +315,7 @@ struct Scene
     MethodSettings method;
     Accept accept;
     Wind wind;
+    SceneContact contact;
     std::vector<Body> bodies;
     std::vector<Collider> colliders;
     std::filesystem::path directory; ///< mesh paths are relative to it
