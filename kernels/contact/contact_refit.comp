@@ -1,5 +1,5 @@
 // Boxes of the tree of triangles that meet others: of the leaves (LEAVES) where their corners are and will be
-// at the end of the step if they go on as in its first substep, then of the nodes above, six levels a pass.
+// at the next search if they go on as in the first substep, then of the nodes above, six levels a pass.
 // The tree is a full binary one in an array: node k has the children 2k and 2k + 1, the root is 1, the leaf i
 // is node `level` + i. One group per 64 nodes of a level.
 //
@@ -16,7 +16,7 @@ PARAMS
 {
     uint level;    // nodes of the level that is begun with, a power of two; also the number of its first one
     uint count;    // triangles
-    uint substeps; // of the step
+    uint substeps; // until the next search
 };
 
 GROUP_UPDATE(0, rvec4, node); // two a node: least and greatest coordinates, m

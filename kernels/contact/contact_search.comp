@@ -1,4 +1,4 @@
-// Which vertices and triangles, and which edges, may come within their gap in this step. One invocation per
+// Which vertices and triangles, and which edges, may come within their gap before the next search. One invocation per
 // triangle, for the vertices and sides that are its own, against the tree of all triangles. A pair is found if
 //
 //   |x_A - x_B| < r_A + r_B + skin + substeps max |d_i - d_j|,   i of A, j of B,
@@ -22,7 +22,7 @@ PARAMS
     uint count;    // triangles
     uint leaves;   // of the tree, a power of two
     uint between;  // 1: bodies meet each other
-    uint substeps; // of the step
+    uint substeps; // until the next search
     float skin;    // m
     float reach;   // m, at least the greatest sum of two radii and the skin
     uint capacity; // pairs that the list holds
@@ -63,30 +63,45 @@ bool is_near(real squared, real motion, real gap)
     return squared < reached * reached;
 }
 
+/// Whether the way of a corner, or of a side with two, comes within reach of a box.
+bool reaches(uint a, uint b, rvec4 least, rvec4 most)
+{
+    rvec3 p = rvec3(position[a]);
+    rvec3 q = rvec3(position[b]);
+    rvec3 r = p + rvec3(delta[a]) * real(substeps);
+    rvec3 s = q + rvec3(delta[b]) * real(substeps);
+    rvec3 l = min(min(p, q), min(r, s)) - rvec3(real(reach));
+    rvec3 h = max(max(p, q), max(r, s)) + rvec3(real(reach));
+    return l.x <= most.x && l.y <= most.y && l.z <= most.z && h.x >= least.x && h.y >= least.y &&
+           h.z >= least.z;
+}
+
 bool vertex_meets(uint v, ContactTriangle t, real gap)
 {
+    if (v == t.a || v == t.b || v == t.c)
+        return false;
     rvec4 x = position[v];
     rvec4 a = position[t.a];
     rvec4 b = position[t.b];
     rvec4 c = position[t.c];
-    bool shares = v == t.a || v == t.b || v == t.c;
     bool moves = x.w + ((a.w + b.w) + c.w) > real(0);
     rvec3 o = rvec3(x);
     Closest near = closest_vertex_triangle(rvec3(a) - o, rvec3(b) - o, rvec3(c) - o);
-    return !shares && moves && is_near(near.squared, max(apart(v, v, t.a, t.b), apart(v, v, t.c, t.c)), gap);
+    return moves && is_near(near.squared, max(apart(v, v, t.a, t.b), apart(v, v, t.c, t.c)), gap);
 }
 
 bool edges_meet(uint p, uint q, uint r, uint s, real gap)
 {
+    if (p == r || p == s || q == r || q == s)
+        return false;
     rvec4 a = position[p];
     rvec4 b = position[q];
     rvec4 c = position[r];
     rvec4 d = position[s];
-    bool shares = p == r || p == s || q == r || q == s;
     bool moves = (a.w + b.w) + (c.w + d.w) > real(0);
     rvec3 o = rvec3(a);
     Closest near = closest_edges(rvec3(b) - o, rvec3(c) - o, rvec3(d) - o);
-    return !shares && moves && is_near(near.squared, apart(p, q, r, s), gap);
+    return moves && is_near(near.squared, apart(p, q, r, s), gap);
 }
 
 /// Puts the pair down if there is a place for it, and gives the next place.
@@ -107,23 +122,28 @@ uint put(uint at, uint a, uint b, uint c, uint d, uint kind)
     return at + 1u;
 }
 
-/// The pairs of one triangle's own vertices and sides with another; edges once for both.
-uint compare(uint at, ContactTriangle t, ContactTriangle u, bool edges, real gap)
+/// The pairs of one triangle's own vertices and sides with another, in the box `least` to `most`; edges once
+/// for both.
+uint compare(uint at, ContactTriangle t, ContactTriangle u, rvec4 least, rvec4 most, bool edges, real gap)
 {
     for (uint k = 0u; k < 3u; ++k)
-        if ((t.owns & (1u << k)) != 0u && vertex_meets(corner_of(t, k), u, gap))
-            at = put(at, corner_of(t, k), u.a, u.b, u.c, TAUT_CONTACT_VERTEX);
-    for (uint k = 0u; k < 9u && edges; ++k)
     {
-        uint one = k / 3u;
-        uint two = k - 3u * one;
-        uint sides = (t.owns >> (TAUT_CONTACT_OWNS_SIDE + one)) & (u.owns >> (TAUT_CONTACT_OWNS_SIDE + two)) & 1u;
-        uint a = corner_of(t, one);
-        uint b = corner_of(t, one == 2u ? 0u : one + 1u);
-        uint c = corner_of(u, two);
-        uint d = corner_of(u, two == 2u ? 0u : two + 1u);
-        if (sides != 0u && edges_meet(a, b, c, d, gap))
-            at = put(at, a, b, c, d, TAUT_CONTACT_EDGES);
+        uint v = corner_of(t, k);
+        if ((t.owns & (1u << k)) != 0u && reaches(v, v, least, most) && vertex_meets(v, u, gap))
+            at = put(at, v, u.a, u.b, u.c, TAUT_CONTACT_VERTEX);
+    }
+    for (uint k = 0u; k < 3u && edges; ++k)
+    {
+        uint a = corner_of(t, k);
+        uint b = corner_of(t, k == 2u ? 0u : k + 1u);
+        bool comes = (t.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + k))) != 0u && reaches(a, b, least, most);
+        for (uint l = 0u; l < 3u && comes; ++l)
+        {
+            uint c = corner_of(u, l);
+            uint d = corner_of(u, l == 2u ? 0u : l + 1u);
+            if ((u.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + l))) != 0u && edges_meet(a, b, c, d, gap))
+                at = put(at, a, b, c, d, TAUT_CONTACT_EDGES);
+        }
     }
     return at;
 }
@@ -159,7 +179,7 @@ KERNEL(count)
             ContactBody other = body[u.body];
             if (same ? own.self != 0u : between != 0u)
             {
-                at = compare(at, t, u, k - leaves > i, own.radius + other.radius);
+                at = compare(at, t, u, l, h, k - leaves > i, own.radius + other.radius);
                 tests += 1u;
                 trips += 12u;
             }

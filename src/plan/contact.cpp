@@ -34,9 +34,7 @@ namespace {
 
 constexpr std::string_view kEffect = "contact";
 /// Times the gap kept: how much further than the gap the search looks, beside what motion adds.
-constexpr double kSkin = 1.5;
-/// Sweeps over all pairs after each iteration of the constraints.
-constexpr std::uint32_t kSweeps = 2;
+constexpr double kSkin = 0.5;
 /// Rows that one group can scan: 128 lanes, two loops of at most half of kMaxLoopTrips each.
 constexpr std::uint32_t kMostRows = 1u << 20;
 constexpr std::uint32_t kMostPairs = 1u << 21;
@@ -136,10 +134,10 @@ void record_refit(PlanBuilder& b, const ContactBuffers& c)
     const auto groups = [](std::uint32_t level) {
         return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
     };
-    b.dispatch(kEffect, "leaves", leaves, {c.leaves, c.triangles, b.plan.substeps}, groups(c.leaves),
+    b.dispatch(kEffect, "leaves", leaves, {c.leaves, c.triangles, c.every}, groups(c.leaves),
                c.triangles);
     for (std::uint32_t level = groups(c.leaves); level > 1; level = groups(level))
-        b.dispatch(kEffect, "", nodes, {level, c.triangles, b.plan.substeps}, groups(level), 2 * level);
+        b.dispatch(kEffect, "", nodes, {level, c.triangles, c.every}, groups(level), 2 * level);
 }
 
 void record_lists(PlanBuilder& b, const ContactBuffers& c)
@@ -157,7 +155,7 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     fill.start = {c.start};
     fill.pair = {c.pair};
     const kernels::contact_search::Bindings<Use>::Params how = {
-        n, c.leaves, bodies_meet(b.scene), b.plan.substeps, c.skin, c.reach, c.capacity};
+        n, c.leaves, bodies_meet(b.scene), c.every, c.skin, c.reach, c.capacity};
     b.dispatch(kEffect, "", count, how, n);
     const kernels::contact_scan::Bindings<Use> rows = {
         .found = {c.found, n}, .start = {c.start, n}, .compared = {c.compared, n}, .control = {c.control}};
@@ -229,10 +227,13 @@ void prepare_contact(PlanBuilder& b)
     c.triangles = static_cast<std::uint32_t>(leaves.size());
     c.leaves = leaves_for(c.triangles);
     c.capacity = capacity_for(b, leaves.size());
+    const std::uint32_t searches = std::min(b.scene.contact.searches, b.plan.substeps);
+    c.every = (b.plan.substeps + searches - 1) / searches;
     double radius = 0;
     for (const Body& body : b.scene.bodies)
         radius = std::max(radius, takes_part(b.scene, body) ? radius_of(b.scene, body) : 0);
-    const double fall = 0.5 * glm::length(b.scene.gravity) * b.plan.timestep * b.plan.timestep;
+    const double time = b.plan.timestep / b.plan.substeps * c.every;
+    const double fall = 0.5 * glm::length(b.scene.gravity) * time * time;
     c.skin = static_cast<float>(kSkin * 2 * radius + fall);
     c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
     with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
@@ -242,7 +243,7 @@ void prepare_contact(PlanBuilder& b)
 
 void record_contact_search(PlanBuilder& b, const Moment& moment)
 {
-    if (moment.substep > 0)
+    if (moment.substep % b.contact->every != 0)
         return;
     record_refit(b, *b.contact);
     record_lists(b, *b.contact);
@@ -250,7 +251,7 @@ void record_contact_search(PlanBuilder& b, const Moment& moment)
 
 void record_contact(PlanBuilder& b, const Moment& moment)
 {
-    for (std::uint32_t k = 0; k < kSweeps; ++k)
+    for (std::uint32_t k = 0; k < b.scene.contact.sweeps; ++k)
         record_sweep(b, *b.contact, moment.iteration == 0 && k == 0);
 }
 

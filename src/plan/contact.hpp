@@ -19,11 +19,12 @@ struct ContactBuffers
     std::uint32_t corners = kNoBuffer, placed = kNoBuffer, corner_start = kNoBuffer, corner = kNoBuffer,
                   active = kNoBuffer;
     std::uint32_t triangles = 0, leaves = 0, capacity = 0;
+    std::uint32_t every = 1; ///< substeps from one search to the next
     float skin = 0, reach = 0; ///< m
 };
 
 void prepare_contact(PlanBuilder& builder);
-/// The search, in the first substep.
+/// The search, in the substeps that begin with one.
 void record_contact_search(PlanBuilder& builder, const Moment& moment);
 void record_contact(PlanBuilder& builder, const Moment& moment);
 

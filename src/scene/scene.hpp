@@ -161,6 +161,8 @@ struct SceneContact
     bool between = false;  ///< different bodies meet; false = none does: no effect unless a body meets itself
     double thickness = -1; ///< m, radius of all surfaces that give none; < 0 = each material's `thickness`
     double friction = 0;   ///< Coulomb coefficient of all surfaces that give none, >= 0
+    std::uint32_t searches = 4; ///< a time step, 1..1000: how often pairs that may meet are looked for
+    std::uint32_t sweeps = 2;   ///< 1..100: over all pairs, after each iteration of the constraints
 };
 
 /// The same of one body's surface.

@@ -110,6 +110,12 @@ constexpr Key kContact[] = {
     key<&SceneContact::friction>("friction", "Coulomb coefficient of every surface whose body gives none; two "
                                              "surfaces rub by the mean of theirs")
         .at_least(0),
+    key<&SceneContact::searches>("searches", "how often a time step looks for what may meet: more where "
+                                             "several layers fall fast; at most once a substep")
+        .range(1, 1000),
+    key<&SceneContact::sweeps>("sweeps", "over all pairs, after each iteration of the constraints: more for "
+                                         "stacks of many layers")
+        .range(1, 100),
 };
 
 constexpr Key kBodyContact[] = {

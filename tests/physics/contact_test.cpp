@@ -1,5 +1,6 @@
 // Cloth that meets cloth (docs/contact.md): stays above it, keeps momentum, rubs, and never ends within it.
 
+#include "conformance/tolerances.hpp"
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 #include "support/nearest.hpp"
@@ -122,6 +123,11 @@ TEST_CASE("two free sheets that collide keep their momentum, and stay apart")
     scene.bodies = {sheet(8, 0.2, {0, 0, 0}), sheet(5, 0.15, {0.013, 0.02, 0.004})};
     scene.bodies[1].velocity = {0.1, -speed, 0};
     scene.bodies[1].material.density = 0.5;
+    for (Body& body : scene.bodies)
+    {
+        body.material.bending_stiffness = 1e-5;
+        body.contact.self = true; // they fold
+    }
     scene.contact.between = true;
     scene.contact.friction = 0.3;
     scene.gravity = glm::dvec3(0);
@@ -129,13 +135,17 @@ TEST_CASE("two free sheets that collide keep their momentum, and stay apart")
     World world(scene, test_device("cpu:serial"));
     const auto triangles = test::all_triangles(world.scene());
     const StepReport before = measure(world);
+    std::size_t crossed = 0;
     for (int step = 0; step < 60; ++step)
+    {
         world.step();
+        crossed += test::intersections(triangles, world.positions());
+    }
+    CHECK(crossed == 0);
     const StepReport after = measure(world);
     CHECK(after.momentum_error >= 0);
     CHECK(after.momentum_error < 2e-6);
     CHECK(after.kinetic_energy < before.kinetic_energy);
-    CHECK(test::intersections(triangles, world.positions()) == 0);
     // The lower one was at rest, and nothing else could move it.
     CHECK(centre_of(places_of(world, 0)).y < -0.05 * speed);
 }
@@ -184,11 +194,13 @@ TEST_CASE("a strip that falls on itself lies above itself, without a triangle in
             {std::min(x.x, 0.0) + r * std::sin(turn) - std::max(0.0, past - 0.03), r * (1 - std::cos(turn)), x.z});
     }
     Pin pin;
-    pin.use_box = true;
-    pin.box_min = {-1, -1, -1};
-    pin.box_max = {0.001, 1, 1};
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        if (mesh.positions[v].x < 1e-3)
+            pin.vertices.push_back(v);
     strip.pins = {pin};
     scene.bodies = {strip};
+    scene.contact.friction = 1; // else the fold pulls the rest over the edge of what is held
+    scene.contact.between = false;
     scene.method.substeps = 20;
     const bool meets = GENERATE(true, false);
     scene.bodies[0].contact.self = meets;
@@ -201,12 +213,13 @@ TEST_CASE("a strip that falls on itself lies above itself, without a triangle in
         world.step();
         crossed += test::intersections(triangles, world.positions());
     }
+    CAPTURE(lowest(world.positions()));
     if (meets)
         CHECK(crossed == 0);
     else
         CHECK(crossed > 0); // it would hang through itself
     if (meets)
-        CHECK(lowest(world.positions()) > -1e-3);
+        CHECK(std::abs(world.positions()[30].y - kGap) < 0.1 * kGap); // above what is held
 }
 
 TEST_CASE("lists that are too short are counted, grow, and then miss nothing")
@@ -230,9 +243,10 @@ TEST_CASE("lists that are too short are counted, grow, and then miss nothing")
 
 TEST_CASE("lists that grow in time change nothing")
 {
-    Scene scene = two_sheets(0.03);
+    Scene scene = two_sheets(0.08);
+    scene.bodies[1].transform.rotate_degrees = -40; // meets the other one row after another
     WorldOptions options;
-    options.plan.contact_capacity = 256;
+    options.plan.contact_capacity = 512;
     World small(scene, test_device("cpu:serial"), options);
     World roomy(scene, test_device("cpu:serial"));
     for (int step = 0; step < 30; ++step)
@@ -241,7 +255,7 @@ TEST_CASE("lists that grow in time change nothing")
         roomy.step();
     }
     REQUIRE(small.contacts().missing == 0);
-    CHECK(small.contacts().capacity > 256);
+    CHECK(small.contacts().capacity > 512);
     CHECK(measure(small).position_hash == measure(roomy).position_hash);
     CHECK(small.positions() == roomy.positions());
 }
@@ -266,7 +280,7 @@ TEST_CASE("contact is the same bit for bit on every executor")
         INFO(selector);
         CHECK(report.contacts.pairs > 0);
         hash = hash == 0 ? report.position_hash : hash;
-        if (bitwise_equal_expected(device->info()))
+        if (conformance::bitwise_equal_expected(device->info()))
             CHECK(report.position_hash == hash);
     }
 }

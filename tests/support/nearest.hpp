@@ -2,8 +2,8 @@
 // Distances of surfaces in fp64, and whether two triangles intersect: plain host code that shares nothing
 // with kernels/contact.
 //
-// Based on: Ericson. Real-Time Collision Detection. 2004, 5.1.5 (regions of a triangle), 5.1.9 (segments);
-//   Moeller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
+// Based on: Ericson. Real-Time Collision Detection. 2004, 5.1.5 (regions of a triangle), 5.1.9 (segments),
+//   5.3.4 (lines through triangles).
 
 #include "taut/scene/scene.hpp"
 
@@ -73,17 +73,21 @@ inline Nearest nearest_of_segments(const dvec3& p0, const dvec3& p1, const dvec3
     return {{1 - s, s, t - 1, -t}, (p0 + d1 * s) - (q0 + d2 * t)};
 }
 
-/// Whether the segment p-q meets the triangle; one that lies in its plane does not.
+/// Six times the volume of a tetrahedron, 0 where that is no more than rounding.
+inline double volume_of(const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d)
+{
+    const dvec3 ab = b - a, ac = c - a, ad = d - a;
+    const double volume = glm::dot(glm::cross(ab, ac), ad);
+    return std::abs(volume) > 1e-13 * glm::length(ab) * glm::length(ac) * glm::length(ad) ? volume : 0;
+}
+
+/// Whether the segment p-q passes through the triangle, its border included; one in its plane does not.
 inline bool pierces(const dvec3& p, const dvec3& q, const dvec3& a, const dvec3& b, const dvec3& c)
 {
-    const dvec3 ab = b - a, ac = c - a, h = glm::cross(q - p, ac);
-    const double over = glm::dot(ab, h);
-    if (over == 0)
+    if (!(volume_of(a, b, c, p) * volume_of(a, b, c, q) < 0))
         return false;
-    const double u = glm::dot(p - a, h) / over;
-    const dvec3 k = glm::cross(p - a, ab);
-    const double v = glm::dot(q - p, k) / over, t = glm::dot(ac, k) / over;
-    return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t <= 1;
+    const double u = volume_of(p, q, a, b), v = volume_of(p, q, b, c), w = volume_of(p, q, c, a);
+    return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
 /// All triangles of a resolved scene, in scene-wide vertices.
