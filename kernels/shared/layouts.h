@@ -133,6 +133,43 @@ LAYOUT_STRUCT(WindTriangle)
     real friction_drag;
 };
 
+/// A triangle of a surface that meets others, a leaf of the tree (shared/contact_rows.h).
+LAYOUT_STRUCT(ContactTriangle)
+{
+    uint a;
+    uint b;
+    uint c;
+    uint body;
+    uint owns;
+};
+
+/// How a body's surface meets others.
+LAYOUT_STRUCT(ContactBody)
+{
+    real radius;   // m
+    real friction; // Coulomb coefficient
+    uint self;     // 1: it meets itself
+};
+
+/// Four corners of a vertex and a triangle, or of two edges, that come near each other in a step.
+LAYOUT_STRUCT(ContactPair)
+{
+    uint a;
+    uint b;
+    uint c;
+    uint d;
+    uint kind; // TAUT_CONTACT_*
+};
+
+/// On which side of each other a pair is, and how it is to stay.
+LAYOUT_STRUCT(ContactSide)
+{
+    real normal_x, normal_y, normal_z; // from the second of the pair to the first
+    real allowed;                      // where the gap may end in this substep, m
+    real rest_gap;                     // m
+    real friction;
+};
+
 /// The air during a time step. One element, written by the host.
 LAYOUT_STRUCT(WindValues)
 {

@@ -31,6 +31,8 @@
 //   SHARED(T, name, n)                 work-group memory; what lives across phases
 //   COUNTERS(slot, name)               storage buffer of event counters, only touched by COUNT_EVENT
 //   COUNT_EVENT(name, index)           counts on the device; integers, so order does not matter
+//   NEXT_EVENT(name, index)            the same, and what was counted before: which invocation gets which
+//                                      number is chance, so nothing may depend on it
 //   PREFETCH(name, index)              name[index] and its neighbours are wanted soon; past the end is
 //                                      allowed
 //   WIDE                               a uint, on the CPU as wide as a pointer: for sums that index buffers
@@ -130,6 +132,7 @@ rvec3 taut_cross(rvec3 a, rvec3 b)
 #define COUNTERS(slot, name) layout(std430, binding = slot) buffer name##_counters { uint name[]; }
 #define SHARED(T, name, n) shared PRECISE T name[n]
 #define COUNT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
+#define NEXT_EVENT(buffer, index) atomicAdd(buffer[index], 1u)
 #define COUNT_EVENT_IF(condition, buffer, index) if (condition) COUNT_EVENT(buffer, index)
 #define ADD_TWO(sum, a, k, b0, b1) sum = (sum + a[k] * (b0)) + a[(k) + 1u] * (b1)
 #define PREFETCH(buffer, index)

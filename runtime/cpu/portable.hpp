@@ -218,9 +218,9 @@ inline bool wider_product(float a, float b, float& high, float& low)
 }
 inline bool wider_product(double, double, double&, double&) { return false; }
 
-inline void count_event(std::uint32_t& counter)
+inline std::uint32_t count_event(std::uint32_t& counter)
 {
-    std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
+    return std::atomic_ref<std::uint32_t>(counter).fetch_add(1, std::memory_order_relaxed);
 }
 
 } // namespace taut::native
@@ -246,6 +246,7 @@ inline void count_event(std::uint32_t& counter)
 #define COUNTERS(slot, name) std::uint32_t* __restrict name
 #define SHARED(T, name, n) T name[n]
 #define COUNT_EVENT(buffer, index) taut::native::count_event(buffer[index])
+#define NEXT_EVENT(buffer, index) taut::native::count_event(buffer[index])
 #define COUNT_EVENT_IF(condition, buffer, index)                                                             \
     do                                                                                                       \
         if (condition)                                                                                       \

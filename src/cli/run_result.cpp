@@ -41,6 +41,17 @@ Json solver_json(const SolverReport& solver)
             {"failed", solver.failed},         {"last_status", to_string(solver.last)}};
 }
 
+/// What was left out for any reason is missing.
+Json contacts_json(const StepReport& report)
+{
+    const ContactCounts& c = report.contacts;
+    return {{"pairs", c.pairs},
+            {"candidates", c.candidates},
+            {"missing", c.missing + c.cut + c.crowded},
+            {"capacity", c.capacity},
+            {"depth", report.contact_depth}};
+}
+
 Json passes_json(const std::vector<EffectTime>& passes)
 {
     Json list = Json::array();
@@ -145,6 +156,7 @@ Json to_json(const RunResult& result)
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = known(report.active_share);
     json["series"] = result.solvers > 0 ? looks_json(result.looks) : Json(nullptr);
+    json["contacts"] = report.contacts.any ? contacts_json(report) : Json(nullptr);
     json["torn"] = report.torn;
     if (result.asleep)
         json["asleep"] = *result.asleep;
@@ -176,6 +188,10 @@ std::string summary(const RunResult& result)
         text += "solver  " + std::to_string(report.solver.solves) + " linear solves, " +
                 std::to_string(report.solver.iterations) + " iterations, " +
                 std::to_string(report.solver.most) + " at most\n";
+    if (const ContactCounts& c = report.contacts; c.any)
+        text += "contact " + std::to_string(c.pairs) + " pairs of " + std::to_string(c.candidates) +
+                " candidates, " + std::to_string(c.missing + c.cut + c.crowded) + " missing; depth " +
+                number(1000 * report.contact_depth, 3) + " mm\n";
     if (report.torn > 0)
         text += "torn    at " + std::to_string(report.torn) + " vertices\n";
     for (const auto& [word, count] : report.warnings)

@@ -74,6 +74,7 @@ struct BlockBuffers;
 struct MomentumBuffers; // momentum.cpp
 
 struct Acad;
+struct ContactBuffers; // contact.hpp
 struct Plasticity;
 struct ImplicitConstraints;
 struct ImplicitEuler; // implicit_euler.cpp
@@ -176,6 +177,7 @@ public:
     std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
     std::shared_ptr<Plasticity> plasticity; ///< plasticity.hpp
     std::shared_ptr<MomentumBuffers> momentum; ///< momentum.hpp
+    std::shared_ptr<ContactBuffers> contact; ///< contact.hpp
 
     // Of effects that have more than one pass of an account: wind, limits, tearing.
     std::uint32_t wind_triangles = kNoBuffer, wind_start = kNoBuffer, wind_incident = kNoBuffer,

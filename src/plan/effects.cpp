@@ -8,6 +8,8 @@
 #include "taut/plan/builder.hpp"
 #include "taut/plan/colliders.hpp"
 #include "taut/plan/constraints.hpp"
+#include "taut/plan/contact.hpp"
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/corner_forces.hpp"
 #include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/implicit_euler.hpp"
@@ -205,6 +207,8 @@ constexpr Effect kEffectsBefore[] = {
     {"attachment", Stage::contact, wants_attachment, prepare_attachment, record_attachment},
     {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
     {"momentum", Stage::contact, wants_momentum, prepare_momentum, record_momentum_end, kDescents},
+    {"contact", Stage::start, wants_contact, prepare_contact, record_contact_search, only(MethodKind::xpbd)},
+    {"contact", Stage::contact, wants_contact, nullptr, record_contact, only(MethodKind::xpbd)},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
 };
 

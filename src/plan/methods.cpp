@@ -35,7 +35,7 @@ constexpr Method kMethods[] = {
      .substeps = stable_substeps},
     {.kind = MethodKind::acad, .check = check_acad, .substeps = stable_substeps},
     {.kind = MethodKind::pbd, .contact_each_iteration = true, .check = check_pbd, .volumes = true},
-    {.kind = MethodKind::xpbd, .contact_each_iteration = true, .volumes = true, .elastic = true},
+    {.kind = MethodKind::xpbd, .contact_each_iteration = true, .volumes = true, .elastic = true, .contact = true},
     {.kind = MethodKind::vbd, .keeps_guess = true, .check = check_vbd, .volumes = true, .elastic = true},
 };
 
@@ -58,8 +58,6 @@ const Method& find_method(MethodKind kind)
     return method;
 }
 
-namespace {
-
 std::string methods_with(bool Method::*can)
 {
     std::vector<std::string_view> names;
@@ -68,8 +66,6 @@ std::string methods_with(bool Method::*can)
             names.push_back(kMethodNames[static_cast<std::size_t>(method.kind)]);
     return scene_file::listing(names);
 }
-
-} // namespace
 
 void check_solids(const Scene& scene)
 {

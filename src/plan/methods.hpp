@@ -6,6 +6,7 @@
 #include "taut/scene/scene.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace taut {
 
@@ -33,11 +34,14 @@ struct Method
     bool volumes = false;        ///< can hold volumes of tetrahedra
     bool elastic = false;        ///< can move neo-Hookean tetrahedra
     bool surface_volume = false; ///< can hold the volume within a closed surface
+    bool contact = false;        ///< surfaces can meet (contact.hpp)
     /// Substeps that the method takes; null: as the scene says. Throws Error{unstable_timestep}.
     Substeps (*substeps)(const Scene& resolved) = nullptr;
 };
 
 const Method& find_method(MethodKind kind);
+/// The names of the methods that can do something, as a list in words.
+std::string methods_with(bool Method::*can);
 
 /// Throws Error{unsupported} naming a body whose tetrahedra the scene's method cannot move, or whose volume
 /// it cannot hold, as its material says, and the methods that can; what check_surface throws for a surface.

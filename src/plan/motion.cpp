@@ -10,6 +10,7 @@
 #include "taut/kernels/coast.hpp"
 #include "taut/kernels/finish.hpp"
 #include "taut/kernels/predict.hpp"
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/mass_spring.hpp"
 #include "taut/plan/wind.hpp"
 
@@ -26,7 +27,7 @@ bool falls_freely(const Scene& scene, const Body& body)
 {
     const bool held = std::any_of(body.pins.begin(), body.pins.end(),
                                   [](const Pin& pin) { return !pin.vertices.empty(); });
-    return !held && scene.colliders.empty() && scene.damping == 0 && !scene.external_forces &&
+    return !held && scene.colliders.empty() && !wants_contact(scene) && scene.damping == 0 && !scene.external_forces &&
            !(scene.wind.density > 0 && catches_air(body));
 }
 

@@ -2,6 +2,7 @@
 
 #include "taut/plan/added_elements.hpp"
 #include "taut/plan/builder.hpp"
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/effect_names.hpp"
 #include "taut/plan/plasticity.hpp"
 #include "taut/plan/pressure.hpp"
@@ -36,6 +37,7 @@ void check_settings(const Scene& scene, const DeviceTraits& traits)
     check_pressure(scene);
     check_plasticity(scene);
     check_added_elements(scene);
+    check_contact(scene);
     if (method.check != nullptr)
         method.check(scene, traits);
 }

@@ -44,6 +44,8 @@ struct PlanOptions
     bool residuals = false; ///< keep multipliers, so that residuals can be reported
     /// Names of the effects that exist for this plan; empty: all of the table. For tests (G08).
     std::vector<std::string> available_effects;
+    /// Pairs that lists of contact hold; 0: as many as the plan thinks fit. At most 2^21.
+    std::uint32_t contact_capacity = 0;
     enum class SmallBodies
     {
         automatic,
@@ -109,6 +111,16 @@ struct PlanActive
     std::uint32_t candidates = 0;     ///< springs that may be
 };
 
+/// What can be asked of surfaces that meet (kernels/shared/contact_rows.h).
+struct PlanContact
+{
+    std::uint32_t control = kNoBuffer; ///< TAUT_CONTACT_WORDS uint32
+    std::uint32_t lost = kNoBuffer;    ///< counters of what was left out
+    std::uint32_t pair = kNoBuffer;    ///< layout::ContactPair
+    std::uint32_t side = kNoBuffer;    ///< layout::ContactSide<real>, a pair
+    std::uint32_t triangles = 0, capacity = 0;
+};
+
 /// A pinned vertex that moves.
 struct MovingPin
 {
@@ -161,6 +173,7 @@ struct Plan
     std::vector<PlanWarning> warnings;
     std::vector<PlanSolver> solvers;
     PlanActive active;
+    PlanContact contact;
 
     /// Further buffers that carry something from one step to the next (flags, histories): part of
     /// a world's state.

@@ -2,6 +2,7 @@
 // Departures: class R4 (cost_self.cpp) where no independent reference can be had.
 #include "taut/report/cost_reference.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/report/cost_self.hpp"
 #include "taut/report/reference_dynamic.hpp"
 #include "taut/report/reference_static.hpp"
@@ -32,6 +33,7 @@ std::string unmodelled(const Scene& scene)
     add(any([](const Material& m) { return m.attachment_slack >= 0; }), "attachments");
     add(any([](const Material& m) { return m.tear_strain > 0; }), "tearing");
     add(any([](const Material& m) { return m.plastic_yield > 0; }), "plasticity");
+    add(wants_contact(scene), "contact between surfaces");
     return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "taut/plan/methods.hpp"
 #include "taut/report/contact.hpp"
+#include "taut/report/contact_depth.hpp"
 #include "taut/report/load_residual.hpp"
 
 #include <glm/geometric.hpp>
@@ -183,6 +184,9 @@ void put_loads(const View& view, Substep& last)
             last.left.touches[i] = view.model.flows[i] || touches_collider(view, i, moved + gravity * h * h);
         }
     mark_limited(view, last.left.touches);
+    const std::vector<bool> met = in_contact(view.world);
+    for (std::size_t i = 0; i < met.size(); ++i)
+        last.left.touches[i] = last.left.touches[i] || met[i];
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "taut/plan/methods.hpp"
 #include "taut/report/contact.hpp"
+#include "taut/report/contact_depth.hpp"
 #include "taut/report/measure_residuals.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/soundness.hpp"
@@ -170,6 +171,8 @@ StepReport measure(const World& world)
     measure_momentum(view, out);
     measure_residuals(view, out);
     out.volume = measure_volume(world.scene(), view.x);
+    out.contacts = world.contacts();
+    out.contact_depth = contact_depth(world, view.x);
     out.torn = world.torn();
     out.position_hash = hash_of(world.state());
     out.solver = world.solver_report();

@@ -82,7 +82,8 @@ void measure_residuals(const View& view, StepReport& out)
         return s.multipliers != kNoBuffer && (s.kind == "distance" || s.kind == "bending");
     });
     // By forces that are on no record.
-    const bool limited = has_effect(view, "strain_limit") || has_effect(view, "attachment");
+    const bool limited = has_effect(view, "strain_limit") || has_effect(view, "attachment") ||
+                         has_effect(view, "contact");
     const MethodKind kind = method_of(view.world.scene());
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
         measure_implicit_residual(view, out);

@@ -67,6 +67,8 @@ struct StepReport
     double active_share = -1; ///< acad: share of springs that were constraints in the last substep, or -1
     SolverReport solver;         ///< of the run so far
     VolumeReport volume;         ///< of bodies with tetrahedra
+    ContactCounts contacts;      ///< of surfaces that meet
+    double contact_depth = 0;    ///< m: by how much the nearest pair of surfaces is nearer than it is kept
     std::uint64_t torn = 0;      ///< vertices that came apart so far
     std::uint64_t position_hash = 0; ///< FNV-1a over the raw position and low words in plan order
 };

@@ -156,12 +156,32 @@ struct Shape
     double radius = 0.5;           ///< ball: m
 };
 
+/// How deformable surfaces meet each other (docs/contact.md). Two surfaces of radii r and s keep their middles
+/// r + s apart.
+struct SceneContact
+{
+    bool between = false;  ///< different bodies meet; false = none does: no effect unless a body meets itself
+    double thickness = -1; ///< m, radius of all surfaces that give none; < 0 = each material's `thickness`
+    double friction = 0;   ///< Coulomb coefficient of all surfaces that give none, >= 0
+    std::uint32_t searches = 4; ///< a time step, 1..1000: how often pairs that may meet are looked for
+    std::uint32_t sweeps = 2;   ///< 1..100: over all pairs, after each iteration of the constraints
+};
+
+/// The same of one body's surface.
+struct BodyContact
+{
+    bool self = false;     ///< the surface meets itself
+    double thickness = -1; ///< m, its radius; < 0 = as the scene says
+    double friction = -1;  ///< Coulomb coefficient; < 0 = as the scene says
+};
+
 struct Body
 {
     std::string name;
     Shape shape;
     Material material;
     Transform transform;
+    BodyContact contact;
     std::vector<Pin> pins;
     glm::dvec3 velocity{0}; ///< m/s at start
     /// Per-vertex overrides, for tests and tools; empty = from shape and material.
@@ -302,6 +322,7 @@ struct Scene
     MethodSettings method;
     Accept accept;
     Wind wind;
+    SceneContact contact;
     std::vector<Body> bodies;
     std::vector<Collider> colliders;
     std::filesystem::path directory; ///< mesh paths are relative to it

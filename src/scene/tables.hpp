@@ -9,6 +9,8 @@ extern const TableOf<Scene> kSceneTable;
 extern const TableOf<Accept> kAcceptTable;
 extern const TableOf<Wind> kWindTable;
 extern const TableOf<Wind::Key> kWindKeyTable;
+extern const TableOf<SceneContact> kContactTable;
+extern const TableOf<BodyContact> kBodyContactTable;
 extern const TableOf<MethodSettings> kMethodTable;
 extern const TableOf<Body> kBodyTable;
 extern const TableOf<Shape> kGridTable;

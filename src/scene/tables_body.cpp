@@ -79,6 +79,8 @@ constexpr Key kBody[] = {
     object<&Body::transform>("transform", "where its rest shape stands", kTransformTable)
         .source()
         .usually("as below"),
+    object<&Body::contact>("contact", "how its surface meets itself and others", kBodyContactTable)
+        .usually("as below"),
     key<&Body::velocity>("velocity", "of all vertices at the start").unit("m/s"),
     list<&Body::pins>("pins", "vertices that are held or led", kPinTable).source(),
     list<&Body::springs>("springs", "further distance constraints", kSpringTable),

@@ -23,6 +23,7 @@ void read_version(const Field& scene, Scene& out)
 }
 
 void begin_wind(Wind& wind) { wind.density = 1.2; }
+void begin_contact(SceneContact& contact) { contact.between = true; }
 
 constexpr Key kScene[] = {
     key<&Scene::version>("taut", "version of the format")
@@ -61,6 +62,8 @@ constexpr Key kScene[] = {
     object<&Scene::method>("method", "how a step advances", kMethodTable).usually("as below"),
     object<&Scene::accept>("accept", "what a run may leave undone", kAcceptTable).usually("as below"),
     object<&Scene::wind>("wind", "air that cloth moves in; none: no wind effect", kWindTable),
+    object<&Scene::contact>("contact", "how the bodies' surfaces meet; none: bodies pass through each other",
+                            kContactTable),
     list<&Scene::bodies>("bodies", "what moves; none is a scene, too", kBodyTable),
     list<&Scene::colliders>("colliders", "what bodies run into", kColliderTable),
     ignored<Scene>("$schema",
@@ -96,6 +99,36 @@ constexpr Key kWindKey[] = {
     key<&Wind::Key::velocity>("velocity", "of the air at that time").unit("m/s").needed(),
 };
 
+constexpr Key kContact[] = {
+    key<&SceneContact::between>("between", "different bodies meet; bodies say themselves whether they meet "
+                                           "themselves"),
+    key<&SceneContact::thickness>("thickness", "radius of every surface whose body gives none; two surfaces "
+                                               "keep the sum of theirs apart; \"material\": its `thickness`")
+        .unit("m")
+        .at_least(0)
+        .or_word("material", -1),
+    key<&SceneContact::friction>("friction", "Coulomb coefficient of every surface whose body gives none; two "
+                                             "surfaces rub by the mean of theirs")
+        .at_least(0),
+    key<&SceneContact::searches>("searches", "how often a time step looks for what may meet: more where "
+                                             "several layers fall fast; at most once a substep")
+        .range(1, 1000),
+    key<&SceneContact::sweeps>("sweeps", "over all pairs, after each iteration of the constraints: more for "
+                                         "stacks of many layers")
+        .range(1, 100),
+};
+
+constexpr Key kBodyContact[] = {
+    key<&BodyContact::self>("self", "the surface meets itself"),
+    key<&BodyContact::thickness>("thickness", "the surface's radius; two surfaces keep the sum of theirs apart")
+        .unit("m")
+        .at_least(0)
+        .or_word("scene", -1),
+    key<&BodyContact::friction>("friction", "Coulomb coefficient; two surfaces rub by the mean of theirs")
+        .at_least(0)
+        .or_word("scene", -1),
+};
+
 } // namespace
 
 constinit const TableOf<Scene> kSceneTable = TableOf<Scene>("scene", kScene).checks<check_scene>();
@@ -103,10 +136,15 @@ constinit const TableOf<Accept> kAcceptTable("accept", kAccept);
 constinit const TableOf<Wind> kWindTable = TableOf<Wind>("wind", kWind).begins<begin_wind>();
 constinit const TableOf<Wind::Key> kWindKeyTable("wind key", kWindKey);
 
+constinit const TableOf<SceneContact> kContactTable =
+    TableOf<SceneContact>("contact", kContact).begins<begin_contact>();
+constinit const TableOf<BodyContact> kBodyContactTable("body contact", kBodyContact);
+
 std::span<const Table* const> all_tables()
 {
     static constexpr const Table* others[] = {
         &kSceneTable,    &kAcceptTable,   &kMethodTable,        &kWindTable,           &kWindKeyTable,
+        &kContactTable,  &kBodyContactTable,
         &kBodyTable,     &kGridTable,     &kNetworkTable,       &kChainTable,          &kSolidBoxTable,
         &kBallTable,     &kMaterialTable, &kSolidMaterialTable, &kTransformTable,      &kRotateTable,
         &kPinTable,      &kPinBoxTable,   &kKeyframeTable,      &kKeyframeRotateTable, &kSpringTable,

@@ -7,6 +7,7 @@
 
 #include "taut/world/hybrid.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/material.hpp"
 #include "taut/plan/methods.hpp"
 #include "taut/runtime/required.hpp"
@@ -224,6 +225,9 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
     my.scene = meshes ? scene : resolve(scene);
     if (my.scene.bodies.empty())
         throw Error(ErrorCode::bad_input, "a hybrid world has nothing to divide: the scene has no bodies");
+    if (wants_contact(my.scene))
+        throw Error(ErrorCode::unsupported, "a hybrid world cannot divide bodies that meet each other or "
+                                            "themselves; use one device, or leave contact out");
     for (const Body& body : my.scene.bodies)
         if (body.material.tear_strain > 0)
             throw Error(ErrorCode::unsupported,

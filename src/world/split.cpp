@@ -6,6 +6,7 @@
 
 #include "taut/world/split.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/methods.hpp"
 #include "taut/plan/pbd.hpp"
 #include "taut/runtime/required.hpp"
@@ -57,6 +58,9 @@ void check(const Scene& scene, double share)
                                               "; it must lie in 0 to 1, or be negative for a measured one");
     if (scene.bodies.empty())
         throw Error(ErrorCode::bad_input, "a split world has nothing to divide: the scene has no bodies");
+    if (wants_contact(scene))
+        throw Error(ErrorCode::unsupported, "surfaces that meet cannot be cut between two devices; use one "
+                                            "device, or leave contact out");
     const MethodKind method = method_of(scene);
     if (method != MethodKind::xpbd && !(method == MethodKind::pbd && pbd_is_coloured(scene)))
         throw Error(

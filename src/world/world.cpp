@@ -184,6 +184,7 @@ void World::Impl::count_step()
 void World::Impl::after_step()
 {
     count_step();
+    grow_contacts();
     if (plan.torn == kNoBuffer)
         return;
     const std::uint32_t count = device->read<std::uint32_t>(buffers[plan.torn], 1).front();

@@ -71,6 +71,26 @@ struct DrivenMover
     MoverReach reach;
 };
 
+/// Of surfaces that meet (docs/contact.md): of the last search, and what was left out since the world was made.
+struct ContactCounts
+{
+    bool any = false;             ///< whether any surface may meet another
+    std::uint64_t pairs = 0;      ///< vertices and triangles, and edges, that may meet in the step
+    std::uint64_t candidates = 0; ///< triangles that were compared for them, from either side
+    std::uint64_t missing = 0;    ///< pairs that found no place in the list
+    std::uint64_t cut = 0;        ///< searches of a triangle that took too many steps and ended early
+    std::uint64_t crowded = 0;    ///< vertices with so many pairs that none acted on them
+    std::uint64_t capacity = 0;   ///< pairs that the list holds
+};
+
+/// One pair of the list: a vertex and a triangle, or two edges.
+struct SurfacePair
+{
+    std::array<std::uint32_t, 4> vertex{}; ///< scene-wide: v, a, b, c; or the ends of one and of the other
+    bool edges = false;
+    double rest_gap = 0; ///< m: how far apart they are kept
+};
+
 /// What has driven a world from outside since it was made, for accounts of energy.
 struct WorldDrive
 {
@@ -142,6 +162,11 @@ public:
     /// Vertices that came apart so far (Material::tear_strain). Each made a new one, at the end of its
     /// body's: plan(), scene(), position_buffer() and the number of positions change with it.
     std::uint64_t torn() const;
+
+    /// All zero in scenes without contact. Waits, as contact_pairs() does.
+    ContactCounts contacts() const;
+    /// Those that the last step's search listed, in the order of the list.
+    std::vector<SurfacePair> contact_pairs() const;
 
     WorldState state() const;
     /// Throws Error{bad_input} when the state is of another plan (also of a cloth torn otherwise) or holds a

@@ -12,6 +12,12 @@
 
 namespace taut {
 
+/// What lists of surfaces that meet hold, as bytes; empty without contact.
+struct ContactLists
+{
+    std::vector<std::byte> control, lost, pair, side;
+};
+
 struct World::Impl
 {
     Scene scene;
@@ -50,6 +56,9 @@ struct World::Impl
     void count_step();
     void after_step();
     void replace_scene(const TornScene& next);
+    ContactLists contact_lists() const;
+    void carry_contacts(const ContactLists& before, bool same_vertices);
+    void grow_contacts();
     template <typename Real>
     std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
     template <typename Real>

@@ -40,13 +40,17 @@ std::vector<std::uint32_t> places(const Plan& before, const Plan& now,
 
 } // namespace
 
-/// Plans the scene anew and carries the state over, bit for bit; inverse masses are the new plan's.
+/// Plans the scene anew (after a tear, or for longer lists of contact) and carries the state over, bit for bit; inverse masses are the new plan's.
 void World::Impl::replace_scene(const TornScene& next)
 {
     const std::vector<std::byte> position = raw(plan.position), low = raw(plan.low),
                                  velocity = raw(plan.velocity), delta = raw(plan.delta), force = forces,
                                  coasting = raw(plan.coasting), owed = raw(plan.owed),
                                  events = raw(plan.events);
+    const ContactLists contacts = contact_lists();
+    std::vector<std::vector<std::byte>> carried; // what stays as long as the mesh does
+    for (const std::uint32_t buffer : plan.kept)
+        carried.push_back(next.splits == 0 ? raw(buffer) : std::vector<std::byte>());
     std::vector<std::vector<std::byte>> logs; // of linear solves: they count over the whole run
     for (const PlanSolver& solver : plan.solvers)
         logs.push_back(raw(solver.log));
@@ -76,6 +80,9 @@ void World::Impl::replace_scene(const TornScene& next)
     device->write(buffers[plan.events], 0, events);
     for (std::size_t k = 0; k < std::min(logs.size(), plan.solvers.size()); ++k)
         device->write(buffers[plan.solvers[k].log], 0, logs[k]);
+    for (std::size_t k = 0; next.splits == 0 && k < plan.kept.size(); ++k)
+        device->write(buffers[plan.kept[k]], 0, carried[k]);
+    carry_contacts(contacts, next.splits == 0);
     if (plan.force != kNoBuffer)
     {
         keep_forces(spread(force, from, element));

@@ -1,0 +1,39 @@
+// Words that host and kernels agree on of contact between surfaces.
+#ifndef TAUT_SHARED_CONTACT_ROWS_H
+#define TAUT_SHARED_CONTACT_ROWS_H
+
+/// ContactTriangle::owns: bit k, the corner k is this triangle's to look after; bit 3 + k, the side from
+/// corner k to the next one is. Every vertex and side of a surface belongs to one triangle.
+#define TAUT_CONTACT_OWNS_SIDE 3u
+
+/// ContactPair::kind.
+#define TAUT_CONTACT_VERTEX 0u // a against the triangle b, c, d
+#define TAUT_CONTACT_EDGES 1u  // a-b against c-d
+
+/// Words of the control buffer: group counts of the passes over pairs, then of those over vertices; pairs
+/// listed; of the last search: pairs found, triangles compared. Over the whole run: pairs found and not
+/// listed, triangles whose search was cut short, vertices with too many contacts.
+#define TAUT_CONTACT_PAIR_GROUPS 0
+#define TAUT_CONTACT_VERTEX_GROUPS 4
+#define TAUT_CONTACT_LISTED 8
+#define TAUT_CONTACT_FOUND 9
+#define TAUT_CONTACT_COMPARED 10
+#define TAUT_CONTACT_MISSING 11
+#define TAUT_CONTACT_WORDS 12
+
+/// Words of the counters of what was left out: queries that were cut short, vertices with too many corners of
+/// pairs.
+#define TAUT_CONTACT_CUT 0
+#define TAUT_CONTACT_CROWDED 1
+
+/// Trips of a query's loop, and corners of pairs at one vertex, that a device can be trusted with.
+#define TAUT_CONTACT_TRIPS 28000u
+#define TAUT_CONTACT_CROWD 1000u
+
+/// Invocations of a work group of the passes over pairs and vertices (runtime: kGroupSize).
+#define TAUT_CONTACT_GROUP 64u
+
+/// Lanes of the passes that refit the tree.
+#define TAUT_CONTACT_REFIT 64
+
+#endif

@@ -1,0 +1,258 @@
+// Surfaces that meet: pairs are found once a step, and pushed apart in every sweep.
+//
+// Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014 (contacts as
+//   constraints of positions); Tonge, Benevolenski, Voroshilov. SIGGRAPH 2012 (mass splitting). Each kernel of
+//   kernels/contact says more.
+// Departures: nothing forbids a crossing; what is found once a step is missed where surfaces come closer than
+//   its skin allows for (docs/contact.md, "Limits").
+
+#include "taut/plan/contact.hpp"
+
+#include "taut/kernels/contact_corners.hpp"
+#include "taut/kernels/contact_gap.hpp"
+#include "taut/kernels/contact_make.hpp"
+#include "taut/kernels/contact_move.hpp"
+#include "taut/kernels/contact_push.hpp"
+#include "taut/kernels/contact_refit.hpp"
+#include "taut/kernels/contact_scan.hpp"
+#include "taut/kernels/contact_search.hpp"
+#include "taut/kernels/contact_sort.hpp"
+#include "taut/kernels/shared/contact_rows.h"
+#include "taut/plan/contact_scene.hpp"
+#include "taut/plan/contact_tree.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#define TAUT_HOST
+#include "taut/kernels/shared/layouts.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+constexpr std::string_view kEffect = "contact";
+/// Times the gap kept: how much further than the gap the search looks, beside what motion adds.
+constexpr double kSkin = 0.5;
+/// Rows that one group can scan: 128 lanes, two loops of at most half of kMaxLoopTrips each.
+constexpr std::uint32_t kMostRows = 1u << 20;
+constexpr std::uint32_t kMostPairs = 1u << 21;
+constexpr std::uint32_t kLeastCapacity = 1u << 12;
+static_assert(TAUT_CONTACT_GROUP == kGroupSize);
+std::vector<ContactLeaf> leaves_of(const PlanBuilder& b)
+{
+    std::vector<ContactLeaf> out;
+    for (std::uint32_t body = 0; body < b.scene.bodies.size(); ++body)
+        if (takes_part(b.scene, b.scene.bodies[body]))
+            for (const auto& [p, q, r] : b.scene.bodies[body].mesh.triangles)
+                out.push_back({{b.vertex(body, p), b.vertex(body, q), b.vertex(body, r)}, body, 0});
+    out = in_tree_order(std::move(out), b.start);
+    share_out(out);
+    return out;
+}
+
+void check_size(const PlanBuilder& b, std::size_t triangles)
+{
+    if (triangles > kMostRows || b.plan.vertex_count > kMostRows)
+        throw Error(ErrorCode::limit, "contact: " + std::to_string(triangles) + " triangles and " +
+                                          std::to_string(b.plan.vertex_count) +
+                                          " vertices; surfaces of at most " + std::to_string(kMostRows) +
+                                          " of each can meet so far");
+}
+
+/// What the plan knows of triangles, vertices and bodies.
+template <typename Real>
+void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLeaf>& leaves)
+{
+    std::vector<layout::ContactTriangle<Real>> triangles;
+    for (const ContactLeaf& leaf : leaves)
+        triangles.push_back({leaf.corner[0], leaf.corner[1], leaf.corner[2], leaf.body, leaf.owns});
+    std::vector<layout::ContactBody<Real>> bodies;
+    std::vector<glm::vec<4, Real>> rest(b.plan.vertex_count, glm::vec<4, Real>(0));
+    for (std::size_t k = 0; k < b.scene.bodies.size(); ++k)
+    {
+        const Body& body = b.scene.bodies[k];
+        bodies.push_back({static_cast<Real>(radius_of(b.scene, body)),
+                          static_cast<Real>(friction_of(b.scene, body)), body.contact.self});
+        for (std::uint32_t v = 0; v < body.mesh.positions.size(); ++v) // distances are all that is asked
+            rest[b.vertex(k, v)] = {glm::vec<3, Real>(body.mesh.positions[v] - body.mesh.positions[0]),
+                                    static_cast<Real>(k)};
+    }
+    c.triangle = b.add_buffer<layout::ContactTriangle<Real>>(kEffect, "triangles that meet", triangles);
+    c.body = b.add_buffer<layout::ContactBody<Real>>(kEffect, "bodies that meet", bodies);
+    c.rest = b.add_buffer<glm::vec<4, Real>>(kEffect, "shapes at rest", rest);
+    c.side = b.add_buffer(kEffect, "sides of pairs", c.capacity * sizeof(layout::ContactSide<Real>));
+}
+
+void add_lists(PlanBuilder& b, ContactBuffers& c)
+{
+    constexpr std::uint64_t word = sizeof(std::uint32_t);
+    const std::uint64_t real = b.real_size(), pairs = c.capacity, vertices = b.plan.vertex_count;
+    c.node = b.add_buffer(kEffect, "tree", 2 * std::uint64_t(c.leaves) * 8 * real);
+    c.found = b.add_buffer(kEffect, "pairs of triangles", c.triangles * word);
+    c.compared = b.add_buffer(kEffect, "triangles compared", c.triangles * word);
+    c.start = b.add_buffer(kEffect, "pairs of triangles, start", (c.triangles + std::uint64_t(1)) * word);
+    std::vector<std::uint32_t> control(TAUT_CONTACT_WORDS, 0);
+    for (const std::size_t gate : {TAUT_CONTACT_PAIR_GROUPS, TAUT_CONTACT_VERTEX_GROUPS})
+        control[gate + 1] = control[gate + 2] = 1;
+    c.control = b.add_buffer<std::uint32_t>(kEffect, "contact control", control);
+    c.lost = b.add_buffer(kEffect, "what was left out", 2 * word);
+    c.pair = b.add_buffer(kEffect, "pairs", pairs * sizeof(layout::ContactPair<float>));
+    c.row = b.add_buffer(kEffect, "weights of pairs", pairs * 8 * real);
+    c.taken = b.add_buffer(kEffect, "multipliers of pairs", pairs * 4 * real);
+    c.impulse = b.add_buffer(kEffect, "impulses of pairs", pairs * 4 * real);
+    c.corners = b.add_buffer(kEffect, "corners at vertices", vertices * word);
+    c.placed = b.add_buffer(kEffect, "corners placed", vertices * word);
+    c.corner_start = b.add_buffer(kEffect, "corners at vertices, start", (vertices + 1) * word);
+    c.corner = b.add_buffer(kEffect, "corners of pairs", 4 * pairs * word);
+    c.active = b.add_buffer(kEffect, "active pairs at vertices", vertices * word);
+}
+
+std::uint32_t capacity_for(const PlanBuilder& b, std::size_t triangles)
+{
+    const std::uint32_t asked = b.options.contact_capacity;
+    const auto usual = std::max<std::uint32_t>(kLeastCapacity, leaves_for(static_cast<std::uint32_t>(2 * triangles)));
+    return std::min(asked > 0 ? asked : usual, kMostPairs);
+}
+
+/// Adds a pass over the pairs that are listed, or over the vertices while there are any.
+template <template <typename> typename Bindings>
+void gated(PlanBuilder& b, const Bindings<Use>& uses, const typename Bindings<Use>::Params& params,
+           std::uint32_t count, std::uint64_t gate)
+{
+    b.dispatch_indirect(kEffect, "", uses, params, count, b.contact->control, gate * sizeof(std::uint32_t));
+}
+
+void record_refit(PlanBuilder& b, const ContactBuffers& c)
+{
+    const kernels::contact_refit::Bindings<Use> leaves = {.node = {c.node, 2},
+                                                          .triangle = {c.triangle},
+                                                          .position = {b.plan.position, 3},
+                                                          .delta = {b.plan.delta, 3}};
+    const kernels::contact_refit::Bindings<Use> nodes = {.node = {c.node, 2}};
+    const auto groups = [](std::uint32_t level) {
+        return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
+    };
+    b.dispatch(kEffect, "leaves", leaves, {c.leaves, c.triangles, c.every}, groups(c.leaves),
+               c.triangles);
+    for (std::uint32_t level = groups(c.leaves); level > 1; level = groups(level))
+        b.dispatch(kEffect, "", nodes, {level, c.triangles, c.every}, groups(level), 2 * level);
+}
+
+void record_lists(PlanBuilder& b, const ContactBuffers& c)
+{
+    const std::uint32_t n = c.triangles, vertices = b.plan.vertex_count;
+    kernels::contact_search::Bindings<Use> count = {.triangle = {c.triangle},
+                                                    .position = {b.plan.position, 3},
+                                                    .delta = {b.plan.delta, 3},
+                                                    .node = {c.node, 2},
+                                                    .body = {c.body}};
+    kernels::contact_search::Bindings<Use> fill = count;
+    count.found = {c.found};
+    count.compared = {c.compared};
+    count.lost = {c.lost, 0};
+    fill.start = {c.start};
+    fill.pair = {c.pair};
+    const kernels::contact_search::Bindings<Use>::Params how = {
+        n, c.leaves, bodies_meet(b.scene), c.every, c.skin, c.reach, c.capacity};
+    b.dispatch(kEffect, "", count, how, n);
+    const kernels::contact_scan::Bindings<Use> rows = {
+        .found = {c.found, n}, .start = {c.start, n}, .compared = {c.compared, n}, .control = {c.control}};
+    b.dispatch(kEffect, "rows", rows, {n, c.capacity, vertices}, 1);
+    b.dispatch(kEffect, "fill", fill, how, n);
+    const kernels::contact_make::Bindings<Use> make = {.pair = {c.pair},
+                                                       .position = {b.plan.position, 4},
+                                                       .rest = {c.rest, 4},
+                                                       .body = {c.body, 2},
+                                                       .control = {c.control, 0},
+                                                       .side = {c.side},
+                                                       .corners = {c.corners, 4}};
+    gated(b, make, {c.capacity}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    const kernels::contact_scan::Bindings<Use> places = {.found = {c.corners, vertices},
+                                                         .start = {c.corner_start, vertices}};
+    b.dispatch(kEffect, "", places, {vertices, 0, vertices}, 1);
+    const kernels::contact_corners::Bindings<Use> corners = {.pair = {c.pair},
+                                                             .control = {c.control, 0},
+                                                             .start = {c.corner_start, 4},
+                                                             .corner = {c.corner, 4},
+                                                             .taken = {c.placed, 4}};
+    gated(b, corners, {c.capacity}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    const kernels::contact_sort::Bindings<Use> sort = {.start = {c.corner_start, 2},
+                                                       .corner = {c.corner},
+                                                       .corners = {c.corners},
+                                                       .taken = {c.placed},
+                                                       .lost = {c.lost, 0}};
+    b.dispatch(kEffect, "", sort, {vertices}, vertices);
+}
+
+void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
+{
+    const kernels::contact_gap::Bindings<Use> gap = {.pair = {c.pair},
+                                                     .position = {b.plan.position, 4},
+                                                     .delta = {b.plan.delta, 4},
+                                                     .step_values = {b.plan.step_values, 0},
+                                                     .control = {c.control, 0},
+                                                     .side = {c.side},
+                                                     .row = {c.row, 2},
+                                                     .acting = {c.active, 4}};
+    gated(b, gap, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    const kernels::contact_push::Bindings<Use> push = {.pair = {c.pair},
+                                                       .position = {b.plan.position, 4},
+                                                       .control = {c.control, 0},
+                                                       .side = {c.side},
+                                                       .row = {c.row, 2},
+                                                       .acting = {c.active, 4},
+                                                       .taken = {c.taken},
+                                                       .impulse = {c.impulse}};
+    gated(b, push, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    const kernels::contact_move::Bindings<Use> move = {.start = {c.corner_start, 2},
+                                                       .corner = {c.corner},
+                                                       .row = {c.row},
+                                                       .impulse = {c.impulse},
+                                                       .position = {b.plan.position},
+                                                       .delta = {b.plan.delta},
+                                                       .acting = {c.active}};
+    gated(b, move, {b.plan.vertex_count}, b.plan.vertex_count, TAUT_CONTACT_VERTEX_GROUPS);
+}
+
+} // namespace
+
+void prepare_contact(PlanBuilder& b)
+{
+    const std::vector<ContactLeaf> leaves = leaves_of(b);
+    check_size(b, leaves.size());
+    b.contact = std::make_shared<ContactBuffers>();
+    ContactBuffers& c = *b.contact;
+    c.triangles = static_cast<std::uint32_t>(leaves.size());
+    c.leaves = leaves_for(c.triangles);
+    c.capacity = capacity_for(b, leaves.size());
+    const std::uint32_t searches = std::min(b.scene.contact.searches, b.plan.substeps);
+    c.every = (b.plan.substeps + searches - 1) / searches;
+    double radius = 0;
+    for (const Body& body : b.scene.bodies)
+        radius = std::max(radius, takes_part(b.scene, body) ? radius_of(b.scene, body) : 0);
+    const double time = b.plan.timestep / b.plan.substeps * c.every;
+    const double fall = 0.5 * glm::length(b.scene.gravity) * time * time;
+    c.skin = static_cast<float>(kSkin * 2 * radius + fall);
+    c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
+    with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
+    add_lists(b, c);
+    b.plan.contact = {c.control, c.lost, c.pair, c.side, c.triangles, c.capacity};
+}
+
+void record_contact_search(PlanBuilder& b, const Moment& moment)
+{
+    if (moment.substep % b.contact->every != 0)
+        return;
+    record_refit(b, *b.contact);
+    record_lists(b, *b.contact);
+}
+
+void record_contact(PlanBuilder& b, const Moment& moment)
+{
+    for (std::uint32_t k = 0; k < b.scene.contact.sweeps; ++k)
+        record_sweep(b, *b.contact, moment.iteration == 0 && k == 0);
+}
+
+} // namespace taut

@@ -1,0 +1,31 @@
+#pragma once
+// Internal to src/plan: surfaces that meet themselves and each other, as an effect (docs/contact.md).
+
+#include "taut/plan/builder.hpp"
+
+namespace taut {
+
+/// Buffers of contact while a plan is made.
+struct ContactBuffers
+{
+    // Of the tree, of vertices and bodies: fixed by the plan.
+    std::uint32_t triangle = kNoBuffer, node = kNoBuffer, rest = kNoBuffer, body = kNoBuffer;
+    // Of the search, a triangle.
+    std::uint32_t found = kNoBuffer, compared = kNoBuffer, start = kNoBuffer, control = kNoBuffer,
+                  lost = kNoBuffer;
+    // Of pairs.
+    std::uint32_t pair = kNoBuffer, side = kNoBuffer, row = kNoBuffer, taken = kNoBuffer, impulse = kNoBuffer;
+    // Of the corners of pairs at each vertex.
+    std::uint32_t corners = kNoBuffer, placed = kNoBuffer, corner_start = kNoBuffer, corner = kNoBuffer,
+                  active = kNoBuffer;
+    std::uint32_t triangles = 0, leaves = 0, capacity = 0;
+    std::uint32_t every = 1; ///< substeps from one search to the next
+    float skin = 0, reach = 0; ///< m
+};
+
+void prepare_contact(PlanBuilder& builder);
+/// The search, in the substeps that begin with one.
+void record_contact_search(PlanBuilder& builder, const Moment& moment);
+void record_contact(PlanBuilder& builder, const Moment& moment);
+
+} // namespace taut

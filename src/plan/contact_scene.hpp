@@ -1,0 +1,24 @@
+#pragma once
+// What of a resolved scene meets (docs/contact.md).
+
+#include "taut/scene/scene.hpp"
+
+namespace taut {
+
+/// m: how far the surface of a body keeps from the middle of its gap to another one.
+double radius_of(const Scene& scene, const Body& body);
+/// Coulomb coefficient of the surface of a body.
+double friction_of(const Scene& scene, const Body& body);
+
+/// Whether different bodies meet, and there are two of them with surfaces.
+bool bodies_meet(const Scene& resolved);
+/// Whether the surface of a body meets itself or another one.
+bool takes_part(const Scene& resolved, const Body& body);
+/// Whether any does.
+bool wants_contact(const Scene& resolved);
+
+/// Throws Error{unsupported} naming the key where the scene's method, or a body in it, cannot meet others, and
+/// Error{bad_input} for a surface too thin for where it is.
+void check_contact(const Scene& resolved);
+
+} // namespace taut

@@ -1,0 +1,131 @@
+#include "taut/kernels/contact_gap.hpp"
+
+#include "support/contact_net.hpp"
+
+using namespace taut;
+using namespace taut::conformance;
+
+namespace {
+
+constexpr double kWayOut = 0.004;
+
+/// What contact_gap must leave of one pair, from its written rules.
+struct Gap
+{
+    glm::dvec3 normal{0}, slip{0};
+    double allowed = 0, value = 0;
+    std::array<double, 4> weight{};
+    bool clear = true; ///< no flag hangs by a rounding
+};
+
+template <typename Real>
+Gap gap_of(const ContactNet<Real>& net, const layout::ContactPair<Real>& p, const layout::ContactSide<Real>& s,
+           bool first)
+{
+    const bool edges = p.kind == TAUT_CONTACT_EDGES;
+    const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v) + net.d(v); });
+    const glm::dvec3 side(s.normal_x, s.normal_y, s.normal_z);
+    const std::uint32_t ids[] = {p.a, p.b, p.c, p.d};
+    const bool inside = is_inside(now, 0, edges), through = inside && glm::dot(now.way, side) < 0;
+    Gap out;
+    out.clear = is_inside(now, 0, edges) == is_inside(now, 1e-3, edges) &&
+                std::abs(glm::dot(now.way, side)) > 1e-3 * now.distance();
+    const double gap = through ? -now.distance() : now.distance();
+    out.normal = now.way / gap;
+    double masses = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+        out.slip += now.weight[k] * net.d(ids[k]);
+        masses += static_cast<double>(net.position[ids[k]].w) * now.weight[k] * now.weight[k];
+    }
+    const double rest = static_cast<double>(s.rest_gap), before = gap - glm::dot(out.normal, out.slip);
+    out.allowed = first ? std::min(rest, before + kWayOut) : static_cast<double>(s.allowed);
+    out.value = gap - out.allowed;
+    out.clear = out.clear && std::abs(out.value) > 1e-4;
+    const bool acts = out.value < 0 && masses > 0 && (!edges || inside);
+    if (acts)
+        out.weight = now.weight;
+    return out;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and which act", "", float, double)
+{
+    using Real = TestType;
+    using Vec = glm::vec<4, Real>;
+    using Side = layout::ContactSide<Real>;
+    const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
+    const bool first = GENERATE(true, false);
+    CAPTURE(count, first);
+    Random random(2800 + count);
+    auto net = contact_net<Real>(60, random, 0.02);
+    const auto pairs = some_pairs(net, count + 2, random);
+    std::vector<Side> sides;
+    for (const auto& p : pairs)
+    {
+        // Gaps about as wide as the pairs are apart, so that half of them act.
+        const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v) + net.d(v); });
+        const glm::dvec3 n = random.chance(0.3) ? -now.way / now.distance() : now.way / now.distance();
+        const auto gap = static_cast<Real>(now.distance() * random.uniform(0.5, 1.5));
+        sides.push_back({static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), gap, gap, Real(0.4)});
+    }
+    layout::StepValues<Real> step{};
+    step.depenetration = static_cast<Real>(kWayOut);
+    Case c;
+    c.precision = precision_of<Real>();
+    c.in = {{"pair", bytes_of(pairs)},
+            {"position", bytes_of(net.position)},
+            {"delta", bytes_of(net.delta)},
+            {"step_values", bytes_of(std::vector{step})},
+            {"control", bytes_of(control_of(count))},
+            {"side", bytes_of(sides)},
+            {"row", bytes_of(std::vector<Vec>(2 * (count + 2), Vec(3)))},
+            {"acting", bytes_of(std::vector<std::uint32_t>(net.position.size(), 0))}};
+    c.launches = {make_launch(kernels::contact_gap::info("", c.precision),
+                              kernels::contact_gap::Params{count + 2, first}, count + 2)};
+    std::vector<std::uint32_t> least(net.position.size(), 0), most = least;
+    std::size_t acting = 0, crossed = 0;
+    for (std::uint32_t k = 0; k < count + 2; ++k)
+    {
+        Field &side = c.expected["side"], &row = c.expected["row"];
+        if (k >= count)
+        {
+            for (const Real v : {sides[k].normal_x, sides[k].normal_y, sides[k].normal_z, sides[k].allowed,
+                                 sides[k].rest_gap, sides[k].friction})
+                side.add(static_cast<double>(v), 0);
+            for (int j = 0; j < 8; ++j)
+                row.add(3, 0);
+            continue;
+        }
+        const Gap want = gap_of(net, pairs[k], sides[k], first);
+        const double blur = want.clear ? 1 + 4 / std::abs(want.value + want.allowed) : kAnyFinite;
+        for (int axis = 0; axis < 3; ++axis)
+            side.add(want.normal[axis], blur);
+        side.add(want.allowed, want.clear ? 4 : kAnyFinite);
+        side.add(static_cast<double>(sides[k].rest_gap), 0);
+        side.add(static_cast<double>(sides[k].friction), 0);
+        // Weights of triangles of 0.1 m, of a net of metres: some hundred roundings.
+        for (const double w : want.weight)
+            row.add(w, want.clear ? 200 : kAnyFinite);
+        for (int axis = 0; axis < 3; ++axis)
+            row.add(want.slip[axis], want.clear ? 8 : kAnyFinite);
+        row.add(want.value, want.clear ? 4 : kAnyFinite);
+        const std::uint32_t ids[] = {pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d};
+        for (std::size_t j = 0; j < 4; ++j)
+        {
+            least[ids[j]] += want.clear && std::abs(want.weight[j]) > 1e-3 ? 1 : 0;
+            most[ids[j]] += !want.clear || want.weight[j] != 0 ? 1 : 0;
+        }
+        acting += want.weight[0] != 0 || want.weight[1] != 0 ? 1 : 0;
+        crossed += want.value + want.allowed < 0 ? 1 : 0;
+    }
+    CHECK((count < 1000 || (acting > count / 5 && crossed > count / 50)));
+    look_on_every_device(c, [&](const Buffers& out) {
+        const auto counts = words_of(out, "acting");
+        std::size_t wrong = 0;
+        for (std::size_t v = 0; v < counts.size(); ++v)
+            wrong += counts[v] < least[v] || counts[v] > most[v] ? 1 : 0;
+        CHECK(wrong == 0);
+    });
+}

@@ -1,0 +1,89 @@
+#include "taut/kernels/contact_make.hpp"
+
+#include "support/contact_net.hpp"
+
+using namespace taut;
+using namespace taut::conformance;
+
+TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction, and counts its corners", "",
+                   float, double)
+{
+    using Real = TestType;
+    using Vec = glm::vec<4, Real>;
+    const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
+    CAPTURE(count);
+    Random random(2500 + count);
+    const auto net = contact_net<Real>(120, random, 0.003);
+    const auto pairs = some_pairs(net, count + 3, random);
+    std::vector<Vec> rest;
+    for (std::uint32_t v = 0; v < net.position.size(); ++v) // another shape, with some parts nearer than the gap
+        rest.emplace_back(glm::vec<3, Real>(net.position[v]) * Real(v % 3 == 0 ? 0.05 : 0.5), Real(v / 12 % 3));
+    using Side = layout::ContactSide<Real>;
+    Case c;
+    c.precision = precision_of<Real>();
+    c.in = {{"pair", bytes_of(pairs)},
+            {"position", bytes_of(net.position)},
+            {"rest", bytes_of(rest)},
+            {"body", bytes_of(net.body)},
+            {"control", bytes_of(control_of(count))},
+            {"side", bytes_of(std::vector<Side>(count + 3, Side{3, 3, 3, 3, 3, 3}))},
+            {"corners", bytes_of(std::vector<std::uint32_t>(net.position.size(), 0))}};
+    c.launches = {make_launch(kernels::contact_make::info("", c.precision),
+                              kernels::contact_make::Params{count + 3}, count + 3)};
+    std::vector<std::uint32_t> corners(net.position.size(), 0);
+    Field& field = c.expected["side"];
+    std::size_t thin = 0;
+    for (std::uint32_t k = 0; k < count; ++k)
+    {
+        const auto& p = pairs[k];
+        for (const std::uint32_t v : {p.a, p.b, p.c, p.d})
+            ++corners[v];
+        const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v); });
+        const auto then = nearest_of(p, [&](std::uint32_t v) { return glm::dvec3(rest[v]); });
+        // The way is a difference of places of some metres.
+        const double blur = 1 + 4 / now.distance();
+        for (int axis = 0; axis < 3; ++axis)
+            field.add(now.way[axis] / now.distance(), blur);
+        const auto &first = net.body[static_cast<std::size_t>(rest[p.a].w)],
+                   &second = net.body[static_cast<std::size_t>(rest[p.d].w)];
+        const double sum = static_cast<double>(first.radius) + static_cast<double>(second.radius);
+        const bool same = rest[p.a].w == rest[p.d].w;
+        const double gap = same ? std::min(sum, then.distance()) : sum;
+        thin += gap < sum ? 1 : 0;
+        field.add(gap, 1);
+        field.add(gap, 1);
+        field.add(0.5 * (static_cast<double>(first.friction) + static_cast<double>(second.friction)), 1);
+    }
+    for (int k = 0; k < 3 * 6; ++k)
+        field.add(3, 0);
+    CHECK((count < 1000 || thin > 0));
+    look_on_every_device(c, [&](const Buffers& out) { CHECK(words_of(out, "corners") == corners); });
+}
+
+TEST_CASE("contact_make takes any side of what touches, and never one that is no number")
+{
+    using Vec = glm::vec<4, float>;
+    const std::vector<Vec> position = {{0.25f, 0, 0.25f, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}};
+    std::vector<Vec> rest = position;
+    for (Vec& r : rest)
+        r.w = 0;
+    // A vertex in the triangle, one on a triangle without area, and edges on top of each other.
+    const std::vector<layout::ContactPair<float>> pairs = {
+        {0, 1, 2, 3, TAUT_CONTACT_VERTEX}, {4, 1, 1, 1, TAUT_CONTACT_VERTEX}, {1, 2, 4, 2, TAUT_CONTACT_EDGES}};
+    Case c;
+    c.in = {{"pair", bytes_of(pairs)},
+            {"position", bytes_of(position)},
+            {"rest", bytes_of(rest)},
+            {"body", bytes_of(std::vector<layout::ContactBody<float>>{{0.01f, 0, 1}})},
+            {"control", bytes_of(control_of(3))},
+            {"side", bytes_of(std::vector<layout::ContactSide<float>>(3))},
+            {"corners", bytes_of(std::vector<std::uint32_t>(5, 0))}};
+    c.launches = {make_launch(kernels::contact_make::info("", Precision::float32),
+                              kernels::contact_make::Params{3}, 3)};
+    look_on_every_device(c, [&](const Buffers& out) {
+        const auto sides = values_of<layout::ContactSide<float>>(out.at("side"));
+        CHECK(std::abs(sides[0].normal_y) == 1);
+        for (const auto& s : sides)
+            CHECK(s.normal_x * s.normal_x + s.normal_y * s.normal_y + s.normal_z * s.normal_z == 1);
+    });
+}

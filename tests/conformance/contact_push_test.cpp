@@ -1,0 +1,91 @@
+#include "taut/kernels/contact_push.hpp"
+
+#include "support/contact_net.hpp"
+
+using namespace taut;
+using namespace taut::conformance;
+
+TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and friction within its cone", "", float,
+                   double)
+{
+    using Real = TestType;
+    using Vec = glm::vec<4, Real>;
+    using Side = layout::ContactSide<Real>;
+    const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
+    const bool first = GENERATE(true, false);
+    CAPTURE(count, first);
+    Random random(2900 + count);
+    const auto net = contact_net<Real>(60, random, 0);
+    const auto pairs = some_pairs(net, count + 2, random);
+    std::vector<std::uint32_t> acting;
+    for (std::size_t v = 0; v < net.position.size(); ++v)
+        acting.push_back(1 + random.below(9));
+    std::vector<Side> sides;
+    std::vector<Vec> row, taken;
+    for (std::uint32_t k = 0; k < count + 2; ++k)
+    {
+        const glm::dvec3 n = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
+        sides.push_back({static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), Real(0.01),
+                         Real(0.01), static_cast<Real>(random.chance(0.2) ? 0 : random.uniform(0, 1))});
+        const Real u = random.uniform<Real>(0, 1);
+        const bool idle = random.chance(0.2);
+        row.push_back(idle ? Vec(0) : Vec(1, -u, u - 1, 0));
+        row.push_back(random.vec4<Real>(0.01, random.uniform<Real>(-0.02, 0.005)));
+        taken.push_back(random.vec4<Real>(0.001, random.uniform<Real>(0, 0.01)));
+    }
+    Case c;
+    c.precision = precision_of<Real>();
+    c.in = {{"pair", bytes_of(pairs)},
+            {"position", bytes_of(net.position)},
+            {"control", bytes_of(control_of(count))},
+            {"side", bytes_of(sides)},
+            {"row", bytes_of(row)},
+            {"acting", bytes_of(acting)},
+            {"taken", bytes_of(taken)},
+            {"impulse", bytes_of(std::vector<Vec>(count + 2, Vec(3)))}};
+    c.launches = {make_launch(kernels::contact_push::info("", c.precision),
+                              kernels::contact_push::Params{count + 2, first}, count + 2)};
+    std::size_t slides = 0, sticks = 0;
+    for (std::uint32_t k = 0; k < count + 2; ++k)
+    {
+        Field &now = c.expected["taken"], &impulse = c.expected["impulse"];
+        if (k >= count)
+        {
+            for (int j = 0; j < 4; ++j)
+            {
+                now.add(static_cast<double>(taken[k][j]), 0);
+                impulse.add(3, 0);
+            }
+            continue;
+        }
+        const glm::dvec4 b(row[2 * k]), met(row[2 * k + 1]), before = first ? glm::dvec4(0) : glm::dvec4(taken[k]);
+        const std::uint32_t ids[] = {pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d};
+        double weight = 0;
+        for (int j = 0; j < 4; ++j)
+            weight += acting[ids[j]] * static_cast<double>(net.position[ids[j]].w) * b[j] * b[j];
+        glm::dvec4 after = before;
+        const glm::dvec3 n(sides[k].normal_x, sides[k].normal_y, sides[k].normal_z), slip(met);
+        double size = glm::length(glm::dvec3(before)) + before.w;
+        if (weight > 0)
+        {
+            after.w = std::max(0.0, before.w - met.w / weight);
+            glm::dvec3 tangent = glm::dvec3(before) - (slip - n * glm::dot(n, slip)) / weight;
+            size += (std::abs(met.w) + glm::length(slip)) / weight;
+            const double limit = static_cast<double>(sides[k].friction) * after.w;
+            const bool beyond = glm::length(tangent) > limit;
+            slides += beyond && limit > 0 ? 1 : 0;
+            sticks += !beyond ? 1 : 0;
+            if (beyond)
+                tangent *= limit / glm::length(tangent);
+            after = glm::dvec4(tangent, after.w);
+        }
+        for (int j = 0; j < 4; ++j)
+            now.add(after[j], size);
+        const glm::dvec3 push = n * (after.w - before.w) + glm::dvec3(after - before);
+        for (int j = 0; j < 3; ++j)
+            impulse.add(push[j], 2 * size);
+        impulse.add(0, 0);
+    }
+    CHECK((count < 1000 || (slides > 50 && sticks > 50)));
+    check_on_every_device(c);
+}

@@ -1,0 +1,53 @@
+#include "taut/kernels/contact_refit.hpp"
+
+#include "support/contact_net.hpp"
+
+using namespace taut;
+using namespace taut::conformance;
+
+TEMPLATE_TEST_CASE("contact_refit gives every node the box of its triangles where they are and will be", "",
+                   float, double)
+{
+    using Real = TestType;
+    const std::uint32_t count = GENERATE(1u, 2u, 3u, 63u, 64u, 65u, 300u, 5000u);
+    CAPTURE(count);
+    Random random(2100 + count);
+    const auto net = contact_net<Real>(count, random, 0.01);
+    const std::uint32_t substeps = 7, leaves = net.leaves;
+    using Vec = glm::vec<4, Real>;
+    Case c;
+    c.precision = precision_of<Real>();
+    c.in = {{"node", bytes_of(std::vector<Vec>(4 * leaves, Vec(9)))},
+            {"triangle", bytes_of(net.triangle)},
+            {"position", bytes_of(net.position)},
+            {"delta", bytes_of(net.delta)}};
+    const auto groups = [](std::uint32_t level) { return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT); };
+    c.launches = {make_launch(kernels::contact_refit::info("leaves", c.precision),
+                              kernels::contact_refit::Params{leaves, count, substeps}, groups(leaves))};
+    for (std::uint32_t level = groups(leaves); level > 1; level = groups(level))
+        c.launches.push_back(make_launch(kernels::contact_refit::info("", c.precision),
+                                         kernels::contact_refit::Params{level, count, substeps}, groups(level)));
+    const double nowhere = static_cast<double>(static_cast<Real>(1e30));
+    struct Box
+    {
+        glm::dvec3 low, high;
+    };
+    std::vector<Box> boxes(2 * leaves, Box{glm::dvec3(nowhere), glm::dvec3(-nowhere)});
+    for (std::uint32_t t = 0; t < count; ++t)
+        for (const std::uint32_t v : {net.triangle[t].a, net.triangle[t].b, net.triangle[t].c})
+            for (const glm::dvec3& p : {net.x(v), net.x(v) + net.d(v) * double(substeps)})
+                for (std::uint32_t k = leaves + t; k > 0; k /= 2)
+                    boxes[k] = {glm::min(boxes[k].low, p), glm::max(boxes[k].high, p)};
+    Field& field = c.expected["node"];
+    for (std::uint32_t k = 0; k < 2 * leaves; ++k)
+        for (const glm::dvec3& corner : {boxes[k].low, boxes[k].high})
+        {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                const bool empty = std::abs(corner[axis]) == nowhere;
+                field.add(k == 0 ? 9 : corner[axis], k == 0 || empty ? 0 : 1 + std::abs(corner[axis]));
+            }
+            field.add(k == 0 ? 9 : 0, 0);
+        }
+    check_on_every_device(c);
+}

@@ -1,0 +1,148 @@
+#include "taut/kernels/contact_search.hpp"
+
+#include "support/contact_net.hpp"
+
+#include "taut/kernels/contact_refit.hpp"
+#include "taut/kernels/contact_scan.hpp"
+
+#include <map>
+
+using namespace taut;
+using namespace taut::conformance;
+
+namespace {
+
+constexpr float kSkin = 0.03f;
+constexpr std::uint32_t kSubsteps = 5;
+
+using Key = std::array<std::uint32_t, 5>;
+
+/// Every pair that can be meant, and by how much it is nearer than it must be to be found, m.
+template <typename Real>
+std::map<Key, double> all_pairs(const ContactNet<Real>& net, bool between)
+{
+    std::map<Key, double> out;
+    const auto x = [&](std::uint32_t v) { return net.x(v); };
+    const auto put = [&](const layout::ContactPair<Real>& p, std::size_t ends, double gap) {
+        const std::uint32_t ids[] = {p.a, p.b, p.c, p.d};
+        double motion = 0, masses = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+            masses += static_cast<double>(net.position[ids[i]].w);
+            for (std::size_t j = ends; i < ends && j < 4; ++j)
+                motion = std::max(motion, glm::length(net.d(ids[i]) - net.d(ids[j])));
+        }
+        if (masses > 0 && std::set<std::uint32_t>(ids, ids + 4).size() == 4)
+            out[{p.a, p.b, p.c, p.d, p.kind}] =
+                gap + static_cast<double>(kSkin) + kSubsteps * motion - nearest_of(p, x).distance();
+    };
+    for (std::size_t i = 0; i < net.triangle.size(); ++i)
+        for (std::size_t j = 0; j < net.triangle.size(); ++j)
+        {
+            const auto &t = net.triangle[i], &u = net.triangle[j];
+            const bool meets = t.body == u.body ? net.body[t.body].self != 0 : between;
+            const double gap = static_cast<double>(net.body[t.body].radius + net.body[u.body].radius);
+            const std::uint32_t tc[] = {t.a, t.b, t.c}, uc[] = {u.a, u.b, u.c};
+            for (std::uint32_t k = 0; k < 3 && meets && i != j; ++k)
+            {
+                if ((t.owns >> k & 1) != 0)
+                    put({tc[k], u.a, u.b, u.c, TAUT_CONTACT_VERTEX}, 1, gap);
+                for (std::uint32_t l = 0; l < 3 && i < j; ++l)
+                    if ((t.owns >> (3 + k) & u.owns >> (3 + l) & 1) != 0)
+                        put({tc[k], tc[(k + 1) % 3], uc[l], uc[(l + 1) % 3], TAUT_CONTACT_EDGES}, 2, gap);
+            }
+        }
+    return out;
+}
+
+template <typename Real>
+Case search(const ContactNet<Real>& net, bool between, std::uint32_t capacity)
+{
+    const auto count = static_cast<std::uint32_t>(net.triangle.size());
+    Case c;
+    c.precision = precision_of<Real>();
+    using Vec = glm::vec<4, Real>;
+    c.in = {{"triangle", bytes_of(net.triangle)},
+            {"position", bytes_of(net.position)},
+            {"delta", bytes_of(net.delta)},
+            {"node", bytes_of(std::vector<Vec>(4 * net.leaves, Vec(0)))},
+            {"body", bytes_of(net.body)},
+            {"found", bytes_of(std::vector<std::uint32_t>(count, 9))},
+            {"compared", bytes_of(std::vector<std::uint32_t>(count, 9))},
+            {"lost", bytes_of(std::vector<std::uint32_t>(2, 0))},
+            {"start", bytes_of(std::vector<std::uint32_t>(count + 1, 9))},
+            {"control", bytes_of(control_of(0))},
+            {"pair", bytes_of(std::vector<layout::ContactPair<Real>>(capacity, {7, 7, 7, 7, 7}))}};
+    const kernels::contact_search::Params how = {count, net.leaves, between, kSubsteps, kSkin,
+                                                 0.04f + kSkin, capacity};
+    c.launches = {make_launch(kernels::contact_search::info("", c.precision), how, count)};
+    const auto groups = [](std::uint32_t level) { return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT); };
+    std::vector<Launch> refit = {make_launch(kernels::contact_refit::info("leaves", c.precision),
+                                             kernels::contact_refit::Params{net.leaves, count, kSubsteps},
+                                             groups(net.leaves))};
+    for (std::uint32_t level = groups(net.leaves); level > 1; level = groups(level))
+        refit.push_back(make_launch(kernels::contact_refit::info("", c.precision),
+                                    kernels::contact_refit::Params{level, count, kSubsteps}, groups(level)));
+    c.launches.insert(c.launches.begin(), refit.begin(), refit.end());
+    c.launches.push_back(make_launch(kernels::contact_scan::info("rows", c.precision),
+                                     kernels::contact_scan::Params{count, capacity, 1}, 1));
+    c.launches.push_back(make_launch(kernels::contact_search::info("fill", c.precision), how, count));
+    return c;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("contact_search finds every pair that may meet, once, and none that cannot", "", float, double)
+{
+    using Real = TestType;
+    const std::uint32_t count = GENERATE(1u, 2u, 63u, 65u, 300u);
+    const bool between = GENERATE(true, false);
+    CAPTURE(count, between);
+    Random random(2200 + count);
+    const auto net = contact_net<Real>(count, random, 0.003);
+    const std::map<Key, double> wanted = all_pairs(net, between);
+    const std::uint32_t capacity = 1 << 15;
+    const double doubt = sizeof(Real) == 8 ? 1e-12 : 1e-5;
+    look_on_every_device(search(net, between, capacity), [&](const Buffers& out) {
+        const auto pairs = values_of<layout::ContactPair<Real>>(out.at("pair"));
+        const std::uint32_t listed = words_of(out, "control")[TAUT_CONTACT_LISTED];
+        REQUIRE(words_of(out, "start").back() == listed);
+        std::set<Key> found;
+        std::size_t strangers = 0, twice = 0, lost = 0, must = 0;
+        for (std::uint32_t k = 0; k < listed; ++k)
+        {
+            const Key key = {pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d, pairs[k].kind};
+            const auto known = wanted.find(key);
+            strangers += known == wanted.end() || known->second < -doubt ? 1 : 0;
+            twice += found.insert(key).second ? 0 : 1;
+        }
+        for (const auto& [key, by] : wanted)
+        {
+            must += by > doubt ? 1 : 0;
+            lost += by > doubt && found.count(key) == 0 ? 1 : 0;
+        }
+        CHECK(strangers == 0);
+        CHECK(twice == 0);
+        CHECK(lost == 0);
+        CHECK((count < 63 || !between || must > count)); // the net is dense enough to mean something
+        CHECK(pairs[listed].a == 7);
+        CHECK(words_of(out, "lost") == std::vector<std::uint32_t>{0, 0});
+    });
+}
+
+TEST_CASE("contact_search counts what a list that is too short does not hold, and writes no further")
+{
+    Random random(2300);
+    const auto net = contact_net<float>(300, random, 0.003);
+    const std::uint32_t capacity = 40;
+    const Buffers full = run(*test_device("cpu:serial"), search(net, true, 1 << 15).launches,
+                             search(net, true, 1 << 15).in);
+    look_on_every_device(search(net, true, capacity), [&](const Buffers& out) {
+        const auto control = words_of(out, "control");
+        const std::uint32_t all = words_of(full, "control")[TAUT_CONTACT_LISTED];
+        CHECK(control[TAUT_CONTACT_FOUND] == all);
+        CHECK(control[TAUT_CONTACT_LISTED] == capacity);
+        CHECK(control[TAUT_CONTACT_MISSING] == all - capacity);
+        CHECK(std::memcmp(out.at("pair").data(), full.at("pair").data(), out.at("pair").size()) == 0);
+    });
+}

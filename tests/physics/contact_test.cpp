@@ -1,0 +1,286 @@
+// Cloth that meets cloth (docs/contact.md): stays above it, keeps momentum, rubs, and never ends within it.
+
+#include "conformance/tolerances.hpp"
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+#include "support/nearest.hpp"
+
+#include "taut/report/report.hpp"
+#include "taut/world/world.hpp"
+
+#include <glm/trigonometric.hpp>
+
+#include <string>
+#include <vector>
+
+using namespace taut;
+
+namespace {
+
+constexpr double kRadius = 0.002, kGap = 2 * kRadius;
+
+/// A square of cloth that lies level.
+Body sheet(std::uint32_t cells, double size, const glm::dvec3& centre)
+{
+    Body body;
+    body.shape.cells = {cells, cells};
+    body.shape.size = {size, size};
+    body.material.stretch_stiffness = 1000;
+    body.material.thickness = kRadius;
+    body.transform.rotate_axis = {1, 0, 0};
+    body.transform.rotate_degrees = -90;
+    body.transform.translate = centre;
+    return body;
+}
+
+void pin_all(Body& body)
+{
+    Pin pin;
+    pin.edges = {"top", "bottom", "left", "right"};
+    pin.box_min = glm::dvec3(-10);
+    pin.box_max = glm::dvec3(10);
+    pin.use_box = true;
+    body.pins = {pin};
+}
+
+/// A sheet `height` above a held one that is larger and not of the same cells.
+Scene two_sheets(double height)
+{
+    Scene scene;
+    scene.bodies = {sheet(10, 0.3, {0, 0, 0}), sheet(7, 0.15, {0.011, height, 0.007})};
+    pin_all(scene.bodies[0]);
+    scene.contact.between = true;
+    scene.method.substeps = 15;
+    return scene;
+}
+
+std::vector<glm::dvec3> places_of(const World& world, std::size_t body)
+{
+    const auto x = world.positions();
+    const auto& start = world.plan().body_start;
+    return {x.begin() + start[body], x.begin() + start[body + 1]};
+}
+
+double lowest(const std::vector<glm::dvec3>& x)
+{
+    double low = x.front().y;
+    for (const glm::dvec3& p : x)
+        low = std::min(low, p.y);
+    return low;
+}
+
+glm::dvec3 centre_of(const std::vector<glm::dvec3>& x)
+{
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& p : x)
+        sum += p;
+    return sum / static_cast<double>(x.size());
+}
+
+} // namespace
+
+TEST_CASE("a sheet that falls on a held one comes to rest a gap above it")
+{
+    World world(two_sheets(0.03), test_device("cpu:serial"));
+    const auto triangles = test::all_triangles(world.scene());
+    std::size_t crossed = 0;
+    double low = 1;
+    for (int step = 0; step < 120; ++step)
+    {
+        world.step();
+        low = std::min(low, lowest(places_of(world, 1)));
+        crossed += test::intersections(triangles, world.positions());
+    }
+    CHECK(crossed == 0);
+    CHECK(low > 0.9 * kGap); // it met the other at some 0.75 m/s
+    const auto rest = places_of(world, 1);
+    for (const glm::dvec3& p : rest)
+        CHECK(std::abs(p.y - kGap) < 0.05 * kGap);
+    const StepReport report = measure(world);
+    CHECK(report.contacts.pairs > 0);
+    CHECK(report.contacts.missing + report.contacts.cut + report.contacts.crowded == 0);
+    CHECK(report.contact_depth < 0.05 * kGap);
+    CHECK(report.status == Status::completed);
+}
+
+TEST_CASE("without contact the same sheet falls through")
+{
+    Scene scene = two_sheets(0.03);
+    scene.contact.between = false;
+    World world(scene, test_device("cpu:serial"));
+    for (int step = 0; step < 120; ++step)
+        world.step();
+    CHECK(lowest(places_of(world, 1)) < -1);
+    CHECK(!world.contacts().any);
+    CHECK(world.contact_pairs().empty());
+}
+
+TEST_CASE("two free sheets that collide keep their momentum, and stay apart")
+{
+    const double speed = GENERATE(0.5, 2.0);
+    CAPTURE(speed);
+    Scene scene;
+    scene.bodies = {sheet(8, 0.2, {0, 0, 0}), sheet(5, 0.15, {0.013, 0.02, 0.004})};
+    scene.bodies[1].velocity = {0.1, -speed, 0};
+    scene.bodies[1].material.density = 0.5;
+    for (Body& body : scene.bodies)
+    {
+        body.material.bending_stiffness = 1e-5;
+        body.contact.self = true; // they fold
+    }
+    scene.contact.between = true;
+    scene.contact.friction = 0.3;
+    scene.gravity = glm::dvec3(0);
+    scene.method.substeps = 20;
+    World world(scene, test_device("cpu:serial"));
+    const auto triangles = test::all_triangles(world.scene());
+    const StepReport before = measure(world);
+    std::size_t crossed = 0;
+    for (int step = 0; step < 60; ++step)
+    {
+        world.step();
+        crossed += test::intersections(triangles, world.positions());
+    }
+    CHECK(crossed == 0);
+    const StepReport after = measure(world);
+    CHECK(after.momentum_error >= 0);
+    CHECK(after.momentum_error < 2e-6);
+    CHECK(after.kinetic_energy < before.kinetic_energy);
+    // The lower one was at rest, and nothing else could move it.
+    CHECK(centre_of(places_of(world, 0)).y < -0.05 * speed);
+}
+
+TEST_CASE("a sheet on a tilted one stays below the angle of friction and slides above it as a block does")
+{
+    const double degrees = 20, angle = glm::radians(degrees), limit = std::tan(angle);
+    const double friction = GENERATE_COPY(0.5 * limit, 0.8 * limit, 1.25 * limit);
+    CAPTURE(friction, limit);
+    Scene scene;
+    scene.bodies = {sheet(12, 0.6, {0, 0, 0}), sheet(5, 0.1, {0.003, kGap, 0.1})};
+    pin_all(scene.bodies[0]);
+    scene.contact.between = true;
+    scene.contact.friction = friction;
+    scene.method.substeps = 20;
+    scene.gravity = 9.81 * glm::dvec3(0, -std::cos(angle), -std::sin(angle)); // tilted by turning gravity
+    World world(scene, test_device("cpu:serial"));
+    for (int step = 0; step < 6; ++step)
+        world.step(); // the start has no load
+    const glm::dvec3 from = centre_of(places_of(world, 1));
+    const double t0 = world.time();
+    for (int step = 0; step < 12; ++step)
+        world.step();
+    const double t1 = world.time();
+    const double way = from.z - centre_of(places_of(world, 1)).z;
+    const double pull = std::max(0.0, 9.81 * (std::sin(angle) - friction * std::cos(angle)));
+    const double expected = 0.5 * pull * (t1 * t1 - t0 * t0);
+    CHECK(std::abs(way - expected) < (pull > 0 ? 0.03 * expected : 1e-4));
+}
+
+TEST_CASE("a strip that falls on itself lies above itself, without a triangle in another")
+{
+    Scene scene;
+    Body strip = sheet(1, 1, {0, 0, 0});
+    strip.shape.cells = {40, 5};
+    strip.shape.size = {0.4, 0.05};
+    strip.material.bending_stiffness = 1e-6;
+    strip.contact.self = true;
+    // Half of it lies, held; the other is folded back above it, upright at the fold, and falls.
+    Mesh mesh = resolve(Scene{.bodies = {strip}}).bodies[0].mesh;
+    for (const glm::dvec3& x : mesh.positions)
+    {
+        const double past = std::max(0.0, x.x), bend = std::min(past, 0.03);
+        const double turn = bend / 0.03 * glm::radians(180.0), r = 0.03 / glm::radians(180.0);
+        strip.start_positions.push_back(
+            {std::min(x.x, 0.0) + r * std::sin(turn) - std::max(0.0, past - 0.03), r * (1 - std::cos(turn)), x.z});
+    }
+    Pin pin;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        if (mesh.positions[v].x < 1e-3)
+            pin.vertices.push_back(v);
+    strip.pins = {pin};
+    scene.bodies = {strip};
+    scene.contact.friction = 1; // else the fold pulls the rest over the edge of what is held
+    scene.contact.between = false;
+    scene.method.substeps = 20;
+    const bool meets = GENERATE(true, false);
+    scene.bodies[0].contact.self = meets;
+    World world(scene, test_device("cpu:serial"));
+    const auto triangles = test::all_triangles(world.scene());
+    REQUIRE(test::intersections(triangles, world.positions()) == 0);
+    std::size_t crossed = 0;
+    for (int step = 0; step < 90; ++step)
+    {
+        world.step();
+        crossed += test::intersections(triangles, world.positions());
+    }
+    CAPTURE(lowest(world.positions()));
+    if (meets)
+        CHECK(crossed == 0);
+    else
+        CHECK(crossed > 0); // it would hang through itself
+    if (meets)
+        CHECK(std::abs(world.positions()[30].y - kGap) < 0.1 * kGap); // above what is held
+}
+
+TEST_CASE("lists that are too short are counted, grow, and then miss nothing")
+{
+    Scene scene = two_sheets(0.004); // near from the first step on
+    scene.contact.friction = 0.3;
+    WorldOptions options;
+    options.plan.contact_capacity = 8;
+    World small(scene, test_device("cpu:serial"), options);
+    World roomy(scene, test_device("cpu:serial"));
+    small.step();
+    roomy.step();
+    const ContactCounts first = small.contacts(), full = roomy.contacts();
+    CHECK(first.pairs == full.pairs);
+    CHECK(first.missing == first.pairs - 8);
+    CHECK(first.capacity > 2 * first.pairs);
+    small.step();
+    CHECK(small.contacts().missing == first.missing);
+    CHECK(full.missing == 0);
+}
+
+TEST_CASE("lists that grow in time change nothing")
+{
+    Scene scene = two_sheets(0.08);
+    scene.bodies[1].transform.rotate_degrees = -40; // meets the other one row after another
+    WorldOptions options;
+    options.plan.contact_capacity = 512;
+    World small(scene, test_device("cpu:serial"), options);
+    World roomy(scene, test_device("cpu:serial"));
+    for (int step = 0; step < 30; ++step)
+    {
+        small.step();
+        roomy.step();
+    }
+    REQUIRE(small.contacts().missing == 0);
+    CHECK(small.contacts().capacity > 512);
+    CHECK(measure(small).position_hash == measure(roomy).position_hash);
+    CHECK(small.positions() == roomy.positions());
+}
+
+TEST_CASE("contact is the same bit for bit on every executor")
+{
+    Scene scene = two_sheets(0.01);
+    scene.contact.friction = 0.4;
+    scene.bodies[1].contact.self = true;
+    scene.bodies[1].velocity = {0.3, -0.5, 0.1};
+    scene.method.precision = GENERATE("float", "double");
+    std::uint64_t hash = 0;
+    for (const std::string& selector : test_devices())
+    {
+        const auto device = test_device(selector);
+        if (scene.method.precision == "double" && !device->limits().float64)
+            continue;
+        World world(scene, device);
+        for (int step = 0; step < 8; ++step)
+            world.step();
+        const StepReport report = measure(world);
+        INFO(selector);
+        CHECK(report.contacts.pairs > 0);
+        hash = hash == 0 ? report.position_hash : hash;
+        if (conformance::bitwise_equal_expected(device->info()))
+            CHECK(report.position_hash == hash);
+    }
+}

@@ -1,0 +1,173 @@
+// What contact adds to a plan, what it refuses, and the tree that it searches.
+
+#include "support/catch.hpp"
+#include "support/methods.hpp"
+#include "support/scenes.hpp"
+
+#include "taut/kernels/shared/contact_rows.h"
+#include "taut/plan/contact_tree.hpp"
+#include "taut/plan/plan.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+using namespace taut;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const EffectCost* find_effect(const Plan& plan, std::string_view name)
+{
+    for (const EffectCost& effect : plan.effects)
+        if (effect.name == name)
+            return &effect;
+    return nullptr;
+}
+
+Scene two(std::uint32_t cells = 6)
+{
+    Scene scene = test::hanging(cells);
+    scene.method.substeps = 6;
+    scene.method.iterations = 2;
+    scene.bodies.push_back(scene.bodies[0]);
+    for (glm::dvec3& x : scene.bodies[1].mesh.positions)
+        x.z += 0.5;
+    return scene;
+}
+
+bool same_passes(const Plan& a, const Plan& b)
+{
+    return std::equal(a.passes.begin(), a.passes.end(), b.passes.begin(), b.passes.end(),
+                      [](const Dispatch& p, const Dispatch& q) {
+                          return p.kernel == q.kernel && p.params == q.params && p.count == q.count;
+                      }) &&
+           a.barrier_before == b.barrier_before && a.bytes_allocated() == b.bytes_allocated();
+}
+
+} // namespace
+
+TEST_CASE("contact that nothing can have adds nothing to a plan, under any method", "[contact]")
+{
+    for (const std::string& method : test::methods())
+    {
+        CAPTURE(method);
+        Scene scene = test::under(test::hanging(4), method);
+        const Plan plain = make_plan(scene);
+        scene.contact.between = true; // one body alone
+        scene.contact.friction = 1;
+        scene.contact.thickness = 0.01;
+        scene.contact.searches = scene.contact.sweeps = 9;
+        CHECK(same_passes(plain, make_plan(scene)));
+    }
+    Scene both = two();
+    const Plan apart = make_plan(both);
+    both.bodies[0].contact.friction = 0.5;
+    CHECK(same_passes(apart, make_plan(both)));
+    CHECK(find_effect(apart, "contact") == nullptr);
+    Scene chains = test::chain(4, 100, 0.1); // no surface
+    const Plan links = make_plan(chains);
+    chains.bodies[0].contact.self = true;
+    CHECK(same_passes(links, make_plan(chains)));
+}
+
+TEST_CASE("contact adds its searches and sweeps, and leaves all other passes as they were", "[contact]")
+{
+    Scene scene = two();
+    const Plan before = make_plan(scene);
+    scene.contact.between = true;
+    scene.contact.searches = GENERATE(1u, 3u, 100u);
+    scene.contact.sweeps = GENERATE(1u, 2u);
+    const Plan after = make_plan(scene);
+    const EffectCost* cost = find_effect(after, "contact");
+    REQUIRE(cost != nullptr);
+    // 144 triangles: 256 leaves, which 64 lanes refit in a pass, and 4 nodes above them in another.
+    const std::uint64_t refits = 2, lists = 7, searches = std::min(scene.contact.searches, 6u);
+    CHECK(cost->dispatches_per_step == searches * (refits + lists) + 6 * 2 * 3 * scene.contact.sweeps);
+    std::size_t k = 0;
+    for (const Dispatch& pass : after.passes)
+        if (pass.label != "contact" && pass.kernel->name != "coast")
+        {
+            REQUIRE(k < before.passes.size());
+            CHECK(pass.kernel->name == before.passes[k++].kernel->name);
+        }
+    CHECK(k == before.passes.size());
+    CHECK(after.contact.triangles == 144);
+}
+
+TEST_CASE("a method or body that cannot meet others is refused by name", "[contact]")
+{
+    const auto refusal = [](const Scene& scene) -> std::string {
+        try
+        {
+            make_plan(scene);
+        }
+        catch (const Error& error)
+        {
+            return std::string(to_string(error.code())) + ": " + error.what();
+        }
+        return "";
+    };
+    for (const std::string& method : test::methods())
+    {
+        Scene scene = test::under(test::hanging(4), method);
+        scene.bodies[0].contact.self = true;
+        CAPTURE(method);
+        const std::string said = refusal(scene);
+        if (method == "xpbd")
+            CHECK(said == "");
+        else
+            CHECK_THAT(said, Contains("bodies[0].contact.self is true") && Contains("\"" + method + "\"") &&
+                                 Contains("take a method of \"xpbd\""));
+    }
+    Scene thin = test::hanging(4);
+    thin.bodies[0].contact = {true, 1e-6, 0};
+    CHECK_THAT(refusal(thin), Contains("bodies[0].contact.thickness is 1e-06 m") && Contains("needs at least"));
+    thin.bodies[0].contact.thickness = 0;
+    CHECK_THAT(refusal(thin), Contains("a radius above 0"));
+    Scene solid;
+    Body box;
+    box.shape.kind = ShapeKind::box;
+    box.material = solid_material();
+    box.material.youngs_modulus = 1e4;
+    solid.bodies = {box, box};
+    solid.contact.between = true;
+    CHECK_THAT(refusal(resolve(solid)), Contains("contact.between is true") && Contains("bodies[0] is a solid"));
+}
+
+TEST_CASE("the tree holds every triangle once, each half about one place, and shares vertices and sides out",
+          "[contact]")
+{
+    const std::uint32_t cells = GENERATE(1u, 3u, 8u);
+    const Scene scene = test::hanging(cells);
+    const Mesh& mesh = scene.bodies[0].mesh;
+    std::vector<ContactLeaf> leaves;
+    for (const auto& t : mesh.triangles)
+        leaves.push_back({t, 0, 0});
+    leaves = in_tree_order(leaves, mesh.positions);
+    share_out(leaves);
+    std::multiset<std::array<std::uint32_t, 3>> all(mesh.triangles.begin(), mesh.triangles.end()), found;
+    std::size_t vertices = 0, sides = 0;
+    for (const ContactLeaf& leaf : leaves)
+    {
+        found.insert(leaf.corner);
+        for (std::uint32_t k = 0; k < 3; ++k)
+        {
+            vertices += leaf.owns >> k & 1;
+            sides += leaf.owns >> (TAUT_CONTACT_OWNS_SIDE + k) & 1;
+        }
+    }
+    CHECK(found == all);
+    CHECK(vertices == mesh.positions.size());
+    CHECK(sides == mesh.positions.size() + mesh.triangles.size() - 1); // Euler
+    CHECK(leaves_for(static_cast<std::uint32_t>(leaves.size())) >= leaves.size());
+    if (cells == 8) // 128 triangles: the halves of the tree are halves of the square
+    {
+        double apart = 0;
+        for (std::size_t k = 0; k < 128; ++k)
+            for (const std::uint32_t v : leaves[k].corner)
+                apart += (k < 64 ? -1 : 1) * mesh.positions[v].x;
+        CHECK(std::abs(apart) / 192 > 0.4);
+    }
+}
