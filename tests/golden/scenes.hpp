@@ -1,152 +1,90 @@
 #pragma once
-// The scenes of the golden hashes: small, generated, and without host functions whose last bit depends on the
-// C library (no rotations; damping only in float), so that the hashes hold on other machines.
+// The scenes of the golden hashes, all of them.
 
-#include "taut/scene/scene.hpp"
+#include "golden/method_scenes.hpp"
 
 #include <limits>
-#include <map>
-#include <string>
 
 namespace taut::golden {
 
-/// A square cloth of side 1 m with its rows along -y in the plane z = 0.
-inline Body cloth(const std::string& name, std::uint32_t cells)
+/// The surface of a cube of 2 x 2 x 2 cells as cloth: closed, wound outwards.
+inline Body balloon(const std::string& name, const glm::dvec3& centre)
 {
     Body body;
     body.name = name;
-    body.shape.cells = {cells, cells};
+    body.shape.kind = ShapeKind::mesh;
+    const Mesh box = make_box({2, 2, 2}, {0.5, 0.5, 0.5}, true);
+    std::map<std::uint32_t, std::uint32_t> number;
+    for (std::array<std::uint32_t, 3> t : box.triangles)
+    {
+        for (std::uint32_t& v : t)
+        {
+            const auto [at, is_new] = number.try_emplace(v, static_cast<std::uint32_t>(number.size()));
+            if (is_new)
+                body.mesh.positions.push_back(box.positions[v] + centre);
+            v = at->second;
+        }
+        body.mesh.triangles.push_back(t);
+    }
+    body.material.stretch_stiffness = 300;
     return body;
 }
 
-/// Two pinned corners and nothing else; blown out of its plane.
-inline Scene hanging()
+/// The effects that the other scenes leave out, all at once: wind, forces of the program, gas, strain
+/// limits, attachments, capsules, cuboids, plastic solids.
+inline Scene effects()
 {
-    Scene scene;
-    Body body = cloth("cloth", 12);
-    body.velocity = {0.5, 0, 2};
-    Pin pin;
-    pin.corners = {"top_left", "top_right"};
-    body.pins = {pin};
-    scene.bodies = {body};
+    Scene scene = swing("xpbd");
+    scene.external_forces = true;
+    scene.wind.density = 1.25;
+    scene.wind.velocity = {2, 0, 1};
+    Material& material = scene.bodies[0].material;
+    material.drag = 1;
+    material.friction_drag = 0.125;
+    material.strain_limit = 0.0625;
+    material.attachment_slack = 0.03125;
+    Body gas = balloon("gas", {-1.5, 0, 0});
+    gas.material.pressure = 100;
+    gas.material.pressure_law = "isothermal";
+    gas.velocity = {0, 0, 0.5};
+    Body wax = bar().bodies[0];
+    wax.name = "wax";
+    wax.pins.clear();
+    wax.material.youngs_modulus = 2e4;
+    wax.material.plastic_yield = 0.015625;
+    wax.material.plastic_creep = std::numeric_limits<double>::infinity();
+    wax.material.plastic_limit = 0.5;
+    wax.transform.translate = {3, 0, 0};
+    scene.bodies.push_back(wax);
+    Collider capsule, block;
+    capsule.kind = ColliderKind::capsule;
+    capsule.point = {-1.75, -0.5, -0.25};
+    capsule.end = {-1.25, -0.5, 0.25};
+    capsule.radius = 0.125;
+    capsule.friction = 0.25;
+    block.kind = ColliderKind::cuboid;
+    block.point = {2.25, -0.5, 0};
+    block.half_size = {1, 0.25, 0.25};
+    scene.colliders.insert(scene.colliders.end(), {capsule, block});
+    scene = resolve(scene);
+    scene.bodies.push_back(gas); // it has its mesh
     return scene;
 }
 
-/// Falls edge first on a ball that it bends around and rubs on.
-inline Scene drape()
-{
-    Scene scene;
-    Body body = cloth("cloth", 14);
-    body.material.bending_stiffness = 1e-4;
-    body.transform.translate = {0.125, 0.75, 0.0625};
-    body.velocity = {0, -1, 0.25};
-    scene.bodies = {body};
-    Collider ball;
-    ball.name = "ball";
-    ball.radius = 0.3;
-    ball.friction = 0.4;
-    scene.colliders = {ball};
-    scene.damping = 0.5;
-    return scene;
-}
-
-/// A cloth with one vertex tied to most others, more than a colouring takes: a hub.
-inline Scene star()
+/// A weak cloth, held at its top, tears under a heavy row at its end.
+inline Scene tear()
 {
     Scene scene = hanging();
     Body& body = scene.bodies[0];
-    constexpr std::uint32_t kMiddle = 6 * 13 + 6; // of 13 by 13 vertices
-    for (std::uint32_t b = 0; b < 13 * 13; ++b)
-        if (b < kMiddle - 14 || b > kMiddle + 14) // not its neighbours, which have edges to it
-            body.springs.push_back({kMiddle, b, 0.5, 1e-4});
-    return scene;
-}
-
-/// Rigid links, four iterations a substep.
-inline Scene chain()
-{
-    Scene scene;
-    Body body;
-    body.name = "chain";
-    body.shape.kind = ShapeKind::chain;
-    body.shape.links = 25;
-    body.material.stretch_stiffness = std::numeric_limits<double>::infinity();
-    body.velocity = {3, 0, 0};
-    Pin pin;
-    pin.corners = {"first"};
-    body.pins = {pin};
-    scene.bodies = {body};
-    scene.method.iterations = 4;
-    scene.method.substeps = 5;
-    return scene;
-}
-
-/// What the others leave out: two bodies, a moving pin, a moving ball, a plane with friction over several
-/// iterations, bending by multipliers.
-inline Scene busy()
-{
-    Scene scene = drape();
-    Body flag = cloth("flag", 6);
-    flag.transform.translate = {1.5, 1, 0};
-    flag.material.bending_stiffness = 1e-3;
-    Pin pin;
-    pin.edges = {"top"};
-    Keyframe from, to;
-    to.time = 0.5;
-    to.translate = {-0.5, 0.25, 0.5};
-    pin.motion = {from, to};
-    flag.pins = {pin};
-    scene.bodies.push_back(flag);
-    to.translate = {0.25, 0, 0};
-    scene.colliders[0].motion = {from, to};
-    Collider ground;
-    ground.name = "ground";
-    ground.kind = ColliderKind::plane;
-    ground.point = {0, -0.25, 0};
-    ground.friction = 0.3;
-    scene.colliders.push_back(ground);
-    scene.method.iterations = 3;
-    scene.method.substeps = 4;
-    return scene;
-}
-
-/// A soft bar held at one end. Seen along its breadth it is symmetric but for roundings, whose products are
-/// denormals: a driver that keeps them ends at other bits than one that does not.
-inline Scene bar()
-{
-    Scene scene;
-    Body body;
-    body.name = "bar";
-    body.shape.kind = ShapeKind::box;
-    body.shape.box_cells = {6, 2, 2};
-    body.shape.box_size = {1, 0.25, 0.25};
-    body.material.youngs_modulus = 1e5;
-    Pin pin;
-    pin.faces = {"left"};
-    body.pins = {pin};
-    scene.bodies = {body};
-    scene.method.substeps = 4;
-    return scene;
-}
-
-/// A cube that starts squeezed: a solid that nothing holds, which keeps its angular momentum.
-inline Scene cube(const std::string& method)
-{
-    Scene scene;
-    Body body;
-    body.name = "cube";
-    body.shape.kind = ShapeKind::box;
-    body.shape.box_cells = {2, 2, 2};
-    body.shape.box_size = {0.2, 0.2, 0.2};
-    body.material = solid_material();
-    body.material.youngs_modulus = 1e5;
-    scene.bodies = {body};
-    scene.method.type = method;
-    scene.method.substeps = 4;
-    scene.method.iterations = 2;
-    scene = resolve(scene);
-    for (const glm::dvec3& x : scene.bodies[0].mesh.positions)
-        scene.bodies[0].start_positions.push_back({x.x, 0.2 * x.y + 0.3 * x.z, x.z});
+    body.shape.cells = {8, 8};
+    body.material.stretch_stiffness = 40;
+    body.material.tear_strain = 0.125;
+    body.pins[0].corners = {};
+    body.pins[0].edges = {"top"};
+    body.velocity = {0, -1, 0.5};
+    body.vertex_masses.assign(81, 0.003);
+    for (std::size_t v = 72; v < 77; ++v)
+        body.vertex_masses[v] = 0.05;
     return scene;
 }
 
@@ -159,17 +97,22 @@ inline Scene in_double(Scene scene)
 
 inline std::map<std::string, Scene> scenes()
 {
-    return {{"hanging", hanging()},
-            {"drape", drape()},
-            {"chain", chain()},
-            {"busy", busy()},
-            {"star", star()},
-            {"bar", bar()},
-            {"cube", cube("xpbd")},
-            {"cube_vbd", cube("vbd")},
-            {"cube_implicit_euler", cube("implicit_euler")},
-            {"hanging_double", in_double(hanging())},
-            {"drape_double", in_double(drape())}};
+    std::map<std::string, Scene> all = method_scenes();
+    all.merge(std::map<std::string, Scene>{{"effects", effects()},
+                                           {"tear", tear()},
+                                           {"jelly", jelly("xpbd", "tetrahedra")},
+                                           {"hanging", hanging()},
+                                           {"drape", drape()},
+                                           {"chain", chain()},
+                                           {"busy", busy()},
+                                           {"star", star()},
+                                           {"bar", bar()},
+                                           {"cube", cube("xpbd")},
+                                           {"cube_vbd", cube("vbd")},
+                                           {"cube_implicit_euler", cube("implicit_euler")},
+                                           {"hanging_double", in_double(hanging())},
+                                           {"drape_double", in_double(drape())}});
+    return all;
 }
 
 } // namespace taut::golden

@@ -1,0 +1,154 @@
+#pragma once
+// Golden scenes of the methods that are not xpbd, and of what they share: a cloth that swings against a ball,
+// a net of springs, a box of springs with volumes.
+
+#include "golden/base_scenes.hpp"
+
+namespace taut::golden {
+
+/// A cloth of springs and hinges held at two corners, which swings against a ball with friction.
+inline Scene swing(const std::string& method)
+{
+    Scene scene;
+    Body body = cloth("cloth", 8);
+    body.material.stretch_stiffness = 300;
+    body.material.bending_stiffness = 1e-3;
+    body.velocity = {0.25, 0, -2};
+    Pin pin;
+    pin.corners = {"top_left", "top_right"};
+    body.pins = {pin};
+    scene.bodies = {body};
+    Collider ball;
+    ball.point = {0.125, -0.25, -0.5};
+    ball.radius = 0.25;
+    ball.friction = 0.25;
+    scene.colliders = {ball};
+    scene.method.type = method;
+    scene.method.substeps = 4;
+    scene.method.stability = "substep";
+    return scene;
+}
+
+/// Provot's springs, some of which are constraints from time to time.
+inline Scene network(const std::string& method)
+{
+    Scene scene = swing(method);
+    scene.bodies[0].material.bending_stiffness = 0;
+    scene.bodies[0].shape.network.used = true;
+    scene.bodies[0].shape.network.structural = 100;
+    scene.bodies[0].shape.network.shear = 100;
+    scene.bodies[0].shape.network.bend = 10;
+    scene.method.activate_strain = scene.method.release_strain = 0.02;
+    return scene;
+}
+
+/// A box of springs that holds the volume of its tetrahedra, or of its surface, and falls onto the ground.
+inline Scene jelly(const std::string& method, const std::string& volume)
+{
+    Scene scene;
+    Body body;
+    body.name = "jelly";
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {3, 2, 2};
+    body.shape.box_size = {0.375, 0.25, 0.25};
+    body.material = solid_material();
+    body.material.youngs_modulus = 2e4;
+    body.material.model = "springs";
+    body.material.volume = volume;
+    body.velocity = {4, -2, 0};
+    scene.bodies = {body};
+    Collider ground;
+    ground.kind = ColliderKind::plane;
+    ground.point = {0, -0.25, 0};
+    ground.friction = 0.1;
+    scene.colliders = {ground};
+    scene.method.type = method;
+    scene.method.substeps = 8;
+    scene.method.stability = "substep";
+    return scene;
+}
+
+/// A scene with single settings of its method changed.
+template <typename Change>
+Scene with(Scene scene, const Change& change)
+{
+    change(scene.method);
+    return scene;
+}
+
+/// One vertex weighs little beside the others: colliders hold it in further Newton steps.
+inline Scene light_vertex()
+{
+    Scene scene = swing("implicit_euler");
+    scene.method.iterations = 3;
+    scene.bodies[0].vertex_masses.assign(81, 0.0025);
+    scene.bodies[0].vertex_masses[40] = 0.00002;
+    return scene;
+}
+
+/// Explicit Euler needs dampers, and steps that are short for them.
+inline Scene damped_explicit()
+{
+    Scene scene = swing("mass_spring");
+    scene.method.integrator = "explicit";
+    scene.method.substeps = 32;
+    scene.bodies[0].material.stretch_damping = 0x1p-8;
+    return scene;
+}
+
+/// Every method that is not xpbd, in its forms.
+inline std::map<std::string, Scene> method_scenes()
+{
+    using Settings = MethodSettings;
+    return {
+        {"mass_spring", swing("mass_spring")},
+        {"mass_spring_explicit", damped_explicit()},
+        {"mass_spring_verlet_slots", with(swing("mass_spring"),
+                                          [](Settings& m) {
+                                              m.integrator = "verlet";
+                                              m.scheme = "spring_centric";
+                                          })},
+        {"mass_spring_jelly", jelly("mass_spring", "surface")},
+        {"implicit_euler", swing("implicit_euler")},
+        {"implicit_euler_light", light_vertex()},
+        {"implicit_euler_matrix_free",
+         with(swing("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
+        {"implicit_constraints", swing("implicit_constraints")},
+        {"implicit_constraints_structural",
+         with(network("implicit_constraints"), [](Settings& m) { m.constrained = "structural"; })},
+        {"implicit_constraints_matrix_free", with(swing("implicit_constraints"),
+                                                  [](Settings& m) {
+                                                      m.iterations = 2;
+                                                      m.linear_operator = "matrix_free";
+                                                  })},
+        {"implicit_constraints_jelly", jelly("implicit_constraints", "tetrahedra")},
+        {"cube_matrix_free",
+         with(cube("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
+        {"pbd_star", with(star(), [](Settings& m) { m.type = "pbd"; })},
+        {"acad", network("acad")},
+        {"acad_compress", with(network("acad"),
+                               [](Settings& m) {
+                                   m.compress = true;
+                                   m.release = "strain";
+                                   m.release_strain = 0.01;
+                                   m.target = "rest";
+                               })},
+        {"pbd", with(swing("pbd"), [](Settings& m) { m.bend = 0.5; })},
+        {"pbd_node_centric", with(swing("pbd"),
+                                  [](Settings& m) {
+                                      m.scheme = "node_centric";
+                                      m.iterations = 8;
+                                      m.spectral_radius = 0.5;
+                                  })},
+        {"pbd_constraint_centric", with(swing("pbd"), [](Settings& m) { m.scheme = "constraint_centric"; })},
+        {"pbd_jelly", jelly("pbd", "tetrahedra")},
+        {"vbd", with(swing("vbd"), [](Settings& m) { m.iterations = 4; })},
+        {"vbd_accelerated", with(swing("vbd"),
+                                 [](Settings& m) {
+                                     m.iterations = 8;
+                                     m.spectral_radius = 0.5;
+                                 })},
+    };
+}
+
+} // namespace taut::golden
