@@ -1,5 +1,5 @@
-// Added elements beside springs and hinges of a material, under every method that moves by their energy: bodies
-// come to rest where the slope of all energies, by differences in fp64, is nothing; the same bits on executors.
+// Added elements beside springs and hinges of a material, under every method that moves by their energy:
+// bodies come to rest where the slope of all energies, by differences in fp64, is nothing.
 
 #include "elements/energies.hpp"
 #include "support/catch.hpp"
@@ -15,7 +15,7 @@ using namespace taut::elements_test;
 
 namespace {
 
-/// A cloth of 4 x 4 vertices that bends, held along one side, with rods, areas and springs of a program's own.
+/// A cloth of 4 x 4 vertices that bends, held along one side, with rods, areas and springs that are added.
 Scene cloth(const std::string& method)
 {
     Scene scene;
