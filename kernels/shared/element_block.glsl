@@ -1,5 +1,5 @@
-// Blocks of an element's curvature, pair of corners by pair of corners, in kernels that are no lanes. Included
-// after element_form.glsl.
+// Blocks of an element's curvature, pair of corners by pair of corners, in kernels that are no lanes.
+// Included after element_form.glsl.
 //
 // Based on: shared/element_form.glsl.
 // Departures: none.

@@ -2,9 +2,11 @@
 // with its corners. Included after TAUT_ELEMENT.
 //   slope_i = dE / dx_i, N; the force is its negative.  curvature_ij = d^2 E / dx_i dx_j, or what of it keeps
 //   the whole positive semidefinite, N/m.
-// From the constraint C of the file (shared/element.glsl), E = C^2 / (2 a), with k = 1 / a and n_i = grad_i C:
+// From the constraint C of the file (shared/element.glsl), E = C^2 / (2 a), with k = 1 / a and n_i = grad_i
+// C:
 //   slope_i = k C n_i,  curvature_ij = k n_i n_j^T.
-// An element whose file has the line `//! with energy` says both by itself, by the differences of its corners:
+// An element whose file has the line `//! with energy` says both by itself, by the differences of its
+// corners:
 //   hinge_energy(record, e1, ...)  E, J
 //   hinge_form(record, e1, ...)    slopes f1 .. and curvature b11 .. of the corners 1 and up
 // and corner 0 follows, since moving all corners alike changes nothing. So does C (shared/element_row.glsl).

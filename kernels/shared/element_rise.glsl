@@ -1,6 +1,7 @@
 // By how much the energy of an element differs between two shapes of it. Included after element_form.glsl.
-// Far apart the two are subtracted; close together that would leave rounding alone, and the mean of the slopes
-// at both ends takes the place of the difference: C(e + w) - C(e) = (grad C(e) + grad C(e + w)) / 2 . w.
+// Far apart the two are subtracted; close together that would leave rounding alone, and the mean of the
+// slopes at both ends takes the place of the difference: C(e + w) - C(e) = (grad C(e) + grad C(e + w)) / 2 .
+// w.
 //
 // Based on: the trapezoidal rule, whose error is a twelfth of (|w| / |e|)^2 of the whole.
 // Departures: none.

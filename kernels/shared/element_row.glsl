@@ -1,6 +1,6 @@
-// The constraint of an element that gives its energy instead: C = sqrt(2 E) of compliance 1, so that C^2 / 2 is
-// the energy, with gradients slope_i / C. Included after TAUT_ELEMENT; nothing for elements with a C of their
-// own.
+// The constraint of an element that gives its energy instead: C = sqrt(2 E) of compliance 1, so that C^2 / 2
+// is the energy, with gradients slope_i / C. Included after TAUT_ELEMENT; nothing for elements with a C of
+// their own.
 //
 // Based on: Macklin, Mueller. A Constraint-based Formulation of Stable Neo-Hookean Materials. MIG 2021, 2
 //   (energies as constraints by their roots).

@@ -1,6 +1,6 @@
 #pragma once
-// Internal to src/plan: how stiff elements are that the program has added, for the stable step of methods that
-// step explicitly.
+// Internal to src/plan: how stiff elements are that the program has added, for the stable step of methods
+// that step explicitly.
 
 #include "taut/scene/scene.hpp"
 

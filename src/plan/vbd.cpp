@@ -228,7 +228,11 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
         uses.low = {b.plan.low, f.damped ? 1 + f.springs_each : 1};
     if (f.apart)
         uses.block = {f.block, 3};
-    std::string kinds = f.apart ? "added" : f.elastic ? "elastic" : f.volumes ? "volumes" : f.hinges ? "hinges" : "";
+    std::string kinds = f.apart     ? "added"
+                        : f.elastic ? "elastic"
+                        : f.volumes ? "volumes"
+                        : f.hinges  ? "hinges"
+                                    : "";
     if (damped && !f.elastic)
         kinds += kinds.empty() ? "damped" : "_damped";
     for (const BlockBuffers::Run& run : f.runs)

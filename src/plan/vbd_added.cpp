@@ -5,6 +5,9 @@
 // Departures: none.
 
 #include "taut/plan/vbd_rows.hpp"
+#include "taut/runtime/base/error.hpp"
+
+#include <algorithm>
 
 namespace taut {
 namespace {
@@ -26,6 +29,10 @@ std::vector<std::uint32_t> row_table(const BlockBuffers& f, const AddedSet& set,
         for (const std::uint32_t v : colour)
         {
             mark(v);
+            if (at.start[v + 1] - at.start[v] > kMaxLoopTrips)
+                throw Error(ErrorCode::limit, std::to_string(at.start[v + 1] - at.start[v]) + " elements \"" +
+                                                  set.kind->name + "\" meet at one vertex, at most " +
+                                                  std::to_string(kMaxLoopTrips) + " fit one invocation");
             for (std::uint32_t k = at.start[v]; k < at.start[v + 1]; ++k)
             {
                 const std::uint32_t element = at.entries[k] / corners;

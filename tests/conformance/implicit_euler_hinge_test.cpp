@@ -24,8 +24,8 @@ TEMPLATE_TEST_CASE("implicit_euler_hinge adds forces and Gauss-Newton blocks of 
     c.in["table"] = bytes_of(net.hinge_table);
     c.in["b"] = bytes_of(side);
     c.in["values"] = bytes_of(before);
-    c.launches = {make_launch(kernels::implicit_euler_hinge::info("", c.precision),
-                              kernels::implicit_euler_hinge::Params{count, report, net.scale, net.lift}, count)};
+    const kernels::implicit_euler_hinge::Params params{count, report, net.scale, net.lift};
+    c.launches = {make_launch(kernels::implicit_euler_hinge::info("", c.precision), params, count)};
     std::uint32_t degenerate = 0, unused = 0;
     const auto blocks = hinge_system(net, degenerate);
     const auto springs = spring_system(net, unused);

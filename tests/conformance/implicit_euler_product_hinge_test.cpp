@@ -30,7 +30,8 @@ TEMPLATE_TEST_CASE("implicit_euler_product_hinge adds hinges formed from places"
         c.in["x"] = bytes_of(x);
         c.in["y"] = bytes_of(y);
         c.in["partials"] = bytes_of(std::vector<Real>(dealt.groups, Real(7)));
-        const kernels::implicit_euler_product_hinge::Params params{count, dealt.chunk(), dealt.groups, net.scale};
+        const kernels::implicit_euler_product_hinge::Params params{count, dealt.chunk(), dealt.groups,
+                                                                   net.scale};
         c.launches = {make_launch(kernels::implicit_euler_product_hinge::info(variant, c.precision), params,
                                   dealt.dispatched())};
         std::uint32_t unused = 0;

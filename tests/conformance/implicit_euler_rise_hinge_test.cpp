@@ -38,7 +38,8 @@ Rise hinge(const Net<Real>& net, const layout::BendingConstraint<Real>& c, const
 
 } // namespace
 
-TEMPLATE_TEST_CASE("implicit_euler_rise_hinge sums what a step and its halves add to the energy", "", float, double)
+TEMPLATE_TEST_CASE("implicit_euler_rise_hinge sums what a step and its halves add to the energy", "", float,
+                   double)
 {
     using Real = TestType;
     const std::uint32_t trials = GENERATE(1u, 5u, 17u);

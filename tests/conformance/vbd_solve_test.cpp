@@ -2,7 +2,6 @@
 
 #include "support/block_parts.hpp"
 #include "support/kernel_run.hpp"
-#include "support/kernel_run.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
@@ -22,23 +21,55 @@ std::vector<Kinds> all_kinds()
     return out;
 }
 
+/// Those, and what added elements bring to elastic ones.
+std::vector<std::pair<Kinds, bool>> all_kinds_and_added()
+{
+    std::vector<std::pair<Kinds, bool>> out;
+    for (const Kinds& kinds : all_kinds())
+        out.emplace_back(kinds, false);
+    out.emplace_back(all_kinds().back(), true);
+    return out;
+}
+
+/// Three vectors a vertex, as kernels/methods/vbd/vbd.comp leaves them.
+template <typename Real>
+std::vector<glm::vec<4, Real>> random_blocks(Random& random, const std::vector<glm::vec<4, Real>>& predicted)
+{
+    std::vector<glm::vec<4, Real>> out;
+    for (const auto& y : predicted)
+    {
+        const glm::vec<4, Real> f = random.vec4<Real>(10, 0);
+        out.emplace_back(f.x, f.y, f.z, y.w);
+        for (const double size : {1.0, 0.2})
+        {
+            const auto part = [&] { return y.w * random.uniform<Real>(0.5 * size, size); };
+            const Real x = part(), mid = part(), z = part();
+            out.emplace_back(x, mid, z, Real(0));
+        }
+    }
+    return out;
+}
+
 } // namespace
 
 TEMPLATE_TEST_CASE("vbd_solve takes Newton's step of each vertex' own energy", "", float, double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
-    const Kinds kinds = GENERATE(from_range(all_kinds()));
+    const auto [kinds, added] = GENERATE(from_range(all_kinds_and_added()));
+    const std::string variant = added ? "added" : kinds.variant(false);
     const std::uint32_t report = GENERATE(0u, 1u);
     const std::uint64_t seed = 1300 + count;
-    CAPTURE(count, kinds.variant(false), report, seed);
+    CAPTURE(count, variant, report, seed);
     Random random(seed);
     const auto net = block_net<Real>(random, count, kinds.hinges, kinds.solids);
     const float relaxation = report != 0 ? 1.0f : 0.75f;
     Case c;
     c.precision = precision_of<Real>();
     c.in = buffers_of(net, kinds);
-    c.launches = {make_launch(kernels::vbd_solve::info(kinds.variant(false), c.precision),
+    const auto known = random_blocks(random, net.predicted);
+    c.in["block"] = bytes_of(known);
+    c.launches = {make_launch(kernels::vbd_solve::info(variant, c.precision),
                               kernels::vbd_solve::Params{0, count, report, relaxation}, count)};
     std::vector<glm::dvec3> step(net.delta.size(), glm::dvec3(0));
     std::vector<double> scale(net.delta.size(), 0.0);
@@ -52,6 +83,15 @@ TEMPLATE_TEST_CASE("vbd_solve takes Newton's step of each vertex' own energy", "
         block.f_scale = inertia * (glm::length(y) + glm::length(d));
         block.h = glm::dmat3(inertia);
         block.h_scale = inertia;
+        if (added)
+        {
+            const glm::dvec3 own(known[3 * v + 1]), beside(known[3 * v + 2]);
+            block.f = glm::dvec3(known[3 * v]);
+            block.f_scale = glm::length(block.f);
+            block.h += glm::dmat3(own.x, beside.x, beside.y, beside.x, own.y, beside.z, beside.y, beside.z,
+                                  own.z);
+            block.h_scale += glm::length(own) + glm::length(beside);
+        }
         for (std::uint32_t k = net.row[4 * i + 1]; k < net.row[4 * i + 5]; ++k)
             block.spring(net, net.end[k], kinds.damped, std::sqrt(inertia * double(net.position[v].w)));
         for (std::uint32_t k = net.row[4 * i + 2]; kinds.hinges && k < net.row[4 * i + 6]; ++k)

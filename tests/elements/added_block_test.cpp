@@ -1,5 +1,5 @@
-// Kernels of vbd for elements that Taut does not have: what they bring to the block of a vertex, and to the sums
-// of a body.
+// Kernels of vbd for elements that Taut does not have: what they bring to the block of a vertex, and to the
+// sums of a body.
 
 #include "elements/terms.hpp"
 #include "support/catch.hpp"
@@ -93,7 +93,8 @@ void check_blocks(KernelTable info)
         if (begins != 0)
         {
             f = inertia * (glm::dvec3(predicted[v]) - glm::dvec3(net.delta[v]));
-            f_size = inertia * (glm::length(glm::dvec3(predicted[v])) + glm::length(glm::dvec3(net.delta[v])));
+            f_size = inertia * (glm::length(glm::dvec3(predicted[v])) +
+                                glm::length(glm::dvec3(net.delta[v])));
         }
         else
         {
@@ -159,7 +160,8 @@ void check_sums(KernelTable info)
             net.terms(k, net.delta, size);
             for (std::size_t i = 0; i < n; ++i)
             {
-                const glm::dvec3 from = glm::dvec3(net.position[v[i]].w > 0 ? net.low[v[i]] : net.delta[v[i]]);
+                const bool moves = net.position[v[i]].w > 0;
+                const glm::dvec3 from(moves ? net.low[v[i]] : net.delta[v[i]]);
                 still[i] = glm::dvec3(net.position[v[i]]) + from;
                 way[i] = glm::dvec3(net.delta[v[i]]) - from;
             }
@@ -178,7 +180,8 @@ TEMPLATE_TEST_CASE("added elements bring slope and curvature to the blocks of ve
 {
     SECTION("cubic spring")
     {
-        check_blocks<TestType, CubicSpring, kernels::vbd_cubic_spring::Params>(kernels::vbd_cubic_spring::info);
+        check_blocks<TestType, CubicSpring, kernels::vbd_cubic_spring::Params>(
+            kernels::vbd_cubic_spring::info);
     }
     SECTION("held area")
     {

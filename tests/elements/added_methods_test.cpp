@@ -110,7 +110,8 @@ TEST_CASE("a free rod of three masses swings with the period of its energy, unde
     const std::string method = GENERATE(from_range(kForceMethods));
     CAPTURE(method);
     // E = k/2 |x0 - 2 x1 + x2|^2: the mode (1, -2, 1) has omega^2 = 6 k / m. A period in 400 substeps.
-    const double stiffness = 5, omega = std::sqrt(6 * stiffness / kMass), period = 2 * std::numbers::pi / omega;
+    const double stiffness = 5, omega = std::sqrt(6 * stiffness / kMass);
+    const double period = 2 * std::numbers::pi / omega;
     Scene scene = three(method);
     scene.timestep = period / 20;
     scene.duration = period * 0.999;

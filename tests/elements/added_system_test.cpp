@@ -1,5 +1,5 @@
-// Kernels of implicit_euler for elements that Taut does not have: slopes and curvature in the system of a Newton
-// step, their product with a vector, and what a step does to the energy.
+// Kernels of implicit_euler for elements that Taut does not have: slopes and curvature in the system of a
+// Newton step, their product with a vector, and what a step does to the energy.
 
 #include "elements/terms.hpp"
 #include "support/catch.hpp"
@@ -68,7 +68,8 @@ void check_system(KernelTable info)
     const System<Real, Record> in(count);
     constexpr auto n = System<Real, Record>::n;
     Random random(81 + count);
-    const auto side = random_reals<Real>(random, 3 * count), before = random_reals<Real>(random, in.table.values());
+    const auto side = random_reals<Real>(random, 3 * count);
+    const auto before = random_reals<Real>(random, in.table.values());
     Case c;
     c.precision = precision_of<Real>();
     c.in = in.buffers();
@@ -109,7 +110,7 @@ void check_system(KernelTable info)
         for (int e = 0; e < 9; ++e)
         {
             const std::size_t at = in.table.blocks.at(place) + 32u * static_cast<std::size_t>(e);
-            const double old = place.first == place.second ? double(before[at]) : 0; // springs put in the mass
+            const double old = place.first == place.second ? double(before[at]) : 0; // the mass is there
             values.value[at] = old + in.units() * block.value[e % 3][e / 3];
             values.scale[at] = std::abs(old) + in.units() * block.size;
         }

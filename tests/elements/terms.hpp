@@ -212,9 +212,10 @@ double rise_of(const Record& record, const std::array<glm::dvec3, Record::Energy
     if (way > 1e-3)
         return then.energy - now.energy;
     double sum = 0;
-    constexpr double kAt[] = {0.5, 0.230765344947158, 0.769234655052842, 0.046910077030668, 0.953089922969332};
-    constexpr double kWeight[] = {0.284444444444444, 0.239314335249683, 0.239314335249683, 0.118463442528095,
-                                  0.118463442528095};
+    constexpr double kAt[] = {0.5, 0.230765344947158455, 0.769234655052841545, 0.046910077030668004,
+                              0.953089922969331996};
+    constexpr double kWeight[] = {0.284444444444444444, 0.239314335249683234, 0.239314335249683234,
+                                  0.118463442528094544, 0.118463442528094544};
     for (std::size_t k = 0; k < 5; ++k)
         for (std::size_t c = 0; c < x.size(); ++c)
             sum += kWeight[k] * glm::dot(at(kAt[k]).slope[c], w[c]);

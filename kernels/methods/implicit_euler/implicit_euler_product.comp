@@ -1,5 +1,5 @@
-// Adds the part of one kind of element to the product of a Newton step's matrix with a vector, or takes it from
-// a residual, with the curvature formed again from the places of the corners. A lane a vertex.
+// Adds the part of one kind of element to the product of a Newton step's matrix with a vector, or takes it
+// from a residual, with the curvature formed again from the places of the corners. A lane a vertex.
 //
 // Based on: implicit_euler.comp.
 // Departures: none.

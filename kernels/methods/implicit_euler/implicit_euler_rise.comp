@@ -1,5 +1,5 @@
-// By how much a Newton step, whole and halved again and again, would raise h^2 times the energy of one kind of
-// element: partial sums for every trial, one of the parts that implicit_trial.comp forms.
+// By how much a Newton step, whole and halved again and again, would raise h^2 times the energy of one kind
+// of element: partial sums for every trial, one of the parts that implicit_trial.comp forms.
 //
 // Based on: implicit_trial.comp; shared/element_rise.glsl.
 // Departures: none.

@@ -1,5 +1,6 @@
 // Forces of one kind of element, one invocation per element: the force on each of its corners, the negative
-// slope of its energy there, goes to a slot of its own. The pass `corner_sum` adds up what ends at each vertex.
+// slope of its energy there, goes to a slot of its own. The pass `corner_sum` adds up what ends at each
+// vertex.
 //
 // Based on: spring kernels of github.com/nakjun/Multi-Deformable-Objects-Simulation: slots for the
 //   forces of springs, a second pass that sums them.

@@ -1,5 +1,5 @@
-// Adds to the sums of vbd_rise by how much the displacements of a body raise the energy of one kind of element:
-// one group for each that vbd_rise has, which takes its share of the body's elements.
+// Adds to the sums of vbd_rise by how much the displacements of a body raise the energy of one kind of
+// element: one group for each that vbd_rise has, which takes its share of the body's elements.
 //
 // Based on: vbd_rise.comp; shared/element_rise.glsl.
 // Departures: none.
