@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace taut {
@@ -24,6 +25,9 @@ public:
     void check(const Scene& scene, const ProgramMotion& values) const;
     /// Takes checked values and puts what they do not move back to rest.
     void assign(Scene& scene, const ProgramMotion& values);
+    /// Takes what a world of which this one is a part has kept, before a step.
+    void obey(ProgramMotion values) { values_ = std::move(values); }
+    bool idle() const { return values_.colliders.empty() && values_.pins.empty() && !values_.wind; }
     /// Cloth came apart: new vertices of pins are where those were that they came from. `origin`: scene-wide
     /// vertex of each.
     void tear(const Scene& before, const Scene& now, std::span<const std::uint32_t> origin);
@@ -42,7 +46,7 @@ public:
     bool begin_step(Scene& scene, double from, double to);
     void end_step(double seconds);
 
-    /// Whether a pin of a body, or a collider, is on its way.
+    /// Whether a pin of a body is on its way.
     bool pins_move(std::size_t body) const;
 
 private:
