@@ -18,8 +18,9 @@ public:
     /// That of a world.
     static Moved& of(const ProgramMoves& world) { return *world.moved_; }
 
-    /// Nothing has been moved. `scene`: resolved.
-    void start(const Scene& scene);
+    /// Nothing has been moved, but colliders of a scene that another world had are where they were there.
+    /// `scene`: resolved; stays where it is in memory.
+    void start(Scene& scene);
     const ProgramMotion& values() const { return values_; }
     /// Throws Error{bad_input} where the values are not of this scene. A state without any: as at the start.
     void check(const Scene& scene, const ProgramMotion& values) const;

@@ -202,6 +202,23 @@ TEST_CASE("a restored state has the poses, and the orders that wait")
     check_same(run_by_keys(moved_scene(false), "cpu:serial", 4), finish(world));
 }
 
+TEST_CASE("a world of the scene that another one had has its colliders where they were")
+{
+    World world(moved_scene(false), test_device("cpu:serial"));
+    for (std::size_t k = 1; k <= 3; ++k)
+    {
+        world.set_collider_pose(test::kBall, test::path(test::kBall, k));
+        world.step();
+    }
+    World again(world.scene(), test_device("cpu:serial"));
+    const glm::dvec3 there = test::path(test::kBall, 3).translate;
+    CHECK(again.collider_pose(test::kBall).translate == there);
+    World moved = std::move(again); // and its orders go along
+    moved.set_collider_pose(test::kBall, {.translate = there});
+    moved.step();
+    CHECK(pose(moved.scene().colliders[test::kBall].motion, 0, glm::dvec3(0)) == there);
+}
+
 TEST_CASE("pins of cloth that tears are led on as by keyframes, in the order of before")
 {
     const auto scene_of = [](bool by_keys) {
