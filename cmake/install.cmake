@@ -14,7 +14,7 @@ set(taut_public_headers
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp
     linear/device_matrix.hpp linear/stencil.hpp linear/preconditioner.hpp linear/aggregation.hpp linear/multigrid.hpp
     linear/cg.hpp linear/small.hpp linear/solve.hpp
-    world/world.hpp world/hybrid.hpp world/sleep.hpp
+    world/world.hpp world/program_moves.hpp world/program_motion.hpp world/mover.hpp world/hybrid.hpp world/sleep.hpp
     judge/judge.hpp judge/surface.hpp judge/distance.hpp judge/exact.hpp judge/linking.hpp judge/sequence.hpp judge/swept.hpp
     report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp
     report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp

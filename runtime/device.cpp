@@ -133,7 +133,7 @@ DevicePtr open_by_word(std::string_view name, const OpenOptions& options)
 void Device::replay(Recording& recording, std::span<const BufferWrite> writes)
 {
     for (const BufferWrite& w : writes)
-        write(w.buffer, 0, w.bytes);
+        write(w.buffer, w.offset, w.bytes);
     recording.replay();
 }
 

@@ -89,11 +89,13 @@ private:
 
 using BufferPtr = std::shared_ptr<Buffer>;
 
-/// New contents from a buffer's start on; whole words of 4 bytes.
+/// New contents of a buffer from `offset` [bytes] on; whole words of 4 bytes. Those of one submission do not
+/// overlap.
 struct BufferWrite
 {
     BufferPtr buffer;
     std::span<const std::byte> bytes;
+    std::uint64_t offset = 0;
 };
 
 /// Device time of one dispatch of a timed replay.
@@ -133,6 +135,10 @@ struct RecordingDesc
     std::vector<bool> barrier_before;
 };
 
+/// Threads: several may open and list devices, and may call all functions of one device at once, each on
+/// buffers and recordings of its own: calls take turns where the executor asks for it. A buffer or recording
+/// that two threads use is theirs to order. A device that an engine adopted shares its queue by the rules of
+/// VulkanContext::queue_mutex.
 class Device : public std::enable_shared_from_this<Device>
 {
 public:

@@ -335,8 +335,8 @@ void VulkanRecording::record_writes(VkCommandBuffer commands, std::span<const Bu
         for (std::size_t at = 0; at < write.bytes.size(); at += kMostBytes)
         {
             const auto part = write.bytes.subspan(at, std::min(kMostBytes, write.bytes.size() - at));
-            context_->vk.vkCmdUpdateBuffer(commands, vulkan_buffer_of(write.buffer).handle, at, part.size(),
-                                           part.data());
+            context_->vk.vkCmdUpdateBuffer(commands, vulkan_buffer_of(write.buffer).handle, write.offset + at,
+                                           part.size(), part.data());
         }
 }
 

@@ -76,7 +76,7 @@ public:
         if (own_recording == nullptr)
             throw Error(ErrorCode::bad_input, "cannot replay: the recording was not compiled by this device");
         for (const BufferWrite& w : writes)
-            checked(w.buffer, 0, w.bytes.size());
+            checked(w.buffer, w.offset, w.bytes.size());
         own_recording->replay(writes);
     }
 

@@ -39,6 +39,8 @@ inline constexpr double kTunnelTravel = 0.5; ///< relative way of a vertex in a 
 /// as much as one sweep over the vertices and triangles of bodies whose bounds are near a collider, and next
 /// to nothing without colliders; planes, which have no far side, are left to StepReport::penetration.
 ///
+/// Colliders move by the keyframes of the scene: those that a program moves are not followed.
+///
 /// Where a body and a collider start in each other, nothing is said of them until they have parted.
 class CrossingWatch
 {

@@ -218,6 +218,8 @@ MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::
 
 EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive) const
 {
+    if (drive.placed > 0)
+        return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     const MoverReach reach = reach_at(drive, x);
     const double wind = std::max(wind_speed_, drive.wind), wind_force = wind_drag_ * wind * wind;
     const double g = glm::length(model_.gravity);
@@ -239,6 +241,7 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         in += wind_force * moved;
     }
     root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force > 0 ? kHits * wind : 0.0);
+    root += drive.kick;
     if (drive.push > 0)
         root += drive.push / std::sqrt(2 * lightest_);
     if (root == 0 && wind_force == 0 && model_.gases.empty())

@@ -47,7 +47,7 @@ public:
 
     const PhysicalModel& model() const { return model_; }
 
-    /// At places `x` [m, scene-wide].
+    /// At places `x` [m, scene-wide]. Infinite after World::set_positions.
     EnergyMost most(std::span<const glm::dvec3> x, const WorldDrive& drive) const;
 
     /// J: what rounding and the last digits of strains can make: below it nothing is judged. `substep` in s.

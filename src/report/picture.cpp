@@ -192,9 +192,10 @@ std::vector<Surface> Pictures::cloth_in_place(const World& world) const
     return out;
 }
 
-void Pictures::add_colliders(std::vector<Surface>& surfaces, double time, const Shot& shot) const
+void Pictures::add_colliders(std::vector<Surface>& surfaces, const Scene& scene, double time,
+                             const Shot& shot) const
 {
-    for (const Collider& collider : scene_.colliders)
+    for (const Collider& collider : scene.colliders)
     {
         ColliderFrame frame = frame_at(collider, time);
         const ColliderSolid solid = solid_of(collider);
@@ -229,7 +230,7 @@ void Pictures::finish_strands(std::vector<Surface>& surfaces, const Shot& shot) 
 Image Pictures::draw(const PictureMoment& moment, const Shot& shot)
 {
     std::vector<Surface> surfaces = cloth(moment);
-    add_colliders(surfaces, moment.time, shot);
+    add_colliders(surfaces, moment.scene ? *moment.scene : scene_, moment.time, shot);
     finish_strands(surfaces, shot);
     return renderer_.draw(shot, surfaces);
 }
@@ -243,7 +244,7 @@ Image Pictures::draw(const World& world, const Shot& shot)
             PictureMoment{world.time(), world.positions(), std::make_shared<const Scene>(world.scene())},
             shot);
     std::vector<Surface> surfaces = cloth_in_place(world);
-    add_colliders(surfaces, world.time(), shot);
+    add_colliders(surfaces, world.scene(), world.time(), shot);
     finish_strands(surfaces, shot);
     return renderer_.draw(shot, surfaces);
 }

@@ -69,7 +69,8 @@ public:
 private:
     std::vector<Surface> cloth(const PictureMoment& moment) const;
     std::vector<Surface> cloth_in_place(const World& world) const;
-    void add_colliders(std::vector<Surface>& surfaces, double time, const Shot& shot) const;
+    void add_colliders(std::vector<Surface>& surfaces, const Scene& scene, double time,
+                       const Shot& shot) const;
     void finish_strands(std::vector<Surface>& surfaces, const Shot& shot) const;
 
     Scene scene_;

@@ -1,5 +1,7 @@
 #include "taut/world/carry.hpp"
 
+#include "taut/world/moved.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -41,7 +43,8 @@ void collect(const World& world, const std::vector<std::uint32_t>& vertices, std
     out.step = state.step;
 }
 
-void deliver(World& world, const std::vector<std::uint32_t>& vertices, const Carried& from)
+void deliver(World& world, const std::vector<std::uint32_t>& vertices,
+             const std::vector<std::uint32_t>& bodies, const Carried& from)
 {
     WorldState state = world.state();
     const auto arrays = arrays_of(state);
@@ -53,6 +56,7 @@ void deliver(World& world, const std::vector<std::uint32_t>& vertices, const Car
     }
     state.clock = from.clock;
     state.step = from.step;
+    state.moved = part_of(from.moved, bodies);
     world.restore(state);
 }
 

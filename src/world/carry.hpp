@@ -16,6 +16,7 @@ struct Carried
     std::array<std::vector<std::byte>, kCarriedArrays> arrays;
     Clock clock;
     std::uint64_t step = 0;
+    ProgramMotion moved; ///< bodies as in the whole scene; whoever carries sees to it
 };
 
 /// Scene-wide vertex of each plan vertex of a world that has only `bodies` of the scene. `first` is the
@@ -26,8 +27,9 @@ std::vector<std::uint32_t> scene_vertices(const Plan& plan, const std::vector<st
 /// Reads a world's vertices into `out`, and its clock; `total` is the number of scene-wide vertices.
 void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total, Carried& out);
 
-/// The other way.
-void deliver(World& world, const std::vector<std::uint32_t>& vertices, const Carried& from);
+/// The other way; `bodies` of the scene are those of the world.
+void deliver(World& world, const std::vector<std::uint32_t>& vertices,
+             const std::vector<std::uint32_t>& bodies, const Carried& from);
 
 /// What a world of some bodies gives, put where they stand in the scene.
 void place(std::vector<glm::dvec3>& out, const std::vector<glm::dvec3>& own, const Plan& plan,

@@ -12,11 +12,13 @@
 #include "taut/plan/methods.hpp"
 #include "taut/runtime/required.hpp"
 #include "taut/world/carry.hpp"
+#include "taut/world/moved.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <numeric>
+#include <utility>
 
 namespace taut {
 namespace {
@@ -104,6 +106,7 @@ struct HybridWorld::Impl
     std::uint64_t steps = 0, divisions = 0;
     Events before; ///< of worlds that a division ended
     SolverReport solved_before; ///< the same of their solves
+    Moved program;
 
     std::vector<std::uint32_t> vertices(const Side& side) const
     {
@@ -117,6 +120,7 @@ struct HybridWorld::Impl
     double predicted(const std::vector<bool>& to_first) const;
     void rebalance();
     Carried carried() const;
+    std::pair<World*, std::size_t> world_of(std::size_t body, const char* who);
 };
 
 /// Makes the worlds of a division.
@@ -186,6 +190,7 @@ Carried HybridWorld::Impl::carried() const
     for (const Side& side : sides)
         if (side.world)
             collect(*side.world, vertices(side), first.back(), out);
+    out.moved = program.values();
     return out;
 }
 
@@ -209,7 +214,7 @@ void HybridWorld::Impl::rebalance()
     assign(now);
     for (Side& side : sides)
         if (side.world)
-            deliver(*side.world, vertices(side), state);
+            deliver(*side.world, vertices(side), side.bodies, state);
     divisions += steps > 0;
 }
 
@@ -245,6 +250,8 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
         my.work.push_back(work_of(body));
         my.first.push_back(my.first.back() + static_cast<std::uint32_t>(body.mesh.positions.size()));
     }
+    my.program.start(my.scene);
+    moved_ = &my.program;
     // Halves by work first: both devices then show what they can.
     my.assign(divide(my.work, 1, 1));
     my.time_both();
@@ -268,10 +275,15 @@ void HybridWorld::step()
         my.time_both();
         my.rebalance();
     }
+    my.program.begin_step(my.scene, time(), time() + my.scene.timestep);
+    for (const Side& side : my.sides)
+        if (side.world && !my.program.idle())
+            Moved::of(*side.world).obey(part_of(my.program.values(), side.bodies));
     // The native CPU computes where it is asked, so the other device goes first.
     for (const std::size_t s : {1, 0})
         if (my.sides[s].world)
             my.sides[s].world->step();
+    my.program.end_step(my.scene.timestep);
     for (const Side& side : my.sides)
         if (side.world)
             side.device->wait();
@@ -317,6 +329,29 @@ SolverReport HybridWorld::solver_report() const
     return sum;
 }
 
+/// The side of a body, and its number there.
+std::pair<World*, std::size_t> HybridWorld::Impl::world_of(std::size_t body, const char* who)
+{
+    for (Side& side : sides)
+        for (std::size_t own = 0; own < side.bodies.size(); ++own)
+            if (side.bodies[own] == body)
+                return {side.world.get(), own};
+    throw Error(ErrorCode::bad_input, std::string(who) + ": body " + std::to_string(body) + " of " +
+                                          std::to_string(scene.bodies.size()) + ", numbered from 0");
+}
+
+void HybridWorld::set_positions(std::size_t body, std::span<const glm::dvec3> positions)
+{
+    const auto [world, own] = impl_->world_of(body, "set_positions");
+    world->set_positions(own, positions);
+}
+
+void HybridWorld::set_velocities(std::size_t body, std::span<const glm::dvec3> velocities)
+{
+    const auto [world, own] = impl_->world_of(body, "set_velocities");
+    world->set_velocities(own, velocities);
+}
+
 std::vector<HybridPart> HybridWorld::parts() const
 {
     std::vector<HybridPart> out;
@@ -343,7 +378,7 @@ void HybridWorld::copy_into(World& whole) const
                                                 "does not put together");
     std::vector<std::uint32_t> all(impl_->scene.bodies.size());
     std::iota(all.begin(), all.end(), 0u);
-    deliver(whole, scene_vertices(whole.plan(), all, impl_->first), impl_->carried());
+    deliver(whole, scene_vertices(whole.plan(), all, impl_->first), all, impl_->carried());
 }
 
 } // namespace taut

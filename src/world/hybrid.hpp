@@ -26,7 +26,7 @@ struct HybridPart
 /// Steps a scene on two devices. A body moves as it would alone, so results are those of one device within
 /// the tolerance between devices: bit for bit between the software executors. Methods that solve one linear
 /// system for all bodies (implicit_euler, implicit_constraints, acad) agree to the tolerance of that solve.
-class HybridWorld
+class HybridWorld : public ProgramMoves
 {
 public:
     /// Plans both parts and times them. `second` runs beside `first`, so `first` should be the native CPU.
@@ -49,6 +49,10 @@ public:
     SolverReport solver_report() const;
     std::vector<HybridPart> parts() const;
     std::uint64_t divisions() const; ///< how often bodies changed sides, the first division not counted
+
+    /// As those of World, of one body.
+    void set_positions(std::size_t body, std::span<const glm::dvec3> positions);
+    void set_velocities(std::size_t body, std::span<const glm::dvec3> velocities);
 
     /// Gives `whole`, a world of the same scene, the state of this one (for reports and pictures). Throws
     /// Error{unsupported} where the method keeps more than places and speeds (Plan::kept).

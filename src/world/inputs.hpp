@@ -10,11 +10,12 @@
 
 namespace taut {
 
-/// One write: a buffer of the plan and its new contents.
+/// One write: a buffer of the plan and its new contents from `offset` [bytes] on.
 struct InputWrite
 {
     std::uint32_t buffer = kNoBuffer;
     std::vector<std::byte> bytes;
+    std::uint64_t offset = 0;
 };
 
 /// The time of a step, s.

@@ -101,11 +101,21 @@ void no_longer_moved(Scene& scene)
 
 } // namespace
 
-void Moved::start(const Scene& scene)
+void Moved::start(Scene& scene)
 {
     scene_ = &scene;
     values_ = {};
     values_.pins = pins_at_rest(scene);
+    for (std::uint32_t c = 0; c < scene.colliders.size(); ++c)
+        if (scene.colliders[c].moved_by_program && !scene.colliders[c].motion.empty())
+        {
+            const Keyframe pose = scene.colliders[c].motion.back();
+            scene.colliders[c].motion = {pose};
+            ColliderMove move;
+            move.collider = c;
+            move.from = move.to = pose;
+            values_.colliders.push_back(move);
+        }
     Extent all;
     for (const Body& body : scene.bodies)
         for (const glm::dvec3& x : body.mesh.positions)

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace taut {
@@ -17,13 +18,17 @@ public:
     /// That of a world.
     static Moved& of(const ProgramMoves& world) { return *world.moved_; }
 
-    /// Nothing has been moved. `scene`: resolved.
-    void start(const Scene& scene);
+    /// Nothing has been moved, but colliders of a scene that another world had are where they were there.
+    /// `scene`: resolved; stays where it is in memory.
+    void start(Scene& scene);
     const ProgramMotion& values() const { return values_; }
     /// Throws Error{bad_input} where the values are not of this scene. A state without any: as at the start.
     void check(const Scene& scene, const ProgramMotion& values) const;
     /// Takes checked values and puts what they do not move back to rest.
     void assign(Scene& scene, const ProgramMotion& values);
+    /// Takes what a world of which this one is a part has kept, before a step.
+    void obey(ProgramMotion values) { values_ = std::move(values); }
+    bool idle() const { return values_.colliders.empty() && values_.pins.empty() && !values_.wind; }
     /// Cloth came apart: new vertices of pins are where those were that they came from. `origin`: scene-wide
     /// vertex of each.
     void tear(const Scene& before, const Scene& now, std::span<const std::uint32_t> origin);
@@ -42,7 +47,7 @@ public:
     bool begin_step(Scene& scene, double from, double to);
     void end_step(double seconds);
 
-    /// Whether a pin of a body, or a collider, is on its way.
+    /// Whether a pin of a body is on its way.
     bool pins_move(std::size_t body) const;
 
 private:

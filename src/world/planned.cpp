@@ -19,7 +19,7 @@ std::vector<BufferWrite> writes_of(const std::vector<BufferPtr>& buffers,
 {
     std::vector<BufferWrite> writes;
     for (const InputWrite& input : inputs)
-        writes.push_back({buffers[input.buffer], input.bytes});
+        writes.push_back({buffers[input.buffer], input.bytes, input.offset});
     return writes;
 }
 

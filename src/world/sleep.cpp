@@ -5,6 +5,7 @@
 #include "taut/scene/collider.hpp"
 #include "taut/scene/extent.hpp"
 #include "taut/world/carry.hpp"
+#include "taut/world/moved.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -76,8 +77,8 @@ struct SleepWorld::Impl
     std::vector<glm::dvec3> resting;  ///< m, where they lie; scene-wide
     std::vector<glm::dvec3> seen;     ///< m, at the last look
     std::vector<Extent> box;          ///< of those that sleep
-    std::vector<Collider> moving;     ///< colliders with a motion
-    std::vector<std::uint32_t> led;   ///< bodies with a pin that has one
+    std::vector<std::uint32_t> led;   ///< bodies with a pin that has a motion
+    Moved program;
     std::unique_ptr<World> world;
     Events before;
     std::uint64_t steps = 0, changes = 0;
@@ -86,6 +87,7 @@ struct SleepWorld::Impl
     void plan_anew(const std::vector<bool>& now);
     void look();
     void wake_the_disturbed();
+    std::size_t wake(std::size_t body, const char* who);
     double margin(std::uint32_t body) const;
 };
 
@@ -107,7 +109,8 @@ void SleepWorld::Impl::plan_anew(const std::vector<bool>& now)
             awake.push_back(b);
     }
     world = std::make_unique<World>(with_bodies(scene, awake), device, options.world);
-    deliver(*world, vertices(), carried);
+    carried.moved = program.values();
+    deliver(*world, vertices(), awake, carried);
     ++changes;
 }
 
@@ -136,6 +139,23 @@ void SleepWorld::Impl::look()
         plan_anew(now);
 }
 
+/// Its number among those that are awake.
+std::size_t SleepWorld::Impl::wake(std::size_t body, const char* who)
+{
+    if (body >= sleeping.size())
+        throw Error(ErrorCode::bad_input, std::string(who) + ": body " + std::to_string(body) + " of " +
+                                              std::to_string(sleeping.size()) + ", numbered from 0");
+    if (sleeping[body])
+    {
+        std::vector<bool> now = sleeping;
+        now[body] = false;
+        plan_anew(now);
+    }
+    quiet[body] = 0;
+    return static_cast<std::size_t>(std::find(awake.begin(), awake.end(), static_cast<std::uint32_t>(body)) -
+                                    awake.begin());
+}
+
 double SleepWorld::Impl::margin(std::uint32_t body) const
 {
     return scene.bodies[body].material.thickness + 0.05 * box[body].size();
@@ -143,15 +163,19 @@ double SleepWorld::Impl::margin(std::uint32_t body) const
 
 void SleepWorld::Impl::wake_the_disturbed()
 {
+    const double from = world->time(), to = from + scene.timestep;
+    program.begin_step(scene, from, to);
     if (awake.size() == sleeping.size())
         return;
-    const double from = world->time(), to = from + scene.timestep;
     std::vector<std::uint32_t> disturbed;
     for (const std::uint32_t b : led)
         if (sleeping[b] && pins_move(scene.bodies[b], from, to))
             disturbed.push_back(b);
-    for (const Collider& c : moving)
-        for (std::uint32_t b = 0; b < sleeping.size(); ++b)
+    for (std::uint32_t b = 0; b < sleeping.size(); ++b)
+        if (sleeping[b] && program.pins_move(b))
+            disturbed.push_back(b);
+    for (const Collider& c : scene.colliders)
+        for (std::uint32_t b = 0; b < sleeping.size() && !c.motion.empty(); ++b)
             if (sleeping[b] && comes_near(c, from, to, box[b], margin(b)))
                 disturbed.push_back(b);
     if (disturbed.empty())
@@ -199,9 +223,8 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
             my.scene.wind.density > 0 && (body.material.drag > 0 || body.material.friction_drag > 0);
         my.threshold.push_back(windy ? 0 : options.quiet_speed * std::sqrt(gravity * rest.size()));
     }
-    for (const Collider& c : my.scene.colliders)
-        if (!c.motion.empty())
-            my.moving.push_back(c);
+    my.program.start(my.scene);
+    moved_ = &my.program;
     const std::size_t count = my.scene.bodies.size();
     for (std::uint32_t b = 0; b < count; ++b)
         if (std::any_of(my.scene.bodies[b].pins.begin(), my.scene.bodies[b].pins.end(),
@@ -226,7 +249,10 @@ void SleepWorld::step()
     if (my.steps > 0 && my.steps % std::max<std::uint64_t>(my.options.look_every, 1) == 0)
         my.look();
     my.wake_the_disturbed();
+    if (!my.program.idle())
+        Moved::of(*my.world).obey(part_of(my.program.values(), my.awake));
     my.world->step();
+    my.program.end_step(my.scene.timestep);
     ++my.steps;
 }
 
@@ -272,16 +298,20 @@ void SleepWorld::set_force(std::uint32_t vertex, const glm::dvec3& force)
                                               std::to_string(my.first.back()) + ", numbered from 0");
     const auto body = static_cast<std::size_t>(std::upper_bound(my.first.begin(), my.first.end(), vertex) -
                                                my.first.begin() - 1);
-    if (my.sleeping[body])
-    {
-        std::vector<bool> now = my.sleeping;
-        now[body] = false;
-        my.plan_anew(now);
-    }
-    my.quiet[body] = 0;
-    const auto own = static_cast<std::size_t>(
-        std::find(my.awake.begin(), my.awake.end(), static_cast<std::uint32_t>(body)) - my.awake.begin());
+    const std::size_t own = my.wake(body, "set_force");
     my.world->set_force(my.world->plan().body_start[own] + (vertex - my.first[body]), force);
+}
+
+void SleepWorld::set_positions(std::size_t body, std::span<const glm::dvec3> positions)
+{
+    const std::size_t own = impl_->wake(body, "set_positions");
+    impl_->world->set_positions(own, positions);
+}
+
+void SleepWorld::set_velocities(std::size_t body, std::span<const glm::dvec3> velocities)
+{
+    const std::size_t own = impl_->wake(body, "set_velocities");
+    impl_->world->set_velocities(own, velocities);
 }
 
 void SleepWorld::copy_into(World& whole) const
@@ -291,7 +321,8 @@ void SleepWorld::copy_into(World& whole) const
     collect(*my.world, my.vertices(), my.first.back(), all);
     std::vector<std::uint32_t> bodies(my.scene.bodies.size());
     std::iota(bodies.begin(), bodies.end(), 0u);
-    deliver(whole, scene_vertices(whole.plan(), bodies, my.first), all);
+    all.moved = my.program.values();
+    deliver(whole, scene_vertices(whole.plan(), bodies, my.first), bodies, all);
 }
 
 } // namespace taut

@@ -16,13 +16,14 @@ struct SleepOptions
 
 /// Steps a scene without the bodies that rest. Bodies do not touch each other, so the others move bit for bit
 /// as they would beside them; one that wakes goes on, bit for bit, from the state in which it fell asleep. It
-/// wakes before a pin of its own moves, before a moving collider can reach it, and when a force is set on it.
+/// wakes before a pin of its own moves, before a moving collider can reach it, and when a force, places or
+/// velocities are set on it: also where the program moves the pin or the collider.
 /// Bodies that the wind can move do not sleep.
 ///
 /// Based on: Erin Catto. Box2D, islands and sleeping (the rule by speed and time).
 /// Departures: an island is a body; what sleeps has no plan, so it costs neither dispatches nor memory on the
 ///   device. Falling asleep and waking make a new plan.
-class SleepWorld
+class SleepWorld : public ProgramMoves
 {
 public:
     /// Throws as World does, and Error{unsupported} under methods that keep more than places and speeds
@@ -47,6 +48,10 @@ public:
 
     /// As World::set_force; wakes the body.
     void set_force(std::uint32_t vertex, const glm::dvec3& force);
+
+    /// As those of World, of one body; both wake it. A refused one may have done so, too.
+    void set_positions(std::size_t body, std::span<const glm::dvec3> positions);
+    void set_velocities(std::size_t body, std::span<const glm::dvec3> velocities);
 
     /// Gives `whole`, a world of the same scene, the state of this one (for reports and pictures).
     void copy_into(World& whole) const;

@@ -394,7 +394,8 @@ void SplitWorld::copy_into(World& whole) const
     state.clock.lead = plan.velocity_lead;
     std::vector<std::uint32_t> all(impl_->scene.bodies.size());
     std::iota(all.begin(), all.end(), 0u);
-    deliver(whole, scene_vertices(whole.plan(), all, plan.body_start), state);
+    state.moved = impl_->program.values();
+    deliver(whole, scene_vertices(whole.plan(), all, plan.body_start), all, state);
 }
 
 } // namespace taut

@@ -17,7 +17,9 @@ struct SplitOptions
 
 /// Steps a scene on two devices that both have a part of its vertices. Bodies may be cut: what stands beside
 /// the cut is exchanged through the host, between the segments of a step, and results are those of one
-/// device, bit for bit where both are software executors. Takes the methods xpbd and pbd (scheme "coloured").
+/// device, bit for bit where both are software executors. Programs move colliders, pins and wind; vertices
+/// and velocities cannot be set, as a part has no more than its own. Takes the methods xpbd and pbd (scheme
+/// "coloured").
 class SplitWorld : public ProgramMoves
 {
 public:

@@ -71,31 +71,36 @@ std::vector<InputWrite> World::Impl::take_inputs()
         inputs.push_back({plan.force, forces});
     }
     forces_changed = false;
+    for (InputWrite& places : take_places())
+        inputs.push_back(std::move(places));
     return inputs;
 }
 
 template <typename Real>
-std::vector<glm::dvec3> World::Impl::read_vectors(std::uint32_t buffer, std::uint32_t added) const
+std::vector<glm::dvec3> World::Impl::read_vectors(std::uint32_t buffer, std::uint32_t added,
+                                                  const Vertices& of) const
 {
     using Vec = glm::vec<4, Real>;
-    std::vector<glm::dvec3> out(plan.vertex_count);
-    const auto values = device->read<Vec>(buffers[buffer], plan.vertex_count);
-    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
-        out[plan.original[v]] = glm::dvec3(values[v]);
+    const std::uint64_t offset = of.first * sizeof(Vec);
+    std::vector<glm::dvec3> out(of.count);
+    const auto values = device->read<Vec>(buffers[buffer], of.count, offset);
+    for (std::uint32_t v = 0; v < of.count; ++v)
+        out[plan.original[of.first + v] - of.first] = glm::dvec3(values[v]);
     if (added == kNoBuffer)
         return out;
-    const auto more = device->read<Vec>(buffers[added], plan.vertex_count);
-    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
-        out[plan.original[v]] += glm::dvec3(more[v]);
+    const auto more = device->read<Vec>(buffers[added], of.count, offset);
+    for (std::uint32_t v = 0; v < of.count; ++v)
+        out[plan.original[of.first + v] - of.first] += glm::dvec3(more[v]);
     return out;
 }
 
-std::vector<glm::dvec3> World::Impl::vectors(std::uint32_t buffer, std::uint32_t added) const
+std::vector<glm::dvec3> World::Impl::vectors(std::uint32_t buffer, std::uint32_t added,
+                                             const Vertices& of) const
 {
     if (buffer == kNoBuffer)
         return {};
-    return plan.precision == Precision::float64 ? read_vectors<double>(buffer, added)
-                                                : read_vectors<float>(buffer, added);
+    return plan.precision == Precision::float64 ? read_vectors<double>(buffer, added, of)
+                                                : read_vectors<float>(buffer, added, of);
 }
 
 std::vector<double> World::Impl::of_constraints(std::string_view kind,
@@ -110,30 +115,32 @@ std::vector<double> World::Impl::of_constraints(std::string_view kind,
     return {values.begin(), values.end()};
 }
 
-/// In the plan's order.
 template <typename Real>
-std::vector<Kept> World::Impl::kept() const
+std::vector<Kept> World::Impl::kept(const Vertices& of) const
 {
     using Vec = glm::vec<4, Real>;
-    const auto velocity = device->read<Vec>(buffers[plan.velocity], plan.vertex_count);
-    const auto delta = device->read<Vec>(buffers[plan.delta], plan.vertex_count);
-    const bool shown = plan.coasting != kNoBuffer;
-    const auto coasting = shown ? device->read<Vec>(buffers[plan.coasting], plan.vertex_count) : delta;
+    const auto read = [&](std::uint32_t buffer) {
+        return device->read<Vec>(buffers[buffer], of.count, of.first * sizeof(Vec));
+    };
+    const auto velocity = read(plan.velocity), delta = read(plan.delta);
+    const auto coasting = plan.coasting != kNoBuffer ? read(plan.coasting) : delta;
     std::vector<Kept> out;
-    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
-        out.push_back(
-            {plan.pull[v], glm::dvec3(velocity[v]), glm::dvec3(delta[v]), glm::dvec3(coasting[v])});
+    for (std::uint32_t v = 0; v < of.count; ++v)
+        out.push_back({plan.pull[of.first + v], glm::dvec3(velocity[v]), glm::dvec3(delta[v]),
+                       glm::dvec3(coasting[v])});
     return out;
 }
+template std::vector<Kept> World::Impl::kept<float>(const Vertices&) const;
+template std::vector<Kept> World::Impl::kept<double>(const Vertices&) const;
 
-std::vector<glm::dvec3> World::Impl::velocities() const
+std::vector<glm::dvec3> World::Impl::velocities(const Vertices& of) const
 {
     if (plan.velocity == kNoBuffer)
         return {};
-    std::vector<glm::dvec3> out(plan.vertex_count);
-    const auto all = plan.precision == Precision::float64 ? kept<double>() : kept<float>();
-    for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
-        out[plan.original[v]] = velocity_at_step(pace(), all[v]);
+    std::vector<glm::dvec3> out(of.count);
+    const auto kept_ones = plan.precision == Precision::float64 ? kept<double>(of) : kept<float>(of);
+    for (std::uint32_t v = 0; v < of.count; ++v)
+        out[plan.original[of.first + v] - of.first] = velocity_at_step(pace(), kept_ones[v]);
     return out;
 }
 
@@ -141,7 +148,7 @@ template <typename Real>
 void World::Impl::repace(const Pace& before)
 {
     std::vector<glm::vec<4, Real>> velocity, coasting;
-    for (const Kept& vertex : kept<Real>())
+    for (const Kept& vertex : kept<Real>(all()))
     {
         const Kept moved = repaced(before, pace(), vertex);
         velocity.emplace_back(glm::vec<3, Real>(moved.velocity), Real(0));
@@ -191,7 +198,7 @@ void World::Impl::after_step()
     if (count == overlong)
         return;
     overlong = count;
-    const TornScene next = tear(scene, vectors(plan.position, plan.low));
+    const TornScene next = tear(scene, positions(all()));
     if (next.splits > 0)
         replace_scene(next);
 }
@@ -290,17 +297,14 @@ WorldDrive World::drive() const
     for (const PinMove& move : values.pins)
         out.moved.push_back({true, move.track.reach});
     out.wind = values.wind ? values.wind->fastest : 0;
+    out.kick = impl_->kick;
+    out.placed = impl_->placings;
     return out;
 }
 const Plan& World::plan() const { return impl_->plan; }
 const Scene& World::scene() const { return impl_->scene; }
 Device& World::device() const { return *impl_->device; }
 
-std::vector<glm::dvec3> World::positions() const
-{
-    return impl_->vectors(impl_->plan.position, impl_->plan.low);
-}
-std::vector<glm::dvec3> World::velocities() const { return impl_->velocities(); }
 std::vector<glm::dvec3> World::displacements() const { return impl_->vectors(impl_->plan.delta); }
 std::vector<glm::dvec3> World::predictions() const
 {

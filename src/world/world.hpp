@@ -101,6 +101,8 @@ struct WorldDrive
     double push = 0;            ///< N s, integral of the lengths of all external forces
     std::vector<DrivenMover> moved = {}; ///< colliders and pins
     double wind = 0;            ///< m/s, the fastest that the program has set
+    double kick = 0;            ///< sqrt(J), of all changes by set_velocities: of each the root of its energy
+    std::uint64_t placed = 0;   ///< calls of set_positions: nothing is known of the energy that they gave
 };
 
 /// Device time of one step, summed by effect.
@@ -118,6 +120,15 @@ struct WorldOptions
     std::optional<DeviceTraits> traits = std::nullopt;
 };
 
+/// Vertices of a body: so many from `first` on in the order of the scene.
+struct BodyRange
+{
+    std::uint32_t first = 0, count = 0;
+};
+
+/// Threads: one world is used by one thread at a time, const functions included; it may go from one to
+/// another. Different worlds may be used at once from several threads, on one device or on several (Device
+/// orders them), and results stay as they are one after another, bit for bit.
 class World : public ProgramMoves
 {
 public:
@@ -145,6 +156,10 @@ public:
     std::vector<glm::dvec3> positions() const;  ///< m, hi + lo
     /// m/s, at the step. WorldState::velocity is what a method goes on from (Plan::velocity_lead).
     std::vector<glm::dvec3> velocities() const;
+    /// Of one body, in the order of its mesh; only these are read. Error{bad_input} without such a body.
+    std::vector<glm::dvec3> positions(std::size_t body) const;
+    std::vector<glm::dvec3> velocities(std::size_t body) const;
+    BodyRange body_range(std::size_t body) const;
     std::vector<glm::dvec3> displacements() const; ///< of the last substep, m
     /// Inertial guess of the displacements of the last substep, m; empty unless residuals are kept, and
     /// from restore() until the next step.
@@ -180,6 +195,23 @@ public:
     /// Error{bad_input}. Neither waits for the device: forces go with the next step.
     void set_forces(std::span<const glm::dvec3> forces);
 
+    /// Puts all vertices [m, in the order of the scene], or those of a body [in that of its mesh], elsewhere.
+    /// Velocities at the step stay, and so does all else that a method keeps. Held vertices are put there,
+    /// too, and held there; led ones are at their targets again after the next step. Waits for nothing: they
+    /// go with the next step, and until then position_buffer() has those of before. Error{bad_input} where
+    /// there are not as many as vertices, where one is not finite or further than kFarthest from the origin;
+    /// nothing changes then. Energies are not judged from then on (WorldDrive::placed).
+    void set_positions(std::span<const glm::dvec3> positions);
+    void set_positions(std::size_t body, std::span<const glm::dvec3> positions);
+    static constexpr double kFarthest = 1e12; ///< m
+
+    /// The same for velocities at the step, m/s; those of held vertices are not read. Waits: what a method
+    /// keeps stands half a substep beside the step by what the last one showed, which the device has. All of
+    /// that of a vertex gets the same change, so what velocities() gave may be given back and changes
+    /// nothing.
+    void set_velocities(std::span<const glm::dvec3> velocities);
+    void set_velocities(std::size_t body, std::span<const glm::dvec3> velocities);
+
     /// From now on; the plan stays as it is. A state of another timestep may be restored, too: velocities
     /// at the step stay, so a change makes no jump (A12). Waits, as velocities() does: those kept between the
     /// steps are moved. Throws Error{bad_timestep} outside (0, 1] s (A10) and
@@ -194,8 +226,9 @@ public:
     /// Vulkan devices only (else Error{unsupported}, also where cloth can tear). Records one step into the
     /// caller's command buffer, with all that it takes from the host (pins, colliders, gravity, timestep):
     /// any number of recorded steps may wait or run, as long as they are submitted to one queue in the order
-    /// in which they were recorded, each once. Before the next call of anything else of this world all of
-    /// them must be submitted; what reads or writes vertices waits for them.
+    /// in which they were recorded, each once. Before the next call of anything else of this world, but of
+    /// what goes with the next step (ProgramMoves, forces, set_positions), all of them must be submitted;
+    /// what reads or writes vertices waits for them.
     void record_into(VkCommandBuffer_T* commands);
 
 private:

@@ -18,6 +18,20 @@ struct ContactLists
     std::vector<std::byte> control, lost, pair, side;
 };
 
+/// Places that wait for the next step, as position and low have them, in the plan's order.
+struct Placed
+{
+    std::vector<std::byte> position, low;
+    std::vector<bool> waits; ///< by vertex
+    bool any = false;
+};
+
+/// Vertices of a plan that follow each other.
+struct Vertices
+{
+    std::uint32_t first = 0, count = 0;
+};
+
 struct World::Impl
 {
     Scene scene;
@@ -29,6 +43,7 @@ struct World::Impl
     bool guessed = false; ///< the buffer of predictions is of the last substep: no restore() since
     Clock clock;
     Moved program;
+    Placed placed;
     bool moves = false;               ///< inputs change from step to step
     bool stale = true;                ///< inputs have changed since they were last written
     std::vector<std::byte> forces;    ///< set from outside, as plan.force; empty without that effect
@@ -36,6 +51,8 @@ struct World::Impl
     bool forces_changed = false;      ///< since they were last handed over
     double force_sum = 0;             ///< N, of their lengths
     double push = 0;                  ///< N s, as WorldDrive::push
+    double kick = 0;                  ///< sqrt(J), as WorldDrive::kick
+    std::uint64_t placings = 0;
     PlanOptions options;
     DeviceTraits traits;
     std::uint64_t torn = 0;     ///< vertices that came apart
@@ -45,7 +62,7 @@ struct World::Impl
     void restart_clock(const Clock& before);
     Pace pace() const;
     Pace pace(const Clock& clock) const;
-    std::vector<glm::dvec3> velocities() const;
+    std::vector<glm::dvec3> velocities(const Vertices& of) const;
     void move_velocities(const Pace& before);
     void create_buffers();
     void record();
@@ -59,13 +76,29 @@ struct World::Impl
     ContactLists contact_lists() const;
     void carry_contacts(const ContactLists& before, bool same_vertices);
     void grow_contacts();
+    Vertices all() const { return {0, plan.vertex_count}; }
+    Vertices of_body(std::size_t body, const char* who) const;
+    void put_at(const Vertices& where, std::span<const glm::dvec3> x, const char* who);
     template <typename Real>
-    std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added) const;
+    void put_places(const Vertices& where, std::span<const glm::dvec3> x);
+    std::vector<InputWrite> take_places();
+    void hand_over_places();
+    void set_velocities(const Vertices& where, std::span<const glm::dvec3> v, const char* who);
     template <typename Real>
-    std::vector<Kept> kept() const;
+    void replace(std::uint32_t buffer, const Vertices& of, const std::vector<glm::dvec3>& values);
+    template <typename Real>
+    void speed_up(const Vertices& where, std::span<const glm::dvec3> v);
+    /// Of some vertices, in the order of the scene.
+    template <typename Real>
+    std::vector<glm::dvec3> read_vectors(std::uint32_t buffer, std::uint32_t added, const Vertices& of) const;
+    /// The same in the plan's order.
+    template <typename Real>
+    std::vector<Kept> kept(const Vertices& of) const;
     template <typename Real>
     void repace(const Pace& before);
-    std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added = kNoBuffer) const;
+    std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added, const Vertices& of) const;
+    std::vector<glm::dvec3> vectors(std::uint32_t buffer) const { return vectors(buffer, kNoBuffer, all()); }
+    std::vector<glm::dvec3> positions(const Vertices& of);
     /// One number a constraint of a kind, in the plan's order; empty without such a buffer.
     std::vector<double> of_constraints(std::string_view kind, std::uint32_t ConstraintSet::*buffer) const;
     std::vector<std::byte> raw(std::uint32_t buffer) const;

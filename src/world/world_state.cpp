@@ -93,6 +93,7 @@ void World::Impl::replace_scene(const TornScene& next)
 
 WorldState World::state() const
 {
+    impl_->hand_over_places();
     const Plan& plan = impl_->plan;
     WorldState out{impl_->steps,
                    impl_->raw(plan.position),
@@ -163,6 +164,7 @@ void World::restore(const WorldState& state)
                                               ": it must be finite and begin at that step or before");
     impl_->program.check(impl_->scene, state.moved);
     impl_->program.assign(impl_->scene, state.moved);
+    impl_->placed = {};
     for (const auto& [buffer, bytes] : parts)
         if (buffer != kNoBuffer)
             impl_->device->write(impl_->buffers[buffer], 0, *bytes);

@@ -103,7 +103,7 @@ inline Scene moved_scene(bool by_keys, const std::string& method = "xpbd",
 /// The orders for the step that ends as path() has it at `step`: one pin by its pose, the other vertex by
 /// vertex.
 template <typename World>
-void order(World& world, std::size_t step)
+void order(World& world, std::size_t step, bool wind = true)
 {
     world.set_collider_pose(kBall, path(kBall, step));
     const std::size_t others[] = {kFloor, kCapsule, kCuboid};
@@ -115,7 +115,8 @@ void order(World& world, std::size_t step)
     for (const std::uint32_t v : body.pins[1].vertices)
         targets.push_back(pose({path(5, step)}, 0, body.mesh.positions[v]));
     world.set_pin_targets(0, 1, targets);
-    world.set_wind(gust(step));
+    if (wind)
+        world.set_wind(gust(step));
 }
 
 } // namespace taut::test

@@ -202,6 +202,61 @@ TEST_CASE("a restored state has the poses, and the orders that wait")
     check_same(run_by_keys(moved_scene(false), "cpu:serial", 4), finish(world));
 }
 
+TEST_CASE("a world of the scene that another one had has its colliders where they were")
+{
+    World world(moved_scene(false), test_device("cpu:serial"));
+    for (std::size_t k = 1; k <= 3; ++k)
+    {
+        world.set_collider_pose(test::kBall, test::path(test::kBall, k));
+        world.step();
+    }
+    World again(world.scene(), test_device("cpu:serial"));
+    const glm::dvec3 there = test::path(test::kBall, 3).translate;
+    CHECK(again.collider_pose(test::kBall).translate == there);
+    World moved = std::move(again); // and its orders go along
+    moved.set_collider_pose(test::kBall, {.translate = there});
+    moved.step();
+    CHECK(pose(moved.scene().colliders[test::kBall].motion, 0, glm::dvec3(0)) == there);
+}
+
+TEST_CASE("pins of cloth that tears are led on as by keyframes, in the order of before")
+{
+    const auto scene_of = [](bool by_keys) {
+        Scene scene = test::hanging(10);
+        Body& body = scene.bodies[0];
+        body.material.tear_strain = 0.1;
+        Pin left = body.pins[0], right = body.pins[0];
+        left.vertices = {0, 11, 22, 33, 44, 55, 66, 77, 88, 99, 110}; // the sides
+        right.vertices = {10, 21, 32, 43, 54, 65, 76, 87, 98, 109, 120};
+        body.pins = {left, right};
+        for (std::size_t k = 0; k <= 30 && by_keys; ++k)
+        {
+            const double time = static_cast<double>(k) * scene.timestep;
+            body.pins[0].motion.push_back({time, {-0.012 * double(k), 0, 0}});
+            body.pins[1].motion.push_back({time, {0.012 * double(k), 0, 0}});
+        }
+        for (Pin& pin : body.pins)
+            pin.moved_by_program = !by_keys;
+        return scene;
+    };
+    World keys(scene_of(true), test_device("cpu:serial")),
+        program(scene_of(false), test_device("cpu:serial"));
+    for (std::size_t k = 1; k <= 30; ++k)
+    {
+        program.set_pin_pose(0, 0, {.translate = {-0.012 * double(k), 0, 0}});
+        program.set_pin_pose(0, 1, {.translate = {0.012 * double(k), 0, 0}});
+        program.step();
+        keys.step();
+    }
+    CHECK(program.torn() > 0);
+    CHECK(program.torn() == keys.torn());
+    check_same(program.state(), keys.state());
+    std::size_t held = 0;
+    for (const Pin& pin : program.scene().bodies[0].pins)
+        held += pin.vertices.size();
+    CHECK(program.pin_targets().size() == held);
+}
+
 TEST_CASE("wrong orders are refused by the name of the argument, and change nothing")
 {
     Scene scene = moved_scene(false);
