@@ -5,6 +5,7 @@
 // Departures: rows of more than TAUT_CONTACT_CROWD corners are left alone and counted: nobody uses them.
 // Bytes per vertex: 8 read, 8 written, and some 8 a corner each way.
 #include "shared/portable.glsl"
+#include "shared/layouts.h"
 #include "shared/contact_rows.h"
 
 PARAMS
