@@ -19,6 +19,13 @@ WRITE(2, uint, corners);
 WRITE(3, uint, taken);
 COUNTERS(4, lost);
 
+uint next_gap(uint gap)
+{
+    uint small = gap == 10u ? 4u : (gap == 4u ? 1u : 0u);
+    uint middle = gap == 57u ? 23u : (gap == 23u ? 10u : small);
+    return gap == 301u ? 132u : (gap == 132u ? 57u : middle);
+}
+
 KERNEL(count)
 {
     uint first = start[i];
@@ -41,6 +48,6 @@ KERNEL(count)
             }
             corner[first + at] = value;
         }
-        gap = gap == 301u ? 132u : (gap == 132u ? 57u : (gap == 57u ? 23u : (gap == 23u ? 10u : (gap == 10u ? 4u : (gap == 4u ? 1u : 0u)))));
+        gap = next_gap(gap);
     }
 }

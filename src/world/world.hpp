@@ -61,7 +61,8 @@ struct SolverReport
     Status last = Status::zero_right_hand_side; ///< how the last one ended
 };
 
-/// Of surfaces that meet (docs/contact.md): of the last search, and what was left out since the world was made.
+/// Of surfaces that meet (docs/contact.md): of the last search, and what was left out since the world was
+/// made.
 struct ContactCounts
 {
     bool any = false;             ///< whether any surface may meet another

@@ -86,10 +86,12 @@ Case search(const ContactNet<Real>& net, bool between, std::uint32_t capacity)
             {"start", bytes_of(std::vector<std::uint32_t>(count + 1, 9))},
             {"control", bytes_of(control_of(0))},
             {"pair", bytes_of(std::vector<layout::ContactPair<Real>>(capacity, {7, 7, 7, 7, 7}))}};
-    const kernels::contact_search::Params how = {count, net.leaves, between, kSubsteps, kSkin,
-                                                 0.04f + kSkin, capacity};
+    const kernels::contact_search::Params how = {count, net.leaves,    between, kSubsteps,
+                                                 kSkin, 0.04f + kSkin, capacity};
     c.launches = {make_launch(kernels::contact_search::info("", c.precision), how, count)};
-    const auto groups = [](std::uint32_t level) { return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT); };
+    const auto groups = [](std::uint32_t level) {
+        return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
+    };
     std::vector<Launch> refit = {make_launch(kernels::contact_refit::info("leaves", c.precision),
                                              kernels::contact_refit::Params{net.leaves, count, kSubsteps},
                                              groups(net.leaves))};
@@ -105,7 +107,8 @@ Case search(const ContactNet<Real>& net, bool between, std::uint32_t capacity)
 
 } // namespace
 
-TEMPLATE_TEST_CASE("contact_search finds every pair that may meet, once, and none that cannot", "", float, double)
+TEMPLATE_TEST_CASE("contact_search finds every pair that may meet, once, and none that cannot", "", float,
+                   double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 2u, 63u, 65u, 300u);
@@ -148,8 +151,8 @@ TEST_CASE("contact_search counts what a list that is too short does not hold, an
     Random random(2300);
     const auto net = contact_net<float>(300, random, 0.003);
     const std::uint32_t capacity = 40;
-    const Buffers full = run(*test_device("cpu:serial"), search(net, true, 1 << 15).launches,
-                             search(net, true, 1 << 15).in);
+    const Buffers full =
+        run(*test_device("cpu:serial"), search(net, true, 1 << 15).launches, search(net, true, 1 << 15).in);
     look_on_every_device(search(net, true, capacity), [&](const Buffers& out) {
         const auto control = words_of(out, "control");
         const std::uint32_t all = words_of(full, "control")[TAUT_CONTACT_LISTED];
