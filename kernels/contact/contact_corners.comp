@@ -1,5 +1,5 @@
-// Which corners of pairs each vertex is: puts 4 pair + corner into the row of the corner's vertex. Their order
-// there is chance, and contact_sort makes it that of their numbers. One invocation per pair.
+// Which corners of pairs each vertex is: puts 4 pair + corner into the row of the corner's vertex. Their
+// order there is chance, and contact_sort makes it that of their numbers. One invocation per pair.
 //
 // Based on: counting sort.
 // Departures: none.

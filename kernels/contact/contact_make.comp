@@ -51,8 +51,11 @@ KERNEL(capacity)
         real gap = first.radius + second.radius;
         if (rest[p.a].w == rest[p.d].w)
         {
-            rvec3 r = rvec3(rest[p.a]);
-            Closest then = closest_of(p.kind, rvec3(rest[p.b]) - r, rvec3(rest[p.c]) - r, rvec3(rest[p.d]) - r);
+            o = rvec3(rest[p.a]);
+            b = rvec3(rest[p.b]) - o;
+            c = rvec3(rest[p.c]) - o;
+            d = rvec3(rest[p.d]) - o;
+            Closest then = closest_of(p.kind, b, c, d);
             gap = min(gap, sqrt(then.squared));
         }
         ContactSide result;

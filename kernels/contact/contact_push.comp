@@ -1,10 +1,11 @@
 // The impulse of each pair in one sweep, all pairs at once. One invocation per pair.
 //
 //   D = sum_k c_k w_k b_k^2, c_k the active pairs at the corner k;
-//   lambda' = max(0, lambda - C / D),   tau' = Pi(tau - q / D),   impulse = n (lambda' - lambda) + tau' - tau,
+//   lambda' = max(0, lambda - C / D),   tau' = Pi(tau - q / D),
+//   impulse = n (lambda' - lambda) + tau' - tau,
 //
 // q the slip along the surface since the start of the substep, Pi the way into the cone |tau| <= mu lambda'.
-// With n_k = c_k every vertex' mass is shared among its pairs, so the sweep lowers the dual energy whatever
+// With c_k every vertex' mass is shared among its pairs, so the sweep lowers the dual energy whatever
 // the pairs are, without a factor of relaxation.
 //
 // Based on: Tonge, Benevolenski, Voroshilov. Mass Splitting for Jitter-Free Parallel Rigid Body Simulation.

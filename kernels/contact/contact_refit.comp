@@ -45,14 +45,15 @@ GROUP_KERNEL(TAUT_CONTACT_REFIT)
 #if LEAVES
     uint leaf = group * lanes + lane;
     ContactTriangle t = triangle[min(leaf, count - 1u)];
-    rvec4 nowhere = rvec4(rvec3(REAL(1e30)), real(0)); // the box of nothing turned inside out
+    rvec4 beyond = rvec4(rvec3(REAL(1e30)), real(0)); // the box of nothing is turned inside out
+    rvec4 below = rvec4(rvec3(REAL(-1e30)), real(0));
     rvec4 a = rvec4(rvec3(position[t.a]), real(0));
     rvec4 b = rvec4(rvec3(position[t.b]), real(0));
     rvec4 c = rvec4(rvec3(position[t.c]), real(0));
     rvec4 least = min(min(min(a, b), c), min(min(end_of(t.a), end_of(t.b)), end_of(t.c)));
     rvec4 most = max(max(max(a, b), c), max(max(end_of(t.a), end_of(t.b)), end_of(t.c)));
-    low[k] = leaf < count ? least : nowhere;
-    high[k] = leaf < count ? most : -nowhere;
+    low[k] = leaf < count ? least : beyond;
+    high[k] = leaf < count ? most : below;
     node[2u * (first + lane)] = low[k];
     node[2u * (first + lane) + 1u] = high[k];
 #else

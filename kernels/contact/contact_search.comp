@@ -1,5 +1,6 @@
-// Which vertices and triangles, and which edges, may come within their gap before the next search. One invocation per
-// triangle, for the vertices and sides that are its own, against the tree of all triangles. A pair is found if
+// Which vertices and triangles, and which edges, may come within their gap before the next search. One
+// invocation per triangle, for the vertices and sides that are its own, against the tree of all triangles. A
+// pair is found if the boxes of its ways come within reach, and
 //
 //   |x_A - x_B| < r_A + r_B + skin + substeps max |d_i - d_j|,   i of A, j of B,
 //

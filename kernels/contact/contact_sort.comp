@@ -5,6 +5,7 @@
 // Departures: rows of more than TAUT_CONTACT_CROWD corners are left alone and counted: nobody uses them.
 // Bytes per vertex: 8 read, 8 written, and some 8 a corner each way.
 #include "shared/portable.glsl"
+#include "shared/layouts.h"
 #include "shared/contact_rows.h"
 
 PARAMS
@@ -17,6 +18,13 @@ UPDATE(1, uint, corner);
 WRITE(2, uint, corners);
 WRITE(3, uint, taken);
 COUNTERS(4, lost);
+
+uint next_gap(uint gap)
+{
+    uint small = gap == 10u ? 4u : (gap == 4u ? 1u : 0u);
+    uint middle = gap == 57u ? 23u : (gap == 23u ? 10u : small);
+    return gap == 301u ? 132u : (gap == 132u ? 57u : middle);
+}
 
 KERNEL(count)
 {
@@ -40,6 +48,6 @@ KERNEL(count)
             }
             corner[first + at] = value;
         }
-        gap = gap == 301u ? 132u : (gap == 132u ? 57u : (gap == 57u ? 23u : (gap == 23u ? 10u : (gap == 10u ? 4u : (gap == 4u ? 1u : 0u)))));
+        gap = next_gap(gap);
     }
 }

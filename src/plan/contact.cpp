@@ -1,8 +1,8 @@
 // Surfaces that meet: pairs are found once a step, and pushed apart in every sweep.
 //
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014 (contacts as
-//   constraints of positions); Tonge, Benevolenski, Voroshilov. SIGGRAPH 2012 (mass splitting). Each kernel of
-//   kernels/contact says more.
+//   constraints of positions); Tonge, Benevolenski, Voroshilov. SIGGRAPH 2012 (mass splitting). Each kernel
+//   of kernels/contact says more.
 // Departures: nothing forbids a crossing; what is found once a step is missed where surfaces come closer than
 //   its skin allows for (docs/contact.md, "Limits").
 
@@ -112,7 +112,8 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
 std::uint32_t capacity_for(const PlanBuilder& b, std::size_t triangles)
 {
     const std::uint32_t asked = b.options.contact_capacity;
-    const auto usual = std::max<std::uint32_t>(kLeastCapacity, leaves_for(static_cast<std::uint32_t>(2 * triangles)));
+    const auto usual =
+        std::max<std::uint32_t>(kLeastCapacity, leaves_for(static_cast<std::uint32_t>(2 * triangles)));
     return std::min(asked > 0 ? asked : usual, kMostPairs);
 }
 
@@ -134,8 +135,7 @@ void record_refit(PlanBuilder& b, const ContactBuffers& c)
     const auto groups = [](std::uint32_t level) {
         return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
     };
-    b.dispatch(kEffect, "leaves", leaves, {c.leaves, c.triangles, c.every}, groups(c.leaves),
-               c.triangles);
+    b.dispatch(kEffect, "leaves", leaves, {c.leaves, c.triangles, c.every}, groups(c.leaves), c.triangles);
     for (std::uint32_t level = groups(c.leaves); level > 1; level = groups(level))
         b.dispatch(kEffect, "", nodes, {level, c.triangles, c.every}, groups(level), 2 * level);
 }

@@ -19,7 +19,7 @@ struct ContactBuffers
     std::uint32_t corners = kNoBuffer, placed = kNoBuffer, corner_start = kNoBuffer, corner = kNoBuffer,
                   active = kNoBuffer;
     std::uint32_t triangles = 0, leaves = 0, capacity = 0;
-    std::uint32_t every = 1; ///< substeps from one search to the next
+    std::uint32_t every = 1;   ///< substeps from one search to the next
     float skin = 0, reach = 0; ///< m
 };
 

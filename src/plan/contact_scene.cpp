@@ -61,8 +61,7 @@ double friction_of(const Scene& scene, const Body& body)
 
 bool bodies_meet(const Scene& scene)
 {
-    return scene.contact.between &&
-           std::count_if(scene.bodies.begin(), scene.bodies.end(), has_surface) > 1;
+    return scene.contact.between && std::count_if(scene.bodies.begin(), scene.bodies.end(), has_surface) > 1;
 }
 
 bool takes_part(const Scene& scene, const Body& body)
@@ -81,9 +80,10 @@ void check_contact(const Scene& scene)
     if (!wants_contact(scene))
         return;
     if (!find_method(method_of(scene)).contact)
-        throw Error(ErrorCode::unsupported, asked_by(scene) + ", but under method \"" + scene.method.type +
-                                                "\" surfaces do not meet; leave it out, or take a method of " +
-                                                methods_with(&Method::contact));
+        throw Error(ErrorCode::unsupported,
+                    asked_by(scene) + ", but under method \"" + scene.method.type +
+                        "\" surfaces do not meet; leave it out, or take a method of " +
+                        methods_with(&Method::contact));
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     {
         if (!takes_part(scene, scene.bodies[k]))

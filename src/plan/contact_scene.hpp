@@ -17,8 +17,8 @@ bool takes_part(const Scene& resolved, const Body& body);
 /// Whether any does.
 bool wants_contact(const Scene& resolved);
 
-/// Throws Error{unsupported} naming the key where the scene's method, or a body in it, cannot meet others, and
-/// Error{bad_input} for a surface too thin for where it is.
+/// Throws Error{unsupported} naming the key where the scene's method, or a body in it, cannot meet others,
+/// and Error{bad_input} for a surface too thin for where it is.
 void check_contact(const Scene& resolved);
 
 } // namespace taut

@@ -35,7 +35,11 @@ constexpr Method kMethods[] = {
      .substeps = stable_substeps},
     {.kind = MethodKind::acad, .check = check_acad, .substeps = stable_substeps},
     {.kind = MethodKind::pbd, .contact_each_iteration = true, .check = check_pbd, .volumes = true},
-    {.kind = MethodKind::xpbd, .contact_each_iteration = true, .volumes = true, .elastic = true, .contact = true},
+    {.kind = MethodKind::xpbd,
+     .contact_each_iteration = true,
+     .volumes = true,
+     .elastic = true,
+     .contact = true},
     {.kind = MethodKind::vbd, .keeps_guess = true, .check = check_vbd, .volumes = true, .elastic = true},
 };
 

@@ -27,8 +27,8 @@ bool falls_freely(const Scene& scene, const Body& body)
 {
     const bool held = std::any_of(body.pins.begin(), body.pins.end(),
                                   [](const Pin& pin) { return !pin.vertices.empty(); });
-    return !held && scene.colliders.empty() && !wants_contact(scene) && scene.damping == 0 && !scene.external_forces &&
-           !(scene.wind.density > 0 && catches_air(body));
+    return !held && scene.colliders.empty() && !wants_contact(scene) && scene.damping == 0 &&
+           !scene.external_forces && !(scene.wind.density > 0 && catches_air(body));
 }
 
 /// Whether an effect changes velocities before the guess of a substep.

@@ -49,7 +49,8 @@ double between_segments(const dvec3& a, const dvec3& b, const dvec3& c, const dv
         if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
             return std::abs(glm::dot(c - a, n)) / std::sqrt(squared);
     }
-    return std::min({from_segment(a, c, d), from_segment(b, c, d), from_segment(c, a, b), from_segment(d, a, b)});
+    return std::min(
+        {from_segment(a, c, d), from_segment(b, c, d), from_segment(c, a, b), from_segment(d, a, b)});
 }
 
 } // namespace

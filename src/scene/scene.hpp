@@ -156,8 +156,8 @@ struct Shape
     double radius = 0.5;           ///< ball: m
 };
 
-/// How deformable surfaces meet each other (docs/contact.md). Two surfaces of radii r and s keep their middles
-/// r + s apart.
+/// How deformable surfaces meet each other (docs/contact.md). Two surfaces of radii r and s keep their
+/// middles r + s apart.
 struct SceneContact
 {
     bool between = false;  ///< different bodies meet; false = none does: no effect unless a body meets itself

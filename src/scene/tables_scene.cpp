@@ -107,8 +107,9 @@ constexpr Key kContact[] = {
         .unit("m")
         .at_least(0)
         .or_word("material", -1),
-    key<&SceneContact::friction>("friction", "Coulomb coefficient of every surface whose body gives none; two "
-                                             "surfaces rub by the mean of theirs")
+    key<&SceneContact::friction>("friction",
+                                 "Coulomb coefficient of every surface whose body gives none; two "
+                                 "surfaces rub by the mean of theirs")
         .at_least(0),
     key<&SceneContact::searches>("searches", "how often a time step looks for what may meet: more where "
                                              "several layers fall fast; at most once a substep")
@@ -120,7 +121,8 @@ constexpr Key kContact[] = {
 
 constexpr Key kBodyContact[] = {
     key<&BodyContact::self>("self", "the surface meets itself"),
-    key<&BodyContact::thickness>("thickness", "the surface's radius; two surfaces keep the sum of theirs apart")
+    key<&BodyContact::thickness>("thickness",
+                                 "the surface's radius; two surfaces keep the sum of theirs apart")
         .unit("m")
         .at_least(0)
         .or_word("scene", -1),
@@ -143,12 +145,11 @@ constinit const TableOf<BodyContact> kBodyContactTable("body contact", kBodyCont
 std::span<const Table* const> all_tables()
 {
     static constexpr const Table* others[] = {
-        &kSceneTable,    &kAcceptTable,   &kMethodTable,        &kWindTable,           &kWindKeyTable,
-        &kContactTable,  &kBodyContactTable,
-        &kBodyTable,     &kGridTable,     &kNetworkTable,       &kChainTable,          &kSolidBoxTable,
-        &kBallTable,     &kMaterialTable, &kSolidMaterialTable, &kTransformTable,      &kRotateTable,
-        &kPinTable,      &kPinBoxTable,   &kKeyframeTable,      &kKeyframeRotateTable, &kSpringTable,
-        &kColliderTable,
+        &kSceneTable,          &kAcceptTable,      &kMethodTable,   &kWindTable,     &kWindKeyTable,
+        &kContactTable,        &kBodyContactTable, &kBodyTable,     &kGridTable,     &kNetworkTable,
+        &kChainTable,          &kSolidBoxTable,    &kBallTable,     &kMaterialTable, &kSolidMaterialTable,
+        &kTransformTable,      &kRotateTable,      &kPinTable,      &kPinBoxTable,   &kKeyframeTable,
+        &kKeyframeRotateTable, &kSpringTable,      &kColliderTable,
     };
     static const std::vector<const Table*> tables = [] {
         std::vector<const Table*> all(std::begin(others), std::end(others));

@@ -205,8 +205,9 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
                         "\" solves for all bodies as one system, so one that is not "
                         "there would change the others; bodies under it cannot sleep");
     if (wants_contact(my.scene))
-        throw Error(ErrorCode::unsupported, "bodies that meet each other or themselves cannot sleep yet; leave "
-                                            "contact out, or let all stay awake");
+        throw Error(ErrorCode::unsupported,
+                    "bodies that meet each other or themselves cannot sleep yet; leave "
+                    "contact out, or let all stay awake");
     // The stiffest body may be the one that sleeps; the others keep its substeps.
     my.scene.method.substeps = my.world->plan().substeps;
     const double gravity = glm::length(my.scene.gravity) > 0 ? glm::length(my.scene.gravity) : 9.81;

@@ -71,7 +71,8 @@ struct DrivenMover
     MoverReach reach;
 };
 
-/// Of surfaces that meet (docs/contact.md): of the last search, and what was left out since the world was made.
+/// Of surfaces that meet (docs/contact.md): of the last search, and what was left out since the world was
+/// made.
 struct ContactCounts
 {
     bool any = false;             ///< whether any surface may meet another

@@ -40,7 +40,8 @@ std::vector<std::uint32_t> places(const Plan& before, const Plan& now,
 
 } // namespace
 
-/// Plans the scene anew (after a tear, or for longer lists of contact) and carries the state over, bit for bit; inverse masses are the new plan's.
+/// Plans the scene anew (after a tear, or for longer lists of contact) and carries the state over, bit for
+/// bit; inverse masses are the new plan's.
 void World::Impl::replace_scene(const TornScene& next)
 {
     const std::vector<std::byte> position = raw(plan.position), low = raw(plan.low),

@@ -34,9 +34,12 @@ TEMPLATE_TEST_CASE("contact_corners and contact_sort list the corners of pairs a
     std::vector<std::uint32_t> unset(corner.size() + 8, 9);
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"pair", bytes_of(pairs)},   {"control", bytes_of(control_of(count))},
-            {"start", bytes_of(start)},  {"corner", bytes_of(unset)},
-            {"taken", bytes_of(none)},   {"corners", bytes_of(std::vector<std::uint32_t>(vertices, 4))},
+    c.in = {{"pair", bytes_of(pairs)},
+            {"control", bytes_of(control_of(count))},
+            {"start", bytes_of(start)},
+            {"corner", bytes_of(unset)},
+            {"taken", bytes_of(none)},
+            {"corners", bytes_of(std::vector<std::uint32_t>(vertices, 4))},
             {"lost", bytes_of(std::vector<std::uint32_t>(2, 0))}};
     c.launches = {make_launch(kernels::contact_corners::info("", c.precision),
                               kernels::contact_corners::Params{count + 2}, count + 2),

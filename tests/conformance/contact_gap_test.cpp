@@ -18,9 +18,31 @@ struct Gap
     bool clear = true; ///< no flag hangs by a rounding
 };
 
+/// Four new vertices near each other: a vertex above a triangle, or edges that cross; some anyhow.
 template <typename Real>
-Gap gap_of(const ContactNet<Real>& net, const layout::ContactPair<Real>& p, const layout::ContactSide<Real>& s,
-           bool first)
+layout::ContactPair<Real> near_pair(ContactNet<Real>& net, Random& random)
+{
+    const auto first = static_cast<std::uint32_t>(net.position.size());
+    const bool edges = random.chance(0.5);
+    const glm::dvec3 centre(random.vec4<double>(1, 0)), u(random.vec4<double>(0.1, 0)),
+        v(random.vec4<double>(0.1, 0));
+    const glm::dvec3 above = random.uniform(0.1, 0.4) * glm::cross(u, v) / (glm::length(u) + glm::length(v));
+    std::array<glm::dvec3, 4> at = {above, u, v, -u - v};
+    if (edges)
+        at = {above + u, above - u, v, -v};
+    for (int k = 0; k < 4; ++k)
+    {
+        const glm::dvec3 x =
+            random.chance(0.1) ? glm::dvec3(random.vec4<double>(0.1, 0)) : at[static_cast<std::size_t>(k)];
+        net.position.emplace_back(glm::vec<3, Real>(centre + x), random.inverse_mass<Real>());
+        net.delta.push_back(random.vec4<Real>(0.004, Real(0)));
+    }
+    return {first, first + 1, first + 2, first + 3, edges ? TAUT_CONTACT_EDGES : TAUT_CONTACT_VERTEX};
+}
+
+template <typename Real>
+Gap gap_of(const ContactNet<Real>& net, const layout::ContactPair<Real>& p,
+           const layout::ContactSide<Real>& s, bool first)
 {
     const bool edges = p.kind == TAUT_CONTACT_EDGES;
     const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v) + net.d(v); });
@@ -59,8 +81,10 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
     const bool first = GENERATE(true, false);
     CAPTURE(count, first);
     Random random(2800 + count);
-    auto net = contact_net<Real>(60, random, 0.02);
-    const auto pairs = some_pairs(net, count + 2, random);
+    ContactNet<Real> net;
+    std::vector<layout::ContactPair<Real>> pairs;
+    for (std::uint32_t k = 0; k < count + 2; ++k)
+        pairs.push_back(near_pair(net, random));
     std::vector<Side> sides;
     for (const auto& p : pairs)
     {
@@ -68,7 +92,8 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v) + net.d(v); });
         const glm::dvec3 n = random.chance(0.3) ? -now.way / now.distance() : now.way / now.distance();
         const auto gap = static_cast<Real>(now.distance() * random.uniform(0.5, 1.5));
-        sides.push_back({static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), gap, gap, Real(0.4)});
+        sides.push_back(
+            {static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), gap, gap, Real(0.4)});
     }
     layout::StepValues<Real> step{};
     step.depenetration = static_cast<Real>(kWayOut);
@@ -120,7 +145,7 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         acting += want.weight[0] != 0 || want.weight[1] != 0 ? 1 : 0;
         crossed += want.value + want.allowed < 0 ? 1 : 0;
     }
-    CHECK((count < 1000 || (acting > count / 5 && crossed > count / 50)));
+    CHECK((count < 1000 || (acting > count / 4 && crossed > count / 20)));
     look_on_every_device(c, [&](const Buffers& out) {
         const auto counts = words_of(out, "acting");
         std::size_t wrong = 0;

@@ -16,8 +16,9 @@ TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction
     const auto net = contact_net<Real>(120, random, 0.003);
     const auto pairs = some_pairs(net, count + 3, random);
     std::vector<Vec> rest;
-    for (std::uint32_t v = 0; v < net.position.size(); ++v) // another shape, with some parts nearer than the gap
-        rest.emplace_back(glm::vec<3, Real>(net.position[v]) * Real(v % 3 == 0 ? 0.05 : 0.5), Real(v / 12 % 3));
+    for (std::uint32_t v = 0; v < net.position.size(); ++v) // another shape, parts of it nearer than the gap
+        rest.emplace_back(glm::vec<3, Real>(net.position[v]) * Real(v % 3 == 0 ? 0.05 : 0.5),
+                          Real(v / 12 % 3));
     using Side = layout::ContactSide<Real>;
     Case c;
     c.precision = precision_of<Real>();
@@ -63,13 +64,15 @@ TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction
 TEST_CASE("contact_make takes any side of what touches, and never one that is no number")
 {
     using Vec = glm::vec<4, float>;
-    const std::vector<Vec> position = {{0.25f, 0, 0.25f, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}};
+    const std::vector<Vec> position = {
+        {0.25f, 0, 0.25f, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}};
     std::vector<Vec> rest = position;
     for (Vec& r : rest)
         r.w = 0;
     // A vertex in the triangle, one on a triangle without area, and edges on top of each other.
-    const std::vector<layout::ContactPair<float>> pairs = {
-        {0, 1, 2, 3, TAUT_CONTACT_VERTEX}, {4, 1, 1, 1, TAUT_CONTACT_VERTEX}, {1, 2, 4, 2, TAUT_CONTACT_EDGES}};
+    const std::vector<layout::ContactPair<float>> pairs = {{0, 1, 2, 3, TAUT_CONTACT_VERTEX},
+                                                           {4, 1, 1, 1, TAUT_CONTACT_VERTEX},
+                                                           {1, 2, 4, 2, TAUT_CONTACT_EDGES}};
     Case c;
     c.in = {{"pair", bytes_of(pairs)},
             {"position", bytes_of(position)},

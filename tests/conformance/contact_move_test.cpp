@@ -5,8 +5,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("contact_move adds the impulses of a vertex' pairs by their weights, over its mass", "", float,
-                   double)
+TEMPLATE_TEST_CASE("contact_move adds the impulses of a vertex' pairs by their weights, over its mass", "",
+                   float, double)
 {
     using Real = TestType;
     using Vec = glm::vec<4, Real>;
@@ -22,19 +22,20 @@ TEMPLATE_TEST_CASE("contact_move adds the impulses of a vertex' pairs by their w
     std::vector<std::uint32_t> start = {0}, corner, acting(count + 2, 8);
     for (std::uint32_t v = 0; v < count; ++v)
     {
-        const std::uint32_t size = v == 0 ? TAUT_CONTACT_CROWD + 1 : v == 1 ? TAUT_CONTACT_CROWD : random.below(12);
+        const std::uint32_t size = v == 0   ? TAUT_CONTACT_CROWD + 1
+                                   : v == 1 ? TAUT_CONTACT_CROWD
+                                            : random.below(12);
         for (std::uint32_t k = 0; k < size; ++k)
             corner.push_back(random.below(4 * pairs));
         start.push_back(static_cast<std::uint32_t>(corner.size()));
     }
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"start", bytes_of(start)},     {"corner", bytes_of(corner)},
-            {"row", bytes_of(row)},         {"impulse", bytes_of(impulse)},
-            {"position", bytes_of(position)}, {"delta", bytes_of(delta)},
+    c.in = {{"start", bytes_of(start)},     {"corner", bytes_of(corner)},     {"row", bytes_of(row)},
+            {"impulse", bytes_of(impulse)}, {"position", bytes_of(position)}, {"delta", bytes_of(delta)},
             {"acting", bytes_of(acting)}};
-    c.launches = {make_launch(kernels::contact_move::info("", c.precision), kernels::contact_move::Params{count},
-                              count)};
+    c.launches = {make_launch(kernels::contact_move::info("", c.precision),
+                              kernels::contact_move::Params{count}, count)};
     Field& field = c.expected["delta"];
     for (std::uint32_t v = 0; v < count + 2; ++v)
     {

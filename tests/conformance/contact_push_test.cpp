@@ -5,8 +5,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and friction within its cone", "", float,
-                   double)
+TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and friction within its cone", "",
+                   float, double)
 {
     using Real = TestType;
     using Vec = glm::vec<4, Real>;
@@ -58,7 +58,8 @@ TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and fricti
             }
             continue;
         }
-        const glm::dvec4 b(row[2 * k]), met(row[2 * k + 1]), before = first ? glm::dvec4(0) : glm::dvec4(taken[k]);
+        const glm::dvec4 b(row[2 * k]), met(row[2 * k + 1]),
+            before = first ? glm::dvec4(0) : glm::dvec4(taken[k]);
         const std::uint32_t ids[] = {pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d};
         double weight = 0;
         for (int j = 0; j < 4; ++j)

@@ -21,12 +21,15 @@ TEMPLATE_TEST_CASE("contact_refit gives every node the box of its triangles wher
             {"triangle", bytes_of(net.triangle)},
             {"position", bytes_of(net.position)},
             {"delta", bytes_of(net.delta)}};
-    const auto groups = [](std::uint32_t level) { return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT); };
+    const auto groups = [](std::uint32_t level) {
+        return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
+    };
     c.launches = {make_launch(kernels::contact_refit::info("leaves", c.precision),
                               kernels::contact_refit::Params{leaves, count, substeps}, groups(leaves))};
     for (std::uint32_t level = groups(leaves); level > 1; level = groups(level))
         c.launches.push_back(make_launch(kernels::contact_refit::info("", c.precision),
-                                         kernels::contact_refit::Params{level, count, substeps}, groups(level)));
+                                         kernels::contact_refit::Params{level, count, substeps},
+                                         groups(level)));
     const double nowhere = static_cast<double>(static_cast<Real>(1e30));
     struct Box
     {

@@ -5,12 +5,13 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("contact_sort puts rows of any length in order, and counts those that are too long", "", float,
-                   double)
+TEMPLATE_TEST_CASE("contact_sort puts rows of any length in order, and counts those that are too long", "",
+                   float, double)
 {
     Random random(2700);
     std::vector<std::uint32_t> start = {0}, corner, sorted;
-    for (const std::uint32_t size : {0u, 1u, 2u, 3u, 40u, 300u, TAUT_CONTACT_CROWD, TAUT_CONTACT_CROWD + 1, 7u})
+    for (const std::uint32_t size :
+         {0u, 1u, 2u, 3u, 40u, 300u, TAUT_CONTACT_CROWD, TAUT_CONTACT_CROWD + 1, 7u})
     {
         const auto order = random.shuffled(size);
         corner.insert(corner.end(), order.begin(), order.end());

@@ -1,5 +1,6 @@
 #pragma once
-// What the tests of contact kernels share: triangles that lie about each other in strips, as leaves of a tree.
+// What the tests of contact kernels share: triangles that lie about each other in strips, as leaves of a
+// tree.
 
 #include "support/expect.hpp"
 #include "support/nearest.hpp"
@@ -24,8 +25,8 @@ struct ContactNet
     glm::dvec3 d(std::uint32_t v) const { return glm::dvec3(delta[v]); }
 };
 
-/// Strips of ten triangles of sides of some 0.1 m, each strip of the next of three bodies, of which the second
-/// does not meet itself.
+/// Strips of ten triangles of sides of some 0.1 m, each strip of the next of three bodies, of which the
+/// second does not meet itself.
 template <typename Real>
 ContactNet<Real> contact_net(std::uint32_t triangles, Random& random, double motion)
 {
@@ -37,7 +38,8 @@ ContactNet<Real> contact_net(std::uint32_t triangles, Random& random, double mot
     {
         const bool begins = t % 10 == 0;
         if (begins)
-            at = glm::dvec3(random.uniform(-room, room), random.uniform(-room, room), random.uniform(-room, room));
+            at = glm::dvec3(random.uniform(-room, room), random.uniform(-room, room),
+                            random.uniform(-room, room));
         for (int k = 0; k < (begins ? 3 : 1); ++k)
         {
             at += 0.07 * glm::dvec3(random.vec4<double>(1, 0));

@@ -123,7 +123,8 @@ TEST_CASE("a method or body that cannot meet others is refused by name", "[conta
     }
     Scene thin = test::hanging(4);
     thin.bodies[0].contact = {true, 1e-6, 0};
-    CHECK_THAT(refusal(thin), Contains("bodies[0].contact.thickness is 1e-06 m") && Contains("needs at least"));
+    CHECK_THAT(refusal(thin),
+               Contains("bodies[0].contact.thickness is 1e-06 m") && Contains("needs at least"));
     thin.bodies[0].contact.thickness = 0;
     CHECK_THAT(refusal(thin), Contains("a radius above 0"));
     Scene solid;
@@ -133,7 +134,8 @@ TEST_CASE("a method or body that cannot meet others is refused by name", "[conta
     box.material.youngs_modulus = 1e4;
     solid.bodies = {box, box};
     solid.contact.between = true;
-    CHECK_THAT(refusal(resolve(solid)), Contains("contact.between is true") && Contains("bodies[0] is a solid"));
+    CHECK_THAT(refusal(resolve(solid)),
+               Contains("contact.between is true") && Contains("bodies[0] is a solid"));
 }
 
 TEST_CASE("the tree holds every triangle once, each half about one place, and shares vertices and sides out",
