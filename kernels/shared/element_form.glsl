@@ -2,8 +2,7 @@
 // with its corners. Included after TAUT_ELEMENT.
 //   slope_i = dE / dx_i, N; the force is its negative.  curvature_ij = d^2 E / dx_i dx_j, or what of it keeps
 //   the whole positive semidefinite, N/m.
-// From the constraint C of the file (shared/element.glsl), E = C^2 / (2 a), with k = 1 / a and n_i = grad_i
-// C:
+// From the constraint C of the file (shared/element.glsl), E = C^2 / (2 a), with k = 1 / a, n_i = grad_i C:
 //   slope_i = k C n_i,  curvature_ij = k n_i n_j^T.
 // An element whose file has the line `//! with energy` says both by itself, by the differences of its
 // corners:

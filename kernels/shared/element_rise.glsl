@@ -42,15 +42,16 @@ INLINE real element_rise(OF_ELEMENT(record) c, ELEMENT_EDGE_PARAMETERS, ELEMENT_
 #ifdef ELEMENT_WITH_ENERGY
     ElementForm now = OF_ELEMENT(form)(c, ELEMENT_EDGES);
     ElementForm then = OF_ELEMENT(form)(c, ELEMENT_MOVED);
-    real apart = OF_ELEMENT(energy)(c, ELEMENT_MOVED) - OF_ELEMENT(energy)(c, ELEMENT_EDGES);
-    real along = real(0.5) * (ELEMENT_ALONG(now.f) + ELEMENT_ALONG(then.f));
-    real rise = ((close ? along : apart) * lift) * lift;
+    real change = real(0.5) * (ELEMENT_ALONG(now.f) + ELEMENT_ALONG(then.f));
+    if (!close)
+        change = OF_ELEMENT(energy)(c, ELEMENT_MOVED) - OF_ELEMENT(energy)(c, ELEMENT_EDGES);
+    real rise = (change * lift) * lift;
 #else
     ElementRow now = OF_ELEMENT(row)(c, ELEMENT_EDGES);
     ElementRow then = OF_ELEMENT(row)(c, ELEMENT_MOVED);
-    real here = ELEMENT_ALONG(now.g) / (now.shaped ? now.divisor : real(1));
-    real there = ELEMENT_ALONG(then.g) / (then.shaped ? then.divisor : real(1));
-    real change = close ? real(0.5) * (here + there) : then.value - now.value;
+    real change = then.value - now.value;
+    if (close && now.shaped && then.shaped)
+        change = real(0.5) * (ELEMENT_ALONG(now.g) / now.divisor + ELEMENT_ALONG(then.g) / then.divisor);
     real both = real(2) * now.value + change;
     real rise = (real(0.5) / now.compliance) * ((change * lift) * (both * lift));
 #endif

@@ -1,6 +1,5 @@
-// Based on: Gershgorin's circles for 3 x 3 blocks (stability.cpp), with the Frobenius norm of each block; of
-// a
-//   spring that is its stiffness.
+// Based on: Gershgorin's circles for 3 x 3 blocks (stability.cpp), with the Frobenius norm of each block;
+//   of a spring that is its stiffness.
 // Departures: the blocks are central differences of the energy alone, over 1e-4 of the element's size: about
 //   eight digits, where a bound needs one.
 #include "taut/plan/added_stiffness.hpp"

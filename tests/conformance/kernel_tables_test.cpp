@@ -151,6 +151,8 @@ TEST_CASE("variants differ from the base kernel in their own bindings, and param
             kernel->name == "constraint_spread" || kernel->name == "corner_spread" ||
             kernel->name == "implicit_trial")
             continue;
+        if (kernel->name == "vbd_solve" && kernel->variant == "added")
+            continue; // the inertia comes with the block, which takes the place of the guess
         CAPTURE(kernel->name, kernel->variant);
         const KernelInfo& base = find_kernel(kernel->name, "", kernel->precision);
         REQUIRE(kernel->params.size() == base.params.size());

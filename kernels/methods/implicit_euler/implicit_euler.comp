@@ -41,27 +41,32 @@ void put(uint at, rvec3 row, bool first)
     values[to] = first ? row.z : values[to] + row.z;
 }
 
+#ifdef ELEMENT_WITH_ENERGY
 /// What the force at one corner does with the place of another, where there is a block for it.
-void add(uint place, ElementForm form, uint corner, uint other, real factor)
+void add(uint place, ElementBlock block, real factor)
 {
     if (place != TAUT_IMPLICIT_NOWHERE)
     {
         bool first = (place & TAUT_IMPLICIT_FIRST) != 0u;
         uint at = place & ~TAUT_IMPLICIT_FIRST;
-#ifdef ELEMENT_WITH_ENERGY
-        ElementBlock block = element_block(form, corner, other);
         put(at, block.x * factor, first);
         put(at + 3u * TAUT_IMPLICIT_STRIDE, block.y * factor, first);
         put(at + 6u * TAUT_IMPLICIT_STRIDE, block.z * factor, first);
+    }
+}
 #else
-        rvec3 row = gradient_at(form, corner) * factor;
-        rvec3 column = gradient_at(form, other);
+void add(uint place, rvec3 row, rvec3 column)
+{
+    if (place != TAUT_IMPLICIT_NOWHERE)
+    {
+        bool first = (place & TAUT_IMPLICIT_FIRST) != 0u;
+        uint at = place & ~TAUT_IMPLICIT_FIRST;
         put(at, column * row.x, first);
         put(at + 3u * TAUT_IMPLICIT_STRIDE, column * row.y, first);
         put(at + 6u * TAUT_IMPLICIT_STRIDE, column * row.z, first);
-#endif
     }
 }
+#endif
 
 rvec3 between(uint from, uint to)
 {
@@ -89,14 +94,22 @@ KERNEL(count)
 #endif
         ElementForm form = element_form(c, ELEMENT_EDGES);
         pull -= slope_at(form, corner);
+        // Also of a shape that is none: a block that holds nothing yet must not keep what the last step left.
 #ifdef ELEMENT_WITH_ENERGY
         real factor = (h * real(scale)) * h;
-#else
-        real factor = ((h * form.stiffness) * h) * real(scale);
-#endif
-        // Also of a shape that is none: a block that holds nothing yet must not keep what the last step left.
         for (uint other = 0u; other < uint(ELEMENT_CORNERS); ++other)
-            add(table[k + 1u + other], form, corner, other, factor);
+            add(table[k + 1u + other], element_block(form, corner, other), factor);
+#else
+        rvec3 row = gradient_at(form, corner) * (((h * form.stiffness) * h) * real(scale));
+        add(table[k + 1u], row, form.n0);
+        add(table[k + 2u], row, form.n1);
+#if ELEMENT_CORNERS > 2
+        add(table[k + 3u], row, form.n2);
+#endif
+#if ELEMENT_CORNERS > 3
+        add(table[k + 4u], row, form.n3);
+#endif
+#endif
         if (report != 0u)
         {
             if (!form.shaped && form.counted && table[k] != word)

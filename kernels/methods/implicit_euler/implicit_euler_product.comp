@@ -72,13 +72,18 @@ rvec3 share_of(OF_ELEMENT(record) c, uint corner, real h)
 #endif
     return result * (h * h);
 #else
-    real change = dot(form.n0, at(v0)) + dot(form.n1, at(v1)); // of C
+    rvec3 result = rvec3(real(0));
+    if (form.shaped)
+    {
+        real change = dot(form.n0, at(v0)) + dot(form.n1, at(v1)); // of C
 #if ELEMENT_CORNERS == 3
-    change += dot(form.n2, at(v2));
+        change += dot(form.n2, at(v2));
 #elif ELEMENT_CORNERS > 3
-    change += dot(form.n2, at(v2)) + dot(form.n3, at(v3));
+        change += dot(form.n2, at(v2)) + dot(form.n3, at(v3));
 #endif
-    return gradient_at(form, corner) * (((h * form.stiffness) * h) * change);
+        result = gradient_at(form, corner) * (((h * form.stiffness) * h) * change);
+    }
+    return result;
 #endif
 }
 
