@@ -179,7 +179,9 @@ public:
     /// body's: plan(), scene(), position_buffer() and the number of positions change with it.
     std::uint64_t torn() const;
 
-    /// All zero in scenes without contact. Waits, as contact_pairs() does.
+    /// All zero in scenes without contact. Waits, as contact_pairs() does. With contact every step() waits
+    /// for one word, and takes longer lists where these are more than half full: plan() and
+    /// position_buffer() change then.
     ContactCounts contacts() const;
     /// Those that the last step's search listed, in the order of the list.
     std::vector<SurfacePair> contact_pairs() const;

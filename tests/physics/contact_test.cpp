@@ -6,6 +6,9 @@
 #include "support/nearest.hpp"
 
 #include "taut/report/report.hpp"
+#include "taut/world/hybrid.hpp"
+#include "taut/world/sleep.hpp"
+#include "taut/world/split.hpp"
 #include "taut/world/world.hpp"
 
 #include <glm/trigonometric.hpp>
@@ -285,4 +288,58 @@ TEST_CASE("contact is the same bit for bit on every executor")
         if (conformance::bitwise_equal_expected(device->info()))
             CHECK(report.position_hash == hash);
     }
+}
+
+TEST_CASE("a state with contact goes on bit for bit")
+{
+    Scene scene = two_sheets(0.01);
+    scene.contact.friction = 0.4;
+    World one(scene, test_device("cpu:serial")), other(scene, test_device("cpu:serial"));
+    for (int step = 0; step < 5; ++step)
+        one.step();
+    other.restore(one.state());
+    for (int step = 0; step < 5; ++step)
+    {
+        one.step();
+        other.step();
+    }
+    REQUIRE(one.contacts().pairs > 0);
+    CHECK(measure(one).position_hash == measure(other).position_hash);
+}
+
+TEST_CASE("worlds that divide bodies, or let them sleep, refuse those that meet")
+{
+    const Scene scene = two_sheets(0.01);
+    const auto device = test_device("cpu:serial");
+    const auto refusal = [](auto make) -> std::string {
+        try
+        {
+            make();
+        }
+        catch (const Error& error)
+        {
+            return error.code() == ErrorCode::unsupported ? error.what() : "another code";
+        }
+        return "";
+    };
+    using Catch::Matchers::Contains;
+    CHECK_THAT(refusal([&] { HybridWorld(resolve(scene), device, test_device("cpu")); }),
+               Contains("hybrid") && Contains("leave contact out"));
+    CHECK_THAT(refusal([&] { SleepWorld(resolve(scene), device); }), Contains("cannot sleep"));
+    CHECK_THAT(refusal([&] { SplitWorld(resolve(scene), device, test_device("cpu")); }),
+               Contains("cannot be cut") && Contains("leave contact out"));
+}
+
+TEST_CASE("the napkin of the example lands on the hammock without a triangle in another")
+{
+    World world(load_scene(TAUT_SOURCE_DIR "/examples/scenes/cloth_on_cloth.json"), test_device("cpu"));
+    const auto triangles = test::all_triangles(world.scene());
+    for (int step = 0; step < 48; ++step) // it has met the hammock all over by then
+    {
+        world.step();
+        if (step % 4 == 3)
+            CHECK(test::intersections(triangles, world.positions()) == 0);
+    }
+    CHECK(world.contacts().pairs > 2000);
+    CHECK(centre_of(places_of(world, 1)).y > centre_of(places_of(world, 0)).y - 0.1);
 }
