@@ -144,6 +144,7 @@ TEST_CASE("cloth tears and constraints act where the golden scenes are about tha
         return world;
     };
     CHECK(after("tear").torn() > 0);
+    CHECK(after("contact").contacts().pairs > 0);
     for (const std::string name : {"acad", "acad_compress"})
     {
         CAPTURE(name);

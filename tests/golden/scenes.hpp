@@ -71,6 +71,28 @@ inline Scene effects()
     return scene;
 }
 
+/// A cloth that folds over a ball onto itself, and a small one that falls onto it and rubs.
+inline Scene contact()
+{
+    Scene scene;
+    Body below = cloth("below", 8), above = cloth("above", 4);
+    below.transform.translate = {0, 0.5, 0.0625};
+    below.material.thickness = above.material.thickness = 0.01;
+    below.contact.self = true;
+    below.velocity = {0, -1, 0};
+    above.shape.size = {0.25, 0.25};
+    above.transform.translate = {0.125, 0.25, 0.125};
+    above.velocity = {0, 0, -2};
+    scene.bodies = {below, above};
+    scene.contact.between = true;
+    scene.contact.friction = 0.25;
+    Collider ball;
+    ball.radius = 0.25;
+    scene.colliders = {ball};
+    scene.method.substeps = 8;
+    return scene;
+}
+
 /// A weak cloth, held at its top, tears under a heavy row at its end.
 inline Scene tear()
 {
@@ -100,6 +122,7 @@ inline std::map<std::string, Scene> scenes()
     std::map<std::string, Scene> all = method_scenes();
     all.merge(std::map<std::string, Scene>{{"effects", effects()},
                                            {"tear", tear()},
+                                           {"contact", contact()},
                                            {"jelly", jelly("xpbd", "tetrahedra")},
                                            {"hanging", hanging()},
                                            {"drape", drape()},
