@@ -1,6 +1,5 @@
 // Based on: Sims. Parallel Cloth Simulation Using OpenMP and CUDA. Louisiana State University 2009 (CPU and
-// GPU
-//   share one simulation); Demmel et al. IPDPS 2008 (src/plan/cut_halo.cpp).
+//   GPU share one simulation); Demmel et al. IPDPS 2008 (src/plan/cut_halo.cpp).
 // Departures: vertices are divided, not loops, so a part keeps its vertices from step to step, and only those
 //   beside the cut pass through the host, once a sweep.
 

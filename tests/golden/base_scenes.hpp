@@ -1,7 +1,7 @@
 #pragma once
-// Golden scenes of xpbd, and bodies that others take. All are small, generated, and without host functions whose
-// last bit depends on the C library (no rotations; damping only in float), so that the hashes hold on other
-// machines.
+// Golden scenes of xpbd, and bodies that others take. All are small, generated, and without host functions
+// whose last bit depends on the C library (no rotations; damping only in float), so that the hashes hold on
+// other machines.
 
 #include "taut/scene/scene.hpp"
 
