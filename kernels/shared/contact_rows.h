@@ -12,7 +12,7 @@
 
 /// Words of the control buffer: group counts of the passes over pairs, then of those over vertices; pairs
 /// listed; of the last search: pairs found, triangles compared. Over the whole run: pairs found and not
-/// listed, triangles whose search was cut short, vertices with too many contacts.
+/// listed.
 #define TAUT_CONTACT_PAIR_GROUPS 0
 #define TAUT_CONTACT_VERTEX_GROUPS 4
 #define TAUT_CONTACT_LISTED 8

@@ -1,4 +1,4 @@
-// Blocks of an element's curvature, pair of corners by pair of corners, in kernels that are no lanes.
+// Blocks of an element's curvature, pair of corners by pair of corners, in kernels without lanes.
 // Included after element_form.glsl.
 //
 // Based on: shared/element_form.glsl.

@@ -7,6 +7,7 @@
 #include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/judge/sequence.hpp"
+#include "taut/report/report.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
 #include "taut/world/world.hpp"
@@ -70,6 +71,7 @@ public:
         return world_.positions();
     }
     std::string name(std::size_t frame) const override { return file_ + ", step " + std::to_string(frame); }
+    StepReport report() const { return measure(world_); } ///< of the last step that was taken
 
 private:
     std::string file_;
@@ -82,6 +84,12 @@ std::unique_ptr<judging::Sequence> open_input(const JudgeCommand& command)
 {
     std::error_code ignored;
     const std::string extension = command.input.extension().string();
+    if (!fs::exists(command.input, ignored))
+        throw Error(ErrorCode::io,
+                    "there is no " + command.input.string() +
+                        "; name a scene (.json), a folder of .obj files or a point cache (.pc2)");
+    if (extension != ".json" && !(command.settings.empty() && command.device.empty()))
+        throw Error(ErrorCode::bad_input, "--set and --device go with a scene (.json) alone");
     const bool cache = extension == ".pc2", folder = fs::is_directory(command.input, ignored);
     if (cache == command.mesh.empty())
         throw Error(ErrorCode::bad_input, cache
@@ -109,12 +117,18 @@ struct Judged
     bool clean() const { return verdict.intersecting == 0 && !relinked && passed.empty(); }
 };
 
-bool changed(const std::vector<std::optional<int>>& before, const std::vector<std::optional<int>>& after)
+/// Whether a number differs from the last known one, which it becomes.
+bool relinked(std::vector<std::optional<int>>& known, const std::vector<std::optional<int>>& now)
 {
-    for (std::size_t k = 0; k < std::min(before.size(), after.size()); ++k)
-        if (before[k] && after[k] && before[k] != after[k])
-            return true;
-    return false;
+    bool any = false;
+    known.resize(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k)
+        if (now[k])
+        {
+            any = any || (known[k] && known[k] != now[k]);
+            known[k] = now[k];
+        }
+    return any;
 }
 
 /// Of a judging::Nearest or a judging::Passing.
@@ -151,37 +165,57 @@ Json verdict_json(const Judged& judged, const judging::Sequence& input, const ju
     return json;
 }
 
+/// Calls `act`; what it throws names the frame.
+template <class Act>
+auto naming_frame(const judging::Sequence& input, std::size_t frame, const Act& act)
+{
+    try
+    {
+        return act();
+    }
+    catch (const Error& error)
+    {
+        const std::string text = error.what(), name = input.name(frame);
+        throw Error(error.code(), text.starts_with(name) ? text : name + ": " + text);
+    }
+}
+
+struct Findings
+{
+    std::vector<Judged> frames;
+    std::size_t wanted = 0; ///< so many frames were to be judged
+};
+
 /// Judges every frame that is due, until the end or Ctrl-C.
-std::vector<Judged> judge_all(const JudgeCommand& command, judging::Sequence& input,
-                              const judging::Judge& judge, const std::vector<glm::dvec3>& first)
+Findings judge_all(const JudgeCommand& command, judging::Sequence& input, const judging::Judge& judge,
+                   const std::vector<glm::dvec3>& first)
 {
     const InterruptGuard guard;
-    std::vector<Judged> all;
+    Findings out;
     std::vector<glm::dvec3> before;
+    std::vector<std::optional<int>> linked; // as last known, pair by pair
     std::size_t frames = input.frames();
     if (command.frames)
         frames = std::min<std::size_t>(frames, std::size_t{*command.frames} + 1);
-    for (std::size_t frame = 0; frame < frames && !guard.interrupted(); ++frame)
+    for (std::size_t frame = 0; frame < frames; ++frame)
     {
         if (frame % command.every != 0 && frame + 1 != frames)
             continue;
-        try
-        {
+        ++out.wanted;
+        if (guard.interrupted())
+            continue;
+        naming_frame(input, frame, [&] {
             std::vector<glm::dvec3> now = frame == 0 ? first : input.positions(frame);
             Judged judged{frame, judge.look(now)};
-            if (!all.empty() && all.back().frame + 1 == frame) // else the way was hardly straight
+            if (!out.frames.empty() &&
+                out.frames.back().frame + 1 == frame) // else the way was hardly straight
                 judged.passed = judge.between(before, now);
             before = std::move(now);
-            judged.relinked = !all.empty() && changed(all.back().verdict.linking, judged.verdict.linking);
-            all.push_back(std::move(judged));
-        }
-        catch (const Error& error)
-        {
-            const std::string text = error.what(), name = input.name(frame);
-            throw Error(error.code(), text.starts_with(name) ? text : name + ": " + text);
-        }
+            judged.relinked = relinked(linked, judged.verdict.linking);
+            out.frames.push_back(std::move(judged));
+        });
     }
-    return all;
+    return out;
 }
 
 std::string percent(double share) { return share < 0 ? "-" : number(100 * share, 3) + " %"; }
@@ -226,9 +260,9 @@ void print(const std::vector<Judged>& all, const judging::Sequence& input, const
         rows.push_back({std::to_string(all[k].frame), std::to_string(v.intersecting),
                         std::to_string(all[k].passed.size()), distance_text(v.nearest),
                         distance_text(v.nearest_parts), percent(v.stretch), percent(v.volume_change),
-                        all[k].relinked     ? "changed"
-                        : v.linking.empty() ? "-"
-                                            : "as before"});
+                        all[k].relinked               ? "changed"
+                        : v.linking.empty() || k == 0 ? "-"
+                                                      : "as before"});
     }
     std::cout << surface.triangles.size() << " triangles in " << surface.parts << " parts, "
               << surface.borders.size() << " borders\n"
@@ -236,33 +270,54 @@ void print(const std::vector<Judged>& all, const judging::Sequence& input, const
     print_first(all, input, surface);
 }
 
+std::string frames_text(std::size_t count)
+{
+    return std::to_string(count) + (count == 1 ? " frame" : " frames");
+}
+
+void print_answer(const Findings& found, std::size_t bad, const StepReport* run)
+{
+    const std::string frames = frames_text(found.frames.size());
+    std::cout << (bad == 0 ? "Nothing passes through anything in " + frames + ".\n"
+                           : "In " + std::to_string(bad) + " of " + frames +
+                                 " something passes through, or has passed since the frame before.\n");
+    if (found.frames.size() < found.wanted)
+        std::cout << "Interrupted: " << frames_text(found.wanted) << " were to be judged.\n";
+    if (run && !sound(run->status))
+        std::cout << "The run itself is " << to_string(run->status) << ": " << run->reason << "\n";
+}
+
 int judge_input(const JudgeCommand& command)
 {
     const auto input = open_input(command);
     const std::vector<glm::dvec3> first = input->positions(0);
-    const judging::Judge judge(input->triangles(), first);
-    const std::vector<Judged> all = judge_all(command, *input, judge, first);
-    const auto bad = std::count_if(all.begin(), all.end(), [](const Judged& j) { return !j.clean(); });
+    const judging::Judge judge =
+        naming_frame(*input, 0, [&] { return judging::Judge(input->triangles(), first); });
+    const Findings found = judge_all(command, *input, judge, first);
+    const auto bad = static_cast<std::size_t>(
+        std::count_if(found.frames.begin(), found.frames.end(), [](const Judged& j) { return !j.clean(); }));
+    const auto* scene = dynamic_cast<const SceneFrames*>(input.get());
+    const std::optional<StepReport> run = scene ? std::optional(scene->report()) : std::nullopt;
     if (command.json)
     {
         Json list = Json::array();
-        for (const Judged& judged : all)
+        for (const Judged& judged : found.frames)
             list.push_back(verdict_json(judged, *input, judge.surface()));
         std::cout << to_text({{"taut", TAUT_VERSION},
                               {"input", command.input.string()},
-                              {"frames", all.size()},
+                              {"status", run ? Json(to_string(run->status)) : Json()},
+                              {"frames", found.frames.size()},
+                              {"frames_wanted", found.wanted},
                               {"frames_with_crossings", bad},
                               {"judged", list}});
     }
     else
     {
-        print(all, *input, judge.surface());
-        std::cout << (bad == 0
-                          ? "Nothing passes through anything in " + std::to_string(all.size()) + " frames.\n"
-                          : "In " + std::to_string(bad) + " of " + std::to_string(all.size()) +
-                                " frames something passes through, or has passed since the frame before.\n");
+        print(found.frames, *input, judge.surface());
+        print_answer(found, bad, run ? &*run : nullptr);
     }
-    return bad == 0 ? kDone : kNotSound;
+    const bool whole = found.frames.size() == found.wanted;
+    return bad == 0 && whole && (!run || sound(run->status)) ? kDone : kNotSound;
 }
 
 } // namespace

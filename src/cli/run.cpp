@@ -1,6 +1,7 @@
 // taut run: simulates a scene; writes meshes, a report and pictures.
 
 #include "taut/cli/command.hpp"
+#include "taut/cli/contact_watch.hpp"
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/interrupt.hpp"
 #include "taut/cli/mesh_sequence.hpp"
@@ -87,7 +88,8 @@ public:
           meshes_(shown_scene(simulation.scene()), options.folder),
           looks_(frames),
           watch_(frames),
-          tunnelling_(simulation, frames)
+          tunnelling_(simulation, frames),
+          contact_(simulation, frames)
     {
         if (simulation.solvers() > 0)
             springs_ = scene_springs(simulation.scene());
@@ -120,6 +122,7 @@ public:
     const std::vector<Look>& looks() const { return looks_.list(); }
     const SoundnessWatch& watch() const { return watch_; }
     const Crossings& crossings() const { return tunnelling_.found(); }
+    const ContactWatch& contact() const { return contact_; }
 
 private:
     bool goes_on(const InterruptGuard& guard) const
@@ -142,8 +145,10 @@ private:
             watch_.after(done_, simulation_.whole());
         if (finite_ && looks_.due(done_))
             look();
-        if (finite_)
-            tunnelling_.after(done_);
+        if (!finite_)
+            return;
+        tunnelling_.after(done_);
+        contact_.after(done_);
     }
 
     /// Of methods that solve linear systems, which neither sleep nor let springs flow.
@@ -200,6 +205,7 @@ private:
     Looks looks_;
     SoundnessWatch watch_;
     TunnelWatch tunnelling_;
+    ContactWatch contact_;
     std::vector<StretchElement> springs_; ///< as of `looked_torn_`
     std::uint64_t looked_torn_ = 0;
     std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
@@ -287,10 +293,7 @@ void describe_parts(const Simulation& simulation, RunResult& result)
 }
 
 /// What went wrong is worth a look, too, where there is a place for every vertex.
-bool drawable(Status status)
-{
-    return sound(status) || status == Status::unconverged;
-}
+bool drawable(Status status) { return sound(status) || status == Status::unconverged; }
 
 void draw(const RunCommand& options, const World& world, const std::shared_ptr<Device>& device,
           const Runner& runner, RunResult& result)
@@ -318,6 +321,7 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     describe_soundness(runner, result);
     describe_parts(*simulation, result);
     describe_crossings(result.crossings, result.report.warnings, result.messages);
+    runner.contact().describe(result.report, result.messages);
     result.asleep = simulation->asleep();
     result.frames_wanted = frames;
     if (runner.done() < frames && sound(result.report.status))

@@ -189,8 +189,8 @@ std::string summary(const RunResult& result)
                 std::to_string(report.solver.iterations) + " iterations, " +
                 std::to_string(report.solver.most) + " at most\n";
     if (const ContactCounts& c = report.contacts; c.any)
-        text += "contact " + std::to_string(c.pairs) + " pairs of " + std::to_string(c.candidates) +
-                " candidates, " + std::to_string(c.missing + c.cut + c.crowded) + " missing; depth " +
+        text += "contact " + std::to_string(c.pairs) + " pairs, " + std::to_string(c.candidates) +
+                " triangles compared, " + std::to_string(c.missing + c.cut + c.crowded) + " missing; depth " +
                 number(1000 * report.contact_depth, 3) + " mm\n";
     if (report.torn > 0)
         text += "torn    at " + std::to_string(report.torn) + " vertices\n";

@@ -87,6 +87,25 @@ bool coplanar_meet(const glm::dvec3& p, const glm::dvec3& q, const std::array<gl
     return true;
 }
 
+/// Three points on one line have none in any projection.
+bool has_area(const std::array<glm::dvec3, 3>& t)
+{
+    return Flat(0).turn(t[0], t[1], t[2]) != 0 || Flat(1).turn(t[0], t[1], t[2]) != 0 ||
+           Flat(2).turn(t[0], t[1], t[2]) != 0;
+}
+
+/// A triangle without area is its edges: each must be in one plane with the segment to meet it.
+bool meets_an_edge(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t)
+{
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        const glm::dvec3 &a = t[k], &b = t[(k + 1) % 3];
+        if (orientation(p, q, a, b) == 0 && coplanar_meet(p, q, {a, b, b}))
+            return true;
+    }
+    return false;
+}
+
 } // namespace
 
 int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d)
@@ -112,7 +131,7 @@ bool segment_meets_triangle(const glm::dvec3& p, const glm::dvec3& q, const std:
     if (at_p * at_q > 0)
         return false;
     if (at_p == 0 && at_q == 0)
-        return coplanar_meet(p, q, t);
+        return has_area(t) ? coplanar_meet(p, q, t) : meets_an_edge(p, q, t);
     // The line through p and q meets the plane in one point, which the segment has: is it in the triangle?
     const int s0 = orientation(p, q, t[0], t[1]), s1 = orientation(p, q, t[1], t[2]),
               s2 = orientation(p, q, t[2], t[0]);

@@ -60,7 +60,9 @@ struct Cubic
         if ((first > 0) == (last > 0) && first != 0 && last != 0)
             return std::nullopt;
         if (first == 0 && last == 0)
-            return std::nullopt; // flat all the way
+            return std::nullopt; // in one plane all the way
+        if (first == 0)
+            return low;
         for (int i = 0; i < 60; ++i)
         {
             const double middle = (low + high) / 2;

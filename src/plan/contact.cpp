@@ -1,10 +1,10 @@
-// Surfaces that meet: pairs are found once a step, and pushed apart in every sweep.
+// Surfaces that meet: pairs are found `contact.searches` times a step, and pushed apart in every sweep.
 //
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014 (contacts as
 //   constraints of positions); Tonge, Benevolenski, Voroshilov. SIGGRAPH 2012 (mass splitting). Each kernel
 //   of kernels/contact says more.
-// Departures: nothing forbids a crossing; what is found once a step is missed where surfaces come closer than
-//   its skin allows for (docs/contact.md, "Limits").
+// Departures: nothing forbids a crossing; what comes closer between two searches than the skin allows for is
+//   missed (docs/contact.md, "Limits").
 
 #include "taut/plan/contact.hpp"
 
@@ -37,7 +37,6 @@ constexpr std::string_view kEffect = "contact";
 constexpr double kSkin = 0.5;
 /// Rows that one group can scan: 128 lanes, two loops of at most half of kMaxLoopTrips each.
 constexpr std::uint32_t kMostRows = 1u << 20;
-constexpr std::uint32_t kMostPairs = 1u << 21;
 constexpr std::uint32_t kLeastCapacity = 1u << 12;
 static_assert(TAUT_CONTACT_GROUP == kGroupSize);
 std::vector<ContactLeaf> leaves_of(const PlanBuilder& b)
@@ -114,7 +113,7 @@ std::uint32_t capacity_for(const PlanBuilder& b, std::size_t triangles)
     const std::uint32_t asked = b.options.contact_capacity;
     const auto usual =
         std::max<std::uint32_t>(kLeastCapacity, leaves_for(static_cast<std::uint32_t>(2 * triangles)));
-    return std::min(asked > 0 ? asked : usual, kMostPairs);
+    return std::min(asked > 0 ? asked : usual, kMostContactPairs);
 }
 
 /// Adds a pass over the pairs that are listed, or over the vertices while there are any.

@@ -5,6 +5,9 @@
 
 namespace taut {
 
+/// Pairs that a list may hold at most.
+inline constexpr std::uint32_t kMostContactPairs = 1u << 21;
+
 /// m: how far the surface of a body keeps from the middle of its gap to another one.
 double radius_of(const Scene& scene, const Body& body);
 /// Coulomb coefficient of the surface of a body.

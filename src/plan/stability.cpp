@@ -6,6 +6,7 @@
 //   (Jury). Velocity Verlet asks for h^2 k (1 + a) < 4 (1 + a^2) with a = 1 - h c / 2, which follows from it.
 #include "taut/plan/stability.hpp"
 
+#include "taut/plan/added_elements.hpp"
 #include "taut/plan/added_stiffness.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -126,6 +127,7 @@ double stable_step(const RateBounds& rates)
 
 Substeps stable_substeps(const Scene& scene)
 {
+    check_added_elements(scene);
     const MethodSettings& method = scene.method;
     const std::uint32_t asked = method.substeps == 0 ? automatic_substeps(scene) : method.substeps;
     if (method.stability == "ignore")
@@ -143,11 +145,11 @@ Substeps stable_substeps(const Scene& scene)
             ? ", more than the " + std::to_string(kMostSubsteps) +
                   " there may be; use an implicit or position-based method, or softer springs"
             : "; set method.substeps to that, or method.stability to \"substep\"";
-    throw Error(ErrorCode::unstable_timestep, "method \"" + method.type + "\": a substep is " +
-                                   shown(scene.timestep / asked, 4) +
-                                   " s, the longest stable one " + shown(largest, 4) + " s (" +
-                                   shown(kStableShare) + " of what the stiffest vertex allows); it takes " +
-                                   shown(needed) + " substeps" + way_out);
+    throw Error(ErrorCode::unstable_timestep,
+                "method \"" + method.type + "\": a substep is " + shown(scene.timestep / asked, 4) +
+                    " s, the longest stable one " + shown(largest, 4) + " s (" + shown(kStableShare) +
+                    " of what the stiffest vertex allows); it takes " + shown(needed) + " substeps" +
+                    way_out);
 }
 
 } // namespace taut

@@ -1,6 +1,7 @@
 // What a world knows of surfaces that meet, and lists of them that grow between steps.
 
 #include "taut/kernels/shared/contact_rows.h"
+#include "taut/plan/contact_scene.hpp"
 #include "taut/world/world_impl.hpp"
 
 #define TAUT_HOST
@@ -11,13 +12,11 @@
 namespace taut {
 namespace {
 
-constexpr std::uint32_t kMostPairs = 1u << 21; // as PlanOptions::contact_capacity says
-
 /// The least power of two above twice the pairs found: the next steps are likely to find more.
 std::uint32_t roomy(std::uint32_t found)
 {
     std::uint32_t capacity = 1;
-    while (capacity <= 2 * std::uint64_t(found) && capacity < kMostPairs)
+    while (capacity <= 2 * std::uint64_t(found) && capacity < kMostContactPairs)
         capacity *= 2;
     return capacity;
 }
@@ -58,17 +57,27 @@ void World::Impl::carry_contacts(const ContactLists& before, bool same_vertices)
     device->write(buffers[plan.contact.lost], 0, before.lost);
 }
 
-/// One word says whether the lists are more than half full: then there are larger ones from the next step on.
+/// Two words say whether the lists are more than half full, or were too short in a search of the step: then
+/// there are longer ones from the next step on.
 void World::Impl::grow_contacts()
 {
     const PlanContact& contact = plan.contact;
-    if (contact.control == kNoBuffer || contact.capacity >= kMostPairs)
+    if (contact.control == kNoBuffer || contact.capacity >= kMostContactPairs)
         return;
+    const auto words = device->read<std::uint32_t>(buffers[contact.control], TAUT_CONTACT_WORDS);
+    const std::uint32_t missing = words[TAUT_CONTACT_MISSING] - contacts_missing;
+    contacts_missing = words[TAUT_CONTACT_MISSING];
+    // No search of the step has found more than the list and what it missed.
     const std::uint32_t found =
-        device->read<std::uint32_t>(buffers[contact.control], 1, TAUT_CONTACT_FOUND * 4).front();
-    if (2 * std::uint64_t(found) <= contact.capacity)
-        return;
-    options.contact_capacity = roomy(found);
+        std::max(words[TAUT_CONTACT_FOUND], missing > 0 ? contact.capacity + missing : 0);
+    if (2 * std::uint64_t(found) > contact.capacity)
+        hold_contacts(roomy(found));
+}
+
+/// Plans anew with lists of `capacity` pairs; what is listed stays.
+void World::Impl::hold_contacts(std::uint32_t capacity)
+{
+    options.contact_capacity = capacity;
     TornScene same{scene, std::vector<std::uint32_t>(plan.vertex_count), 0};
     for (std::uint32_t v = 0; v < plan.vertex_count; ++v)
         same.origin[v] = v;

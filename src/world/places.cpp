@@ -24,7 +24,7 @@ void require_all(std::span<const glm::dvec3> values, std::size_t count, double l
                                               std::to_string(count) + " vertices; give one a vertex");
     for (std::size_t v = 0; v < values.size(); ++v)
         if (!(glm::length(values[v]) <= largest)) // no number is not either
-            throw Error(ErrorCode::bad_input, who + ": that of vertex " + std::to_string(v) +
+            throw Error(ErrorCode::bad_input, who + ": what is given for vertex " + std::to_string(v) +
                                                   " is not finite, or too large for a simulation");
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace taut {
@@ -20,8 +21,9 @@ class Moved;
 /// Nothing here waits for a device: orders go with the next step's submission, and steps in flight or
 /// recorded keep their own. Every function throws Error{bad_input}, naming the argument, and changes nothing
 /// then, where something is not there, not as long as asked for or not finite, where a keyframe of the scene
-/// moves it, and where a step would take it more than kFastestMove times the time step away or turn it by
-/// more than half a turn: to put something elsewhere at once, restore() a state.
+/// moves it, and where a step (of the time step at the order) would take its middle more than kFastestMove
+/// times the time step away or turn it by more than half a turn: to put something elsewhere at once,
+/// restore() a state.
 class ProgramMoves
 {
 public:
@@ -41,7 +43,8 @@ public:
     Keyframe collider_pose(std::size_t collider) const;
 
     /// m, world: of all vertices of pins with Pin::moved_by_program, body by body, pin by pin, in the order
-    /// of Pin::vertices. Between two targets a vertex goes straight.
+    /// of Pin::vertices. Between two targets a vertex goes straight. Where cloth tears, pins may have more
+    /// vertices after a step: pin_targets().size() says how many targets there are.
     void set_pin_targets(std::span<const glm::dvec3> targets);
     /// The same of one pin: `pin` counts within Body::pins.
     void set_pin_targets(std::size_t body, std::size_t pin, std::span<const glm::dvec3> targets);
@@ -51,15 +54,18 @@ public:
     std::vector<glm::dvec3> pin_targets() const;
 
     /// m/s at the end of the next step, linear from what it is. Error{unsupported} in scenes without the
-    /// effect
-    /// (`wind.density` above 0 and a body with `drag`).
+    /// effect (`wind.density` above 0 and a body with `drag`).
     void set_wind(const glm::dvec3& velocity);
 
 protected:
     ProgramMoves() = default;
     ~ProgramMoves() = default;
-    ProgramMoves(ProgramMoves&&) = default;
-    ProgramMoves& operator=(ProgramMoves&&) = default;
+    ProgramMoves(ProgramMoves&& other) noexcept : moved_(std::exchange(other.moved_, nullptr)) {}
+    ProgramMoves& operator=(ProgramMoves&& other) noexcept
+    {
+        moved_ = std::exchange(other.moved_, nullptr);
+        return *this;
+    }
 
     Moved* moved_ = nullptr; ///< of the world's own, which outlives every call
 

@@ -43,10 +43,7 @@ void World::Impl::restart_clock(const Clock& before)
              now.lead};
 }
 
-Pace World::Impl::pace() const
-{
-    return {scene.timestep / plan.substeps, scene.gravity, plan.velocity_lead};
-}
+Pace World::Impl::pace() const { return {scene.timestep / plan.substeps, scene.gravity, plan.velocity_lead}; }
 
 /// That of a state; one without a clock is as the world's own.
 Pace World::Impl::pace(const Clock& of) const
@@ -191,13 +188,13 @@ void World::Impl::count_step()
 void World::Impl::after_step()
 {
     count_step();
-    grow_contacts();
-    if (plan.torn == kNoBuffer)
-        return;
-    const std::uint32_t count = device->read<std::uint32_t>(buffers[plan.torn], 1).front();
-    if (count == overlong)
-        return;
+    const bool tears = plan.torn != kNoBuffer;
+    const std::uint32_t count = tears ? device->read<std::uint32_t>(buffers[plan.torn], 1).front() : 0;
+    const bool longer = tears && count != overlong; // asked before lists grow, which begins that count anew
     overlong = count;
+    grow_contacts();
+    if (!longer)
+        return;
     const TornScene next = tear(scene, positions(all()));
     if (next.splits > 0)
         replace_scene(next);
@@ -220,7 +217,8 @@ Scene resolved(const Scene& scene)
 bool has_constraints(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
-        return b.material.stretch_stiffness > 0 || b.material.bending_stiffness > 0 || !b.springs.empty();
+        return b.material.stretch_stiffness > 0 || b.material.bending_stiffness > 0 || !b.springs.empty() ||
+               !b.elements.empty();
     });
 }
 
@@ -263,7 +261,7 @@ void World::step()
 std::vector<EffectTime> World::step_timed()
 {
     for (const InputWrite& write : impl_->take_inputs())
-        impl_->device->write(impl_->buffers[write.buffer], 0, write.bytes);
+        impl_->device->write(impl_->buffers[write.buffer], write.offset, write.bytes);
     std::vector<EffectTime> times;
     for (const EffectCost& effect : impl_->plan.effects)
         times.push_back({effect.name, 0, 0});

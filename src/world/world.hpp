@@ -45,6 +45,9 @@ struct WorldState
     std::vector<std::byte> coasting = {}; ///< of Plan::coasting; nothing follows from it but velocities()
     std::vector<std::byte> owed = {};     ///< of Plan::owed, a vertex; missing: nothing is owed
     ProgramMotion moved = {}; ///< orders that wait for the next step among it; empty: nothing was moved
+    std::uint32_t contact_capacity = 0; ///< pairs that lists of contact hold; 0: as the world has them
+    double push = 0, kick = 0;          ///< as WorldDrive has them
+    std::uint64_t placed = 0;           ///< as WorldDrive::placed
 };
 
 /// What kernels counted since the world was made.
@@ -140,7 +143,8 @@ public:
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
 
-    /// Advances by one time step: one submission, returns without waiting.
+    /// Advances by one time step: one submission. Returns without waiting, but for cloth that can tear and
+    /// scenes with contact: there it waits for a word that says whether the plan must change.
     void step();
     /// The same with a timestamp around every dispatch; waits.
     std::vector<EffectTime> step_timed();
@@ -200,10 +204,11 @@ public:
 
     /// Puts all vertices [m, in the order of the scene], or those of a body [in that of its mesh], elsewhere.
     /// Velocities at the step stay, and so does all else that a method keeps. Held vertices are put there,
-    /// too, and held there; led ones are at their targets again after the next step. Waits for nothing: they
-    /// go with the next step, and until then position_buffer() has those of before. Error{bad_input} where
-    /// there are not as many as vertices, where one is not finite or further than kFarthest from the origin;
-    /// nothing changes then. Energies are not judged from then on (WorldDrive::placed).
+    /// too, and held there; vertices of moving pins return to their targets with the next step. Waits for
+    /// nothing: they go with the next step, and until then position_buffer() has those of before.
+    /// Error{bad_input} where there are not as many as vertices, where one is not finite or further than
+    /// kFarthest from the origin; nothing changes then. Energies are not judged from then on
+    /// (WorldDrive::placed).
     void set_positions(std::span<const glm::dvec3> positions);
     void set_positions(std::size_t body, std::span<const glm::dvec3> positions);
     static constexpr double kFarthest = 1e12; ///< m

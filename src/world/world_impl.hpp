@@ -50,6 +50,7 @@ struct World::Impl
     std::vector<std::uint32_t> place; ///< in the plan's order, of each vertex of the scene; for forces
     bool forces_changed = false;      ///< since they were last handed over
     double force_sum = 0;             ///< N, of their lengths
+    std::uint32_t contacts_missing = 0; ///< of TAUT_CONTACT_MISSING, when the host looked last
     double push = 0;                  ///< N s, as WorldDrive::push
     double kick = 0;                  ///< sqrt(J), as WorldDrive::kick
     std::uint64_t placings = 0;
@@ -76,6 +77,7 @@ struct World::Impl
     ContactLists contact_lists() const;
     void carry_contacts(const ContactLists& before, bool same_vertices);
     void grow_contacts();
+    void hold_contacts(std::uint32_t capacity);
     Vertices all() const { return {0, plan.vertex_count}; }
     Vertices of_body(std::size_t body, const char* who) const;
     void put_at(const Vertices& where, std::span<const glm::dvec3> x, const char* who);

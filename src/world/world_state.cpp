@@ -1,6 +1,7 @@
 // The state of a world as values: out of it, into it, and from one scene into the next after a tear.
 
 #include "taut/linear/cg_state.hpp"
+#include "taut/plan/contact_scene.hpp"
 #include "taut/world/world_impl.hpp"
 
 #include <glm/geometric.hpp>
@@ -108,6 +109,10 @@ WorldState World::state() const
     out.coasting = impl_->raw(plan.coasting);
     out.owed = impl_->raw(plan.owed);
     out.moved = impl_->program.values();
+    out.contact_capacity = plan.contact.capacity;
+    out.push = impl_->push;
+    out.kick = impl_->kick;
+    out.placed = impl_->placings;
     return out;
 }
 
@@ -164,6 +169,13 @@ void World::restore(const WorldState& state)
                                               std::to_string(state.step) +
                                               ": it must be finite and begin at that step or before");
     impl_->program.check(impl_->scene, state.moved);
+    if (state.contact_capacity > kMostContactPairs)
+        throw Error(ErrorCode::bad_input, "restore: contact_capacity is " +
+                                              std::to_string(state.contact_capacity) +
+                                              "; it must be at most " + std::to_string(kMostContactPairs));
+    // Pairs that a shorter list would miss are part of how it goes on.
+    if (plan.contact.control != kNoBuffer && state.contact_capacity > plan.contact.capacity)
+        impl_->hold_contacts(state.contact_capacity);
     impl_->program.assign(impl_->scene, state.moved);
     impl_->placed = {};
     for (const auto& [buffer, bytes] : parts)
@@ -184,6 +196,9 @@ void World::restore(const WorldState& state)
                                  : std::vector<std::byte>(plan.buffers[plan.owed].bytes));
     impl_->steps = state.step;
     impl_->guessed = false;
+    impl_->push = state.push;
+    impl_->kick = state.kick;
+    impl_->placings = state.placed;
     const bool clocked = state.clock.timestep > 0;
     impl_->clock = clocked ? state.clock : Clock{0, 0, impl_->scene.timestep, impl_->scene.gravity};
     const Pace before = impl_->pace(impl_->clock);

@@ -68,11 +68,35 @@ TEST_CASE("a scene is run and judged: one sheet falls through another")
     CHECK_THAT(few.out, Contains("Nothing passes through anything in 4 frames."));
 }
 
+TEST_CASE("a run whose surfaces were to meet and cross is unconverged, and says which")
+{
+    const Folder folder;
+    const std::string crossed = R"({"taut": 1, "duration": 0.1,
+        "contact": {"thickness": 0.005}, "bodies": [
+        {"name": "wall", "grid": {"cells": [4, 4], "size": [1, 1]}, "pins": [{"edges": ["top", "bottom"]}]},
+        {"name": "sheet", "grid": {"cells": [3, 3], "size": [0.4, 0.4]},
+         "transform": {"rotate": {"axis": [1, 0, 0], "degrees": -90}, "translate": [0.03, 0.06, 0.05]}}]})";
+    folder.file("crossed.json", crossed);
+    const Result result =
+        folder.taut({"run", "crossed.json", "--device", "cpu:serial", "--no-picture", "--json"});
+    CHECK(result.status == 1);
+    const auto json = program::parse(result.out);
+    CHECK(json["status"] == "unconverged");
+    CHECK_THAT(json["reason"].get<std::string>(),
+               Contains("bodies[0] (\"wall\") and bodies[1] (\"sheet\")") && Contains("at the start"));
+    CHECK_THAT(json["messages"].dump(), Contains("at the start"));
+    // Nobody asked them to meet.
+    const std::size_t begin = crossed.find("\"contact\""), end = crossed.find("\"bodies\"");
+    folder.file("ghosts.json", crossed.substr(0, begin) + crossed.substr(end));
+    CHECK(folder.taut({"run", "ghosts.json", "--device", "cpu:serial", "--no-picture"}).status == 0);
+}
+
 TEST_CASE("what cannot be judged is refused by name")
 {
     const Folder folder;
     folder.file("a.obj", triangle_at(1));
     folder.file("note.txt", "");
+    folder.file("a.pc2", "");
     const auto refusal = [&](const std::vector<std::string>& arguments) {
         const Result result = folder.taut(arguments);
         CHECK(result.status == 2);
@@ -83,6 +107,9 @@ TEST_CASE("what cannot be judged is refused by name")
     CHECK_THAT(refusal({"judge", "none.json"}), Contains("none.json"));
     CHECK_THAT(refusal({"judge", "a.pc2"}), Contains("needs --mesh"));
     CHECK_THAT(refusal({"judge", ".", "--mesh", "a.obj"}), Contains("--mesh goes with a point cache"));
+    CHECK_THAT(refusal({"judge", "gone"}), Contains("there is no gone"));
+    CHECK_THAT(refusal({"judge", ".", "--set", "duration=1"}),
+               Contains("--set and --device go with a scene"));
     CHECK_THAT(refusal({"judge", ".", "--every", "0"}), Contains("--every"));
     folder.file("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK_THAT(refusal({"judge", "."}), Contains("b.obj: its faces are not those of"));

@@ -3,6 +3,7 @@
 #include "conformance/tolerances.hpp"
 #include "support/catch.hpp"
 #include "support/devices.hpp"
+#include "support/expect.hpp"
 #include "support/nearest.hpp"
 
 #include "taut/report/report.hpp"
@@ -244,6 +245,46 @@ TEST_CASE("lists that are too short are counted, grow, and then miss nothing")
     small.step();
     CHECK(small.contacts().missing == first.missing);
     CHECK(full.missing == 0);
+}
+
+TEST_CASE("lists that an early search of a step overflows grow, too")
+{
+    // They come near and part again within a step: the last of its searches finds less.
+    Scene scene = two_sheets(0.02);
+    scene.timestep = 0.1;
+    scene.gravity = glm::dvec3(0);
+    scene.contact.searches = 10;
+    scene.bodies[1].velocity = {0, -2, 0};
+    WorldOptions options;
+    options.plan.contact_capacity = 64;
+    World world(scene, test_device("cpu:serial"), options);
+    for (int step = 0; step < 3 && world.contacts().missing == 0; ++step)
+        world.step();
+    const ContactCounts counts = world.contacts();
+    REQUIRE(counts.missing > 0);
+    CHECK(counts.capacity > 64);
+}
+
+TEST_CASE("a state of a world with long lists goes on in one with short lists, bit for bit")
+{
+    Scene scene = two_sheets(0.004);
+    WorldOptions options;
+    options.plan.contact_capacity = 8;
+    World grown(scene, test_device("cpu:serial"), options);
+    grown.step();
+    const WorldState state = grown.state();
+    World fresh(scene, test_device("cpu:serial"), options);
+    fresh.restore(state);
+    CHECK(fresh.contacts().capacity == grown.contacts().capacity);
+    for (int step = 0; step < 5; ++step)
+    {
+        grown.step();
+        fresh.step();
+    }
+    CHECK(fresh.positions() == grown.positions());
+    WorldState wrong = state;
+    wrong.contact_capacity = 1u << 30;
+    CHECK_THROWS_AS(fresh.restore(wrong), Error);
 }
 
 TEST_CASE("lists that grow in time change nothing")

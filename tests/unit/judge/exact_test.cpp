@@ -130,6 +130,10 @@ TEST_CASE("what touches meets: corners, edges, planes, triangles without area")
     CHECK(segment_meets_triangle({4, 4, 4}, {5, 5, 5}, needle));
     CHECK_FALSE(segment_meets_triangle({4.5, 4.5, 4.5}, {5, 5, 5}, needle));
     CHECK_FALSE(segment_meets_triangle({1, 0, 0}, {1, 0, 2}, needle));
+    // Skew to the needle, though each of its projections meets it.
+    const Points along{glm::dvec3(0, 0, 0), {1, 0, 0}, {3, 0, 0}};
+    CHECK_FALSE(segment_meets_triangle({1, -1, 1}, {2, 1, -0.5}, along));
+    CHECK(segment_meets_triangle({1, -1, 1}, {2, 1, -1}, along));
     CHECK(segment_meets_triangle({0, 0, 0}, {2, 2, 2}, point));
     CHECK_FALSE(segment_meets_triangle({0, 0, 0}, {2, 2, 3}, point));
 }

@@ -1,0 +1,123 @@
+#include "taut/cli/contact_watch.hpp"
+
+#include "taut/judge/crossings.hpp"
+#include "taut/plan/contact_scene.hpp"
+#include "taut/report/soundness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut::cli {
+namespace {
+
+constexpr std::uint64_t kLooks = 16;
+
+std::string name_of(const Scene& scene, std::uint32_t body)
+{
+    const std::string& name = scene.bodies[body].name;
+    return "bodies[" + std::to_string(body) + "]" + (name.empty() ? "" : " (\"" + name + "\")");
+}
+
+} // namespace
+
+ContactWatch::ContactWatch(const Simulation& simulation, std::uint64_t frames)
+    : simulation_(simulation),
+      frames_(frames),
+      wanted_(wants_contact(simulation.scene()))
+{
+    if (!wanted_)
+        return;
+    look(0);
+    at_start_ = most_;
+}
+
+void ContactWatch::after(std::uint64_t frame)
+{
+    if (wanted_ && (frame == frames_ || frame * kLooks / frames_ != (frame - 1) * kLooks / frames_))
+        look(frame);
+}
+
+/// Cloth that tears has other triangles than before.
+void ContactWatch::learn_surfaces()
+{
+    std::vector<judging::Triangle> triangles;
+    body_.clear();
+    const Scene& scene = simulation_.scene();
+    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
+    {
+        const auto first = static_cast<std::uint32_t>(body_.size());
+        for (const auto& t : scene.bodies[b].mesh.triangles)
+            triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        body_.resize(body_.size() + scene.bodies[b].mesh.positions.size(), b);
+    }
+    surface_ = judging::make_surface(body_.size(), std::move(triangles));
+}
+
+bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const
+{
+    const Scene& scene = simulation_.scene();
+    return a == b ? scene.bodies[a].contact.self
+                  : bodies_meet(scene) && takes_part(scene, scene.bodies[a]) &&
+                        takes_part(scene, scene.bodies[b]);
+}
+
+void ContactWatch::look(std::uint64_t frame)
+{
+    const std::vector<glm::dvec3> positions = simulation_.positions();
+    if (positions.size() != body_.size())
+        learn_surfaces();
+    for (const glm::dvec3& x : positions)
+        if (!(glm::length(x) < 1e30)) // the run ends as non_finite or diverged
+            return;
+    std::size_t count = 0;
+    std::string bodies;
+    for (const auto& [s, t] : judging::intersecting_triangles(surface_, positions))
+    {
+        const std::uint32_t a = body_[surface_.triangles[s][0]], b = body_[surface_.triangles[t][0]];
+        if (!meets(a, b))
+            continue;
+        ++count;
+        if (bodies.empty())
+            bodies = a == b ? name_of(simulation_.scene(), a) + " and itself"
+                            : name_of(simulation_.scene(), a) + " and " + name_of(simulation_.scene(), b);
+    }
+    if (count > most_)
+    {
+        most_ = count;
+        most_frame_ = frame;
+        most_bodies_ = bodies;
+    }
+}
+
+void ContactWatch::describe(StepReport& report, std::vector<std::string>& messages) const
+{
+    if (!wanted_)
+        return;
+    if (most_ > 0)
+    {
+        Soundness crossed;
+        crossed.status = Status::unconverged;
+        crossed.reason =
+            "surfaces that are to meet go through each other: " + std::to_string(most_) +
+            " pairs of triangles after frame " + std::to_string(most_frame_) + ", the first of " +
+            most_bodies_ +
+            (at_start_ > 0 ? "; they do so at the start, and contact does not part what has crossed"
+                           : "; raise contact.sweeps, contact.searches or method.substeps");
+        set_status(crossed, report);
+    }
+    if (at_start_ > 0)
+        messages.push_back(
+            "contact: at the start " + std::to_string(at_start_) +
+            " pairs of triangles that are to meet go through each other; move the bodies apart");
+    const ContactCounts& c = report.contacts;
+    if (c.missing > 0)
+        messages.push_back("contact: " + std::to_string(c.missing) +
+                           " pairs found no place in their list, which has grown since");
+    if (c.cut + c.crowded > 0)
+        messages.push_back(
+            "contact: " + std::to_string(c.cut + c.crowded) +
+            " searches or vertices met more than they may take; a thickness below the edges of the "
+            "mesh avoids that");
+}
+
+} // namespace taut::cli

@@ -1,0 +1,42 @@
+#pragma once
+// `taut run` looks whether surfaces that are to meet go through each other, and says so: exactly, by the
+// judge (docs/judge.md), not by the lists of contact, which hold only what is near on its right side.
+
+#include "taut/cli/simulation.hpp"
+#include "taut/judge/surface.hpp"
+#include "taut/report/report.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace taut::cli {
+
+class ContactWatch
+{
+public:
+    /// `simulation` at its start; outlives the watch. Without contact in the scene nothing is looked at.
+    ContactWatch(const Simulation& simulation, std::uint64_t frames);
+
+    /// After so many frames: looks at the last one, and sixteen times on the way.
+    void after(std::uint64_t frame);
+
+    /// Adds what was seen: crossings make a run `unconverged`, pairs that no list held are a message.
+    void describe(StepReport& report, std::vector<std::string>& messages) const;
+
+private:
+    void look(std::uint64_t frame);
+    void learn_surfaces();
+    bool meets(std::uint32_t a, std::uint32_t b) const;
+
+    const Simulation& simulation_;
+    std::uint64_t frames_;
+    bool wanted_;
+    judging::Surface surface_;
+    std::vector<std::uint32_t> body_;     ///< per vertex
+    std::size_t at_start_ = 0, most_ = 0; ///< pairs of triangles
+    std::uint64_t most_frame_ = 0;
+    std::string most_bodies_;
+};
+
+} // namespace taut::cli
