@@ -95,7 +95,8 @@ struct SurfacePair
     double rest_gap = 0; ///< m: how far apart they are kept
 };
 
-/// What has driven a world from outside since it was made, for accounts of energy.
+/// What has driven a world from outside since it was made, for accounts of energy. A state that is restored
+/// brings back push, kick and placed.
 struct WorldDrive
 {
     double time = 0;            ///< s
