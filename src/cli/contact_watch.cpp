@@ -1,6 +1,8 @@
 #include "taut/cli/contact_watch.hpp"
 
+#include "taut/cli/look_due.hpp"
 #include "taut/judge/crossings.hpp"
+#include "taut/judge/scene_triangles.hpp"
 #include "taut/plan/contact_scene.hpp"
 #include "taut/report/soundness.hpp"
 
@@ -9,8 +11,6 @@
 
 namespace taut::cli {
 namespace {
-
-constexpr std::uint64_t kLooks = 16;
 
 std::string name_of(const Scene& scene, std::uint32_t body)
 {
@@ -33,24 +33,16 @@ ContactWatch::ContactWatch(const Simulation& simulation, std::uint64_t frames)
 
 void ContactWatch::after(std::uint64_t frame)
 {
-    if (wanted_ && (frame == frames_ || frame * kLooks / frames_ != (frame - 1) * kLooks / frames_))
+    if (wanted_ && look_due(frame, frames_))
         look(frame);
 }
 
 /// Cloth that tears has other triangles than before.
 void ContactWatch::learn_surfaces()
 {
-    std::vector<judging::Triangle> triangles;
-    body_.clear();
-    const Scene& scene = simulation_.scene();
-    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
-    {
-        const auto first = static_cast<std::uint32_t>(body_.size());
-        for (const auto& t : scene.bodies[b].mesh.triangles)
-            triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-        body_.resize(body_.size() + scene.bodies[b].mesh.positions.size(), b);
-    }
-    surface_ = judging::make_surface(body_.size(), std::move(triangles));
+    judging::SceneTriangles all = judging::scene_triangles(simulation_.scene());
+    body_ = std::move(all.body);
+    surface_ = judging::make_surface(body_.size(), std::move(all.triangles));
 }
 
 bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const

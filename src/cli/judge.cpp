@@ -6,6 +6,7 @@
 #include "taut/cli/interrupt.hpp"
 #include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
+#include "taut/judge/scene_triangles.hpp"
 #include "taut/judge/sequence.hpp"
 #include "taut/report/report.hpp"
 #include "taut/scene/settings.hpp"
@@ -43,17 +44,7 @@ public:
         const Scene& scene = world_.scene();
         const double steps = std::ceil(scene.duration / scene.timestep - 1e-6);
         frames_ = 1 + static_cast<std::size_t>(command.frames ? *command.frames : std::max(steps, 0.0));
-        std::uint32_t first = 0;
-        for (const Body& body : scene.bodies)
-        {
-            for (judging::Triangle t : body.mesh.triangles)
-            {
-                for (std::uint32_t& v : t)
-                    v += first;
-                triangles_.push_back(t);
-            }
-            first += static_cast<std::uint32_t>(body.mesh.positions.size());
-        }
+        triangles_ = judging::scene_triangles(scene).triangles;
     }
 
     std::size_t frames() const override { return frames_; }

@@ -1,11 +1,11 @@
 #include "taut/cli/tunnelling.hpp"
 
+#include "taut/cli/look_due.hpp"
 #include "taut/report/warnings.hpp"
 
 namespace taut::cli {
 namespace {
 
-constexpr std::uint64_t kLooks = 16; // of a run at least
 constexpr std::size_t kSentences = 3;
 
 std::string where(const Crossing& c)
@@ -35,9 +35,8 @@ TunnelWatch::TunnelWatch(const Simulation& simulation, std::uint64_t frames)
 
 void TunnelWatch::after(std::uint64_t frame)
 {
-    const bool by_count = frame == frames_ || frame * kLooks / frames_ != (frame - 1) * kLooks / frames_;
     const double next = simulation_.time() + simulation_.scene().timestep;
-    if (by_count || next - looked_ > watch_.clear_for())
+    if (look_due(frame, frames_) || next - looked_ > watch_.clear_for())
         look(frame);
 }
 
