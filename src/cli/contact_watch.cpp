@@ -27,14 +27,24 @@ ContactWatch::ContactWatch(const Simulation& simulation, std::uint64_t frames)
 {
     if (!wanted_)
         return;
-    look(0);
+    before_ = simulation_.positions();
+    look(0, before_);
     at_start_ = most_;
 }
 
 void ContactWatch::after(std::uint64_t frame)
 {
-    if (wanted_ && look_due(frame, frames_))
-        look(frame);
+    if (!wanted_)
+        return;
+    std::vector<glm::dvec3> positions = simulation_.positions();
+    for (const glm::dvec3& x : positions)
+        if (!(glm::length(x) < 1e30)) // the run ends as non_finite or diverged
+            return;
+    if (before_.size() == positions.size()) // not where cloth has just torn
+        look_between(frame, positions);
+    if (look_due(frame, frames_))
+        look(frame, positions);
+    before_ = std::move(positions);
 }
 
 /// Cloth that tears has other triangles than before.
@@ -53,14 +63,24 @@ bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const
                         takes_part(scene, scene.bodies[b]);
 }
 
-void ContactWatch::look(std::uint64_t frame)
+bool ContactWatch::meets_passing(const judging::Passing& p) const
 {
-    const std::vector<glm::dvec3> positions = simulation_.positions();
+    return p.edges ? meets(body_[surface_.edges[p.a][0]], body_[surface_.edges[p.b][0]])
+                   : meets(body_[p.a], body_[surface_.triangles[p.b][0]]);
+}
+
+/// A sheet that falls flat and fast through another one crosses it in no frame.
+void ContactWatch::look_between(std::uint64_t frame, const std::vector<glm::dvec3>& positions)
+{
+    for (const judging::Passing& p : judging::passing_pairs(surface_, before_, positions))
+        if (meets_passing(p) && passed_++ == 0)
+            passed_frame_ = frame;
+}
+
+void ContactWatch::look(std::uint64_t frame, const std::vector<glm::dvec3>& positions)
+{
     if (positions.size() != body_.size())
         learn_surfaces();
-    for (const glm::dvec3& x : positions)
-        if (!(glm::length(x) < 1e30)) // the run ends as non_finite or diverged
-            return;
     std::size_t count = 0;
     std::string bodies;
     for (const auto& [s, t] : judging::intersecting_triangles(surface_, positions))
@@ -96,6 +116,17 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             (at_start_ > 0 ? "; they do so at the start, and contact does not part what has crossed"
                            : "; raise contact.sweeps, contact.searches or method.substeps");
         set_status(crossed, report);
+    }
+    if (most_ == 0 && passed_ > 0)
+    {
+        Soundness passed;
+        passed.status = Status::unconverged;
+        passed.reason =
+            "surfaces that are to meet have passed through each other: vertices and triangles, or edges, "
+            "in " +
+            std::to_string(passed_) + " places, first before frame " + std::to_string(passed_frame_) +
+            "; raise contact.searches, method.substeps, or shorten timestep";
+        set_status(passed, report);
     }
     if (at_start_ > 0)
         messages.push_back(

@@ -3,7 +3,7 @@
 // judge (docs/judge.md), not by the lists of contact, which hold only what is near on its right side.
 
 #include "taut/cli/simulation.hpp"
-#include "taut/judge/surface.hpp"
+#include "taut/judge/swept.hpp"
 #include "taut/report/report.hpp"
 
 #include <cstdint>
@@ -18,14 +18,17 @@ public:
     /// `simulation` at its start; outlives the watch. Without contact in the scene nothing is looked at.
     ContactWatch(const Simulation& simulation, std::uint64_t frames);
 
-    /// After so many frames: looks at the last one, and sixteen times on the way.
+    /// After so many frames: looks at the last one and sixteen on the way, and each time at what passed since
+    /// the frame before.
     void after(std::uint64_t frame);
 
     /// Adds what was seen: crossings make a run `unconverged`, pairs that no list held are a message.
     void describe(StepReport& report, std::vector<std::string>& messages) const;
 
 private:
-    void look(std::uint64_t frame);
+    void look(std::uint64_t frame, const std::vector<glm::dvec3>& positions);
+    void look_between(std::uint64_t frame, const std::vector<glm::dvec3>& positions);
+    bool meets_passing(const judging::Passing& passing) const;
     void learn_surfaces();
     bool meets(std::uint32_t a, std::uint32_t b) const;
 
@@ -36,6 +39,9 @@ private:
     std::vector<std::uint32_t> body_;     ///< per vertex
     std::size_t at_start_ = 0, most_ = 0; ///< pairs of triangles
     std::uint64_t most_frame_ = 0;
+    std::size_t passed_ = 0; ///< pairs that met between two frames
+    std::uint64_t passed_frame_ = 0;
+    std::vector<glm::dvec3> before_;
     std::string most_bodies_;
 };
 

@@ -91,6 +91,20 @@ TEST_CASE("a run whose surfaces were to meet and cross is unconverged, and says 
     CHECK(folder.taut({"run", "ghosts.json", "--device", "cpu:serial", "--no-picture"}).status == 0);
 }
 
+TEST_CASE("a sheet that is through another one within a frame is seen, though no frame shows it")
+{
+    const Folder folder;
+    std::string fast = falling_sheet(0.3);
+    fast.replace(fast.find("[0, -2, 0]"), 10, "[0, -200, 0]");
+    fast.replace(fast.find("\"duration\": 1"), 13, "\"duration\": 0.1, \"contact\": {\"thickness\": 0.003}");
+    folder.file("fast.json", fast);
+    const Result result =
+        folder.taut({"run", "fast.json", "--device", "cpu:serial", "--no-picture", "--json"});
+    CHECK(result.status == 1);
+    CHECK_THAT(program::parse(result.out)["reason"].get<std::string>(),
+               Contains("passed through each other"));
+}
+
 TEST_CASE("what cannot be judged is refused by name")
 {
     const Folder folder;
