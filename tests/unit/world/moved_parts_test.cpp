@@ -9,6 +9,8 @@
 #include "taut/world/sleep.hpp"
 #include "taut/world/split.hpp"
 
+#include <glm/geometric.hpp>
+
 using namespace taut;
 
 namespace {

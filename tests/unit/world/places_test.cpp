@@ -8,6 +8,8 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/world/world.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <limits>
 
 using namespace taut;
