@@ -9,6 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 namespace taut::elements_test {
