@@ -11,6 +11,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 using namespace taut;
 
 namespace {
