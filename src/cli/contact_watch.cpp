@@ -52,7 +52,7 @@ void ContactWatch::learn_surfaces()
 {
     judging::SceneTriangles all = judging::scene_triangles(simulation_.scene());
     body_ = std::move(all.body);
-    surface_ = judging::make_surface(body_.size(), std::move(all.triangles));
+    surface_ = judging::make_surface(body_.size(), std::move(all.triangles), std::move(all.led));
 }
 
 bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const

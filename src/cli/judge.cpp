@@ -7,8 +7,8 @@
 #include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/judge/scene_triangles.hpp"
-#include "taut/judge/sequence.hpp"
 #include "taut/report/report.hpp"
+#include "taut/scene/frame_source.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
 #include "taut/world/world.hpp"
@@ -34,7 +34,7 @@ struct JudgeCommand
 };
 
 /// The frames of a scene: its start and every step.
-class SceneFrames : public judging::Sequence
+class SceneFrames : public FrameSource
 {
 public:
     explicit SceneFrames(const JudgeCommand& command)
@@ -44,7 +44,9 @@ public:
         const Scene& scene = world_.scene();
         const double steps = std::ceil(scene.duration / scene.timestep - 1e-6);
         frames_ = 1 + static_cast<std::size_t>(command.frames ? *command.frames : std::max(steps, 0.0));
-        triangles_ = judging::scene_triangles(scene).triangles;
+        judging::SceneTriangles all = judging::scene_triangles(scene);
+        triangles_ = std::move(all.triangles);
+        led_ = std::move(all.led);
     }
 
     std::size_t frames() const override { return frames_; }
@@ -62,6 +64,7 @@ public:
         return world_.positions();
     }
     std::string name(std::size_t frame) const override { return file_ + ", step " + std::to_string(frame); }
+    const std::vector<bool>& led() const { return led_; } ///< per vertex
     StepReport report() const { return measure(world_); } ///< of the last step that was taken
 
 private:
@@ -69,9 +72,10 @@ private:
     World world_;
     std::size_t frames_ = 0;
     std::vector<judging::Triangle> triangles_;
+    std::vector<bool> led_;
 };
 
-std::unique_ptr<judging::Sequence> open_input(const JudgeCommand& command)
+std::unique_ptr<FrameSource> open_input(const JudgeCommand& command)
 {
     std::error_code ignored;
     const std::string extension = command.input.extension().string();
@@ -87,9 +91,9 @@ std::unique_ptr<judging::Sequence> open_input(const JudgeCommand& command)
                                               ? "a point cache needs --mesh, the mesh whose vertices it moves"
                                               : "--mesh goes with a point cache (.pc2) alone");
     if (cache)
-        return judging::open_point_cache(command.input, command.mesh);
+        return open_point_cache(command.input, command.mesh);
     if (folder)
-        return judging::open_folder(command.input);
+        return open_frame_folder(command.input);
     if (extension != ".json")
         throw Error(ErrorCode::bad_input, command.input.string() +
                                               " is not judged; name a scene (.json), a folder "
@@ -132,7 +136,7 @@ std::string feature_text(const auto& n, const judging::Surface& surface)
                    : "vertex " + std::to_string(n.a) + ", triangle " + std::to_string(n.b);
 }
 
-Json verdict_json(const Judged& judged, const judging::Sequence& input, const judging::Surface& surface)
+Json verdict_json(const Judged& judged, const FrameSource& input, const judging::Surface& surface)
 {
     const judging::FrameVerdict& v = judged.verdict;
     Json linking = Json::array();
@@ -158,7 +162,7 @@ Json verdict_json(const Judged& judged, const judging::Sequence& input, const ju
 
 /// Calls `act`; what it throws names the frame.
 template <class Act>
-auto naming_frame(const judging::Sequence& input, std::size_t frame, const Act& act)
+auto naming_frame(const FrameSource& input, std::size_t frame, const Act& act)
 {
     try
     {
@@ -178,7 +182,7 @@ struct Findings
 };
 
 /// Judges every frame that is due, until the end or Ctrl-C.
-Findings judge_all(const JudgeCommand& command, judging::Sequence& input, const judging::Judge& judge,
+Findings judge_all(const JudgeCommand& command, FrameSource& input, const judging::Judge& judge,
                    const std::vector<glm::dvec3>& first)
 {
     const InterruptGuard guard;
@@ -216,8 +220,7 @@ std::string distance_text(const judging::Nearest& n)
 }
 
 /// The first crossing of a frame, and the first between two.
-void print_first(const std::vector<Judged>& all, const judging::Sequence& input,
-                 const judging::Surface& surface)
+void print_first(const std::vector<Judged>& all, const FrameSource& input, const judging::Surface& surface)
 {
     const auto crossed =
         std::find_if(all.begin(), all.end(), [](const Judged& j) { return j.verdict.intersecting > 0; });
@@ -236,7 +239,7 @@ void print_first(const std::vector<Judged>& all, const judging::Sequence& input,
 }
 
 /// The head, and of many frames those with something to say: the first, the last, and where it changes.
-void print(const std::vector<Judged>& all, const judging::Sequence& input, const judging::Surface& surface)
+void print(const std::vector<Judged>& all, const FrameSource& input, const judging::Surface& surface)
 {
     std::vector<std::vector<std::string>> rows{{"frame", "intersecting pairs", "passed", "least distance",
                                                 "of parts", "stretch", "volume", "linking"}};
@@ -282,12 +285,13 @@ int judge_input(const JudgeCommand& command)
 {
     const auto input = open_input(command);
     const std::vector<glm::dvec3> first = input->positions(0);
+    const auto* scene = dynamic_cast<const SceneFrames*>(input.get());
+    const std::vector<bool> led = scene ? scene->led() : std::vector<bool>{};
     const judging::Judge judge =
-        naming_frame(*input, 0, [&] { return judging::Judge(input->triangles(), first); });
+        naming_frame(*input, 0, [&] { return judging::Judge(input->triangles(), first, led); });
     const Findings found = judge_all(command, *input, judge, first);
     const auto bad = static_cast<std::size_t>(
         std::count_if(found.frames.begin(), found.frames.end(), [](const Judged& j) { return !j.clean(); }));
-    const auto* scene = dynamic_cast<const SceneFrames*>(input.get());
     const std::optional<StepReport> run = scene ? std::optional(scene->report()) : std::nullopt;
     if (command.json)
     {

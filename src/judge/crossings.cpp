@@ -24,7 +24,7 @@ std::vector<std::array<std::uint32_t, 2>> intersecting_triangles(const Surface& 
         box.add(positions[b]);
         tree.overlapping(box, [&, a = a, b = b](std::uint32_t t) {
             const Triangle& other = surface.triangles[t];
-            if (has(other, a) || has(other, b) ||
+            if (has(other, a) || has(other, b) || !surface.judged(surface.edges[e], other) ||
                 !segment_meets_triangle(positions[a], positions[b],
                                         {positions[other[0]], positions[other[1]], positions[other[2]]}))
                 return;

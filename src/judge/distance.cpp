@@ -64,7 +64,7 @@ void Search::vertices()
         if (used[v])
             tree.near(box, squared, [&](std::uint32_t t) {
                 const Triangle& c = surface.triangles[t];
-                if (!has(c, v) && allowed(v, c[0]))
+                if (!has(c, v) && allowed(v, c[0]) && surface.judged(std::array{v}, c))
                     offer(distance_to_triangle(positions[v],
                                                {positions[c[0]], positions[c[1]], positions[c[2]]}),
                           false, v, t);
@@ -84,7 +84,8 @@ void Search::edges()
         const auto [a, b] = surface.edges[e];
         tree.near(boxes[e], squared, [&, a = a, b = b](std::uint32_t other) {
             const auto [c, d] = surface.edges[other];
-            if (other <= e || a == c || a == d || b == c || b == d || !allowed(a, c))
+            if (other <= e || a == c || a == d || b == c || b == d || !allowed(a, c) ||
+                !surface.judged(surface.edges[e], surface.edges[other]))
                 return;
             offer(distance_of_segments(positions[a], positions[b], positions[c], positions[d]), true, e,
                   other);

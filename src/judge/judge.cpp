@@ -61,11 +61,11 @@ std::vector<std::optional<int>> linking_of(const Surface& surface, const std::ve
 
 } // namespace
 
-Judge::Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first)
+Judge::Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first, std::vector<bool> led)
 {
     check_positions(first);
     check_triangles(triangles, first.size());
-    surface_ = make_surface(first.size(), std::move(triangles));
+    surface_ = make_surface(first.size(), std::move(triangles), std::move(led));
     for (const Edge& edge : surface_.edges)
         lengths_.push_back(length(edge, first));
     for (const std::uint32_t part : surface_.closed)
@@ -116,8 +116,9 @@ FrameVerdict Judge::look(const std::vector<glm::dvec3>& positions) const
     out.nearest_parts = nearest_pair(surface_, positions, true);
     for (std::uint32_t e = 0; e < surface_.edges.size(); ++e)
     {
+        const bool judged = surface_.judged(surface_.edges[e], surface_.edges[e]);
         const double change =
-            lengths_[e] > 0 ? std::abs(length(surface_.edges[e], positions) / lengths_[e] - 1) : 0;
+            judged && lengths_[e] > 0 ? std::abs(length(surface_.edges[e], positions) / lengths_[e] - 1) : 0;
         if (change > out.stretch)
         {
             out.stretch = change;

@@ -18,7 +18,7 @@ struct FrameVerdict
     std::vector<std::array<std::uint32_t, 2>> first_pairs; ///< the first ten of them
     Nearest nearest;                                       ///< of the whole surface
     Nearest nearest_parts;                                 ///< of different connected parts
-    double stretch = 0;               ///< largest of |l / l0 - 1| over the edges, l0 that of the first frame
+    double stretch = 0; ///< largest of |l / l0 - 1| over judged edges, l0 that of the first frame
     std::uint32_t stretched_edge = 0; ///< of Surface::edges
     double volume_change = -1;        ///< largest of |V / V0 - 1| over closed parts; -1: there is none
     /// Of each pair of borders, (0, 1), (0, 2), (1, 2), ...; nothing where they touch. Empty beyond
@@ -33,8 +33,9 @@ public:
     static constexpr std::size_t kMostBorders = 8; ///< linking numbers are left out where there are more
 
     /// `first`: positions of the first frame, m. Throws Error{bad_input} where a position is not finite or
-    /// beyond 1e30, a triangle names a vertex that is not there, or there is no triangle.
-    Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first);
+    /// beyond 1e30, a triangle names a vertex that is not there, or there is no triangle. `led`: vertices
+    /// that are not judged among each other (Surface::led).
+    Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first, std::vector<bool> led = {});
 
     /// Throws Error{bad_input} where the number of positions is another one, or one is not finite or too
     /// large.

@@ -12,6 +12,7 @@ SceneTriangles scene_triangles(const Scene& resolved)
         for (const Triangle& t : mesh.triangles)
             out.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
         out.body.resize(out.body.size() + mesh.positions.size(), b);
+        out.led.resize(out.body.size(), resolved.bodies[b].kinematic.used);
     }
     return out;
 }

@@ -10,6 +10,7 @@ struct SceneTriangles
 {
     std::vector<Triangle> triangles; ///< vertices scene-wide: bodies one after another, as World::positions()
     std::vector<std::uint32_t> body; ///< per vertex
+    std::vector<bool> led;           ///< per vertex: of a kinematic body
 };
 
 /// Of a resolved scene. Solids give their surfaces; chains have none.

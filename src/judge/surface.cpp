@@ -98,11 +98,12 @@ void find_borders(Surface& s)
 
 } // namespace
 
-Surface make_surface(std::size_t vertices, std::vector<Triangle> triangles)
+Surface make_surface(std::size_t vertices, std::vector<Triangle> triangles, std::vector<bool> led)
 {
     Surface s;
     s.vertices = vertices;
     s.triangles = std::move(triangles);
+    s.led = std::move(led);
     find_edges(s);
     find_parts(s);
     find_closed(s);

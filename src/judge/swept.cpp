@@ -145,7 +145,7 @@ void add_vertices(const Ways& ways, std::vector<Passing>& out)
     for (std::uint32_t v = 0; v < s.vertices; ++v)
         tree.overlapping(ways.box(std::array{v}), [&](std::uint32_t t) {
             const Triangle& c = s.triangles[t];
-            if (has(c, v))
+            if (has(c, v) || !s.judged(std::array{v}, c))
                 return;
             if (const auto time = ways.meeting({c[0], c[1], c[2], v}, distance_of_vertex))
                 out.push_back({false, v, t, *time});
@@ -164,7 +164,7 @@ void add_edges(const Ways& ways, std::vector<Passing>& out)
         const auto [a, b] = s.edges[e];
         tree.overlapping(boxes[e], [&, a = a, b = b](std::uint32_t other) {
             const auto [c, d] = s.edges[other];
-            if (other <= e || a == c || a == d || b == c || b == d)
+            if (other <= e || a == c || a == d || b == c || b == d || !s.judged(s.edges[e], s.edges[other]))
                 return;
             if (const auto time = ways.meeting({a, b, c, d}, distance_of_edges))
                 out.push_back({true, e, other, *time});

@@ -25,6 +25,7 @@
 #include "taut/plan/surface_volume.hpp"
 #include "taut/plan/vbd.hpp"
 #include "taut/plan/wind.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <algorithm>
 
@@ -61,8 +62,6 @@ void record_external_force(PlanBuilder& b, const Moment&)
 }
 
 // ---------------------------------------------------------------- held vertices that move
-
-bool is_led(const Pin& pin) { return pin.moved_by_program || !pin.motion.empty(); }
 
 bool wants_pin_motion(const Scene& scene)
 {
@@ -190,9 +189,9 @@ constexpr Effect kEffectsBefore[] = {
      prepare_pbd_volume, record_pbd_volume, only(MethodKind::pbd)},
     {"pbd_jacobi", Stage::solve,
      [](const Scene& s) {
-         return !pbd_is_coloured(s) && ((s.method.stretch > 0 && any_stretch(s)) ||
-                                        (s.method.bend > 0 && any_bending(s)) ||
-                                        (s.method.volume > 0 && any_volume(s)));
+         return !pbd_is_coloured(s) &&
+                ((s.method.stretch > 0 && any_stretch(s)) || (s.method.bend > 0 && any_bending(s)) ||
+                 (s.method.volume > 0 && any_volume(s)));
      },
      prepare_pbd_jacobi, record_pbd_jacobi, only(MethodKind::pbd)},
     {"momentum", Stage::solve, wants_momentum, nullptr, record_momentum_end, kSweeps},

@@ -9,6 +9,7 @@
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -294,8 +295,7 @@ bool CostStudy::sound() const
 bool held_still(const Scene& scene)
 {
     const auto held = [](const Body& body) {
-        return !body.pins.empty() && std::all_of(body.pins.begin(), body.pins.end(),
-                                                 [](const Pin& pin) { return pin.motion.empty(); });
+        return !body.pins.empty() && std::none_of(body.pins.begin(), body.pins.end(), is_led);
     };
     return std::all_of(scene.bodies.begin(), scene.bodies.end(), held);
 }

@@ -4,6 +4,7 @@
 #include "taut/report/cost_reference.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -38,7 +39,7 @@ void check_conservative(const Scene& scene)
         if (body.material.plastic_yield > 0)
             refuse("plastic_yield is above 0");
         for (const Pin& pin : body.pins)
-            if (!pin.motion.empty())
+            if (is_led(pin))
                 refuse("a pin moves");
     }
 }

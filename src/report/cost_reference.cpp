@@ -26,14 +26,15 @@ std::string unmodelled(const Scene& scene)
         if (there)
             out += std::string(out.empty() ? "it does not model " : ", ") + what;
     };
-    add(scene.wind.density > 0 &&
-            any([](const Material& m) { return m.drag > 0 || m.friction_drag > 0; }),
+    add(scene.wind.density > 0 && any([](const Material& m) { return m.drag > 0 || m.friction_drag > 0; }),
         "wind");
     add(any([](const Material& m) { return m.strain_limit > 0; }), "limits of strain");
     add(any([](const Material& m) { return m.attachment_slack >= 0; }), "attachments");
     add(any([](const Material& m) { return m.tear_strain > 0; }), "tearing");
     add(any([](const Material& m) { return m.plastic_yield > 0; }), "plasticity");
     add(wants_contact(scene), "contact between surfaces");
+    add(std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.kinematic.used; }),
+        "kinematic bodies");
     return out;
 }
 

@@ -106,7 +106,8 @@ void CrossingWatch::set_scene(const Scene& resolved)
         part.count = mesh.positions.size();
         part.gap = body.material.thickness;
         for (const auto& t : mesh.triangles)
-            part.elements.push_back({first + t[0], first + t[1], first + t[2]});
+            if (!body.kinematic.used) // what is led goes through colliders because its scene says so
+                part.elements.push_back({first + t[0], first + t[1], first + t[2]});
         for (const auto& l : mesh.links)
             part.elements.push_back({first + l[0], first + l[1], first + l[1]});
         for (const auto& e : part.elements)

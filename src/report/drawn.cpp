@@ -3,6 +3,7 @@
 #include "taut/plan/material.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/scene/extent.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -27,9 +28,7 @@ double least_distance(const Pin& a, const Pin& b, std::span<const glm::dvec3> x)
     return out;
 }
 
-bool led(const Pin& pin) { return pin.moved_by_program || !pin.motion.empty(); }
-
-bool either_moves(const Pin& a, const Pin& b) { return led(a) || led(b); }
+bool either_moves(const Pin& a, const Pin& b) { return is_led(a) || is_led(b); }
 
 /// m: over what length a body is drawn where its pins move: to the nearest pin that moves otherwise, or the
 /// body itself.
@@ -63,7 +62,7 @@ double drawn_stiffness(const Body& body)
 /// Nobody knows where a program takes a pin.
 bool turns(const Pin& pin)
 {
-    return pin.moved_by_program ||
+    return pin.moved_by_program || pin.places ||
            std::any_of(pin.motion.begin(), pin.motion.end(),
                        [](const Keyframe& key) { return key.rotate_degrees != 0; });
 }

@@ -29,6 +29,16 @@ struct Mover
     bool holds = false;
 };
 
+/// It stands still from its last key on.
+void stops(MoverPath& path, const MoverTrack& track)
+{
+    MoverReach rest = path.reach.back();
+    rest.time = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < track.change.size(); ++c)
+        rest.change = std::max(rest.change, track.change[c] + glm::length(track.velocity[c]));
+    path.reach.push_back(rest);
+}
+
 std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
 {
     std::vector<Mover> out;
@@ -48,10 +58,37 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
     return out;
 }
 
-std::vector<MoverPath> paths_of(const std::vector<Mover>& movers)
+/// Of a body that follows a sequence.
+MoverPath path_of(const SequencePlaces& sequence)
+{
+    MoverPath path{true, {{}}};
+    MoverTrack track;
+    const std::size_t vertices = sequence.frames.front().size();
+    std::vector<glm::dvec3> start(vertices);
+    for (std::size_t v = 0; v < vertices; ++v)
+        start[v] = place_at(sequence, 0, v);
+    std::vector<glm::dvec3> before = start;
+    for (std::size_t f = 0; f < sequence.frames.size(); ++f)
+        if (const double time = sequence.start + static_cast<double>(f) / sequence.rate,
+            seconds = time - path.reach.back().time;
+            seconds > 0)
+        {
+            follow(track, before, sequence.frames[f], start, seconds);
+            before = sequence.frames[f];
+            path.reach.push_back(track.reach);
+        }
+    stops(path, track);
+    return path;
+}
+
+std::vector<MoverPath> paths_of(const Scene& scene, const PhysicalModel& model)
 {
     std::vector<MoverPath> out;
-    for (const Mover& mover : movers)
+    for (const Body& body : scene.bodies)
+        for (const Pin& pin : body.pins)
+            if (pin.places)
+                out.push_back(path_of(*pin.places));
+    for (const Mover& mover : movers_of(scene, model))
     {
         MoverPath path{mover.holds, {{}}};
         MoverTrack track;
@@ -63,12 +100,7 @@ std::vector<MoverPath> paths_of(const std::vector<Mover>& movers)
                        kLines + chords(mover.motion, from, key.time));
                 path.reach.push_back(track.reach);
             }
-        // It stops at its last key.
-        MoverReach rest = path.reach.back();
-        rest.time = std::numeric_limits<double>::infinity();
-        for (std::size_t c = 0; c < track.change.size(); ++c)
-            rest.change = std::max(rest.change, track.change[c] + glm::length(track.velocity[c]));
-        path.reach.push_back(rest);
+        stops(path, track);
         out.push_back(std::move(path));
     }
     return out;
@@ -151,8 +183,7 @@ double wind_drag(const Scene& scene)
         {
             const auto& x = body.mesh.positions;
             const double area = 0.5 * glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
-            out += 0.5 * scene.wind.density * area *
-                   (body.material.drag + body.material.friction_drag);
+            out += 0.5 * scene.wind.density * area * (body.material.drag + body.material.friction_drag);
         }
     return out;
 }
@@ -169,7 +200,7 @@ double largest_wind(const Wind& wind)
 
 EnergyBudget::EnergyBudget(const Scene& resolved)
     : model_(make_model(resolved)),
-      paths_(paths_of(movers_of(resolved, model_))),
+      paths_(paths_of(resolved, model_)),
       depth_(deepest_start(resolved, model_)),
       drawn_(std::make_shared<const DrawnBodies>(resolved)),
       violation_(largest_violation(resolved, model_)),
@@ -272,9 +303,6 @@ double EnergyBudget::rounding(Precision precision, double substep) const
     return out;
 }
 
-double EnergyBudget::small() const
-{
-    return 0.01 * mass_ * glm::length(model_.gravity) * model_.diameter;
-}
+double EnergyBudget::small() const { return 0.01 * mass_ * glm::length(model_.gravity) * model_.diameter; }
 
 } // namespace taut

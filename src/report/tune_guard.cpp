@@ -107,7 +107,7 @@ Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
     {
         body.start_positions.clear();
         for (Pin& pin : body.pins)
-            pin.motion.clear();
+            pin.motion.clear(), pin.places.reset();
     }
     const PhysicalModel model = make_model(scene);
     std::vector<glm::dvec3> force(model.mass.size(), glm::dvec3(0));

@@ -69,6 +69,8 @@ void check_source(const Body& body, const Checker& out)
     for (std::size_t i = 0; i < body.pins.size(); ++i)
         check_pin_names(body.pins[i], body.shape.kind, out.at("pins", i));
     check_counts_of_shape(body, out);
+    if (body.kinematic.used)
+        check_kinematic_body(body, out);
 }
 
 } // namespace

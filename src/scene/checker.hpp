@@ -75,6 +75,9 @@ void check_box(const Shape& shape, const Checker& out);
 void check_ball(const Shape& shape, const Checker& out);
 void check_cloth(const Material& material, const Checker& out);
 void check_solid(const Material& material, const Checker& out);
+void check_kinematic(const Kinematic& kinematic, const Checker& out);
+/// Keys of a body that mean nothing beside `kinematic`.
+void check_kinematic_body(const Body& body, const Checker& out);
 void check_pin(const Pin& pin, const Checker& out);
 void check_pin_box(const Pin& pin, const Checker& out);
 void check_spring(const Body::Spring& spring, const Checker& out);

@@ -22,12 +22,9 @@ struct Pose
     glm::dvec3 translate{0}, rotation{0}, centre{0}; // rotation: axis times angle, rad
 };
 
-Pose pose_of(const Keyframe& key)
-{
-    return {key.translate, rotation_of(key), key.rotate_centre};
-}
+Pose pose_of(const Keyframe& key) { return {key.translate, rotation_of(key), key.rotate_centre}; }
 
-glm::dvec3 apply(const Pose& pose, const glm::dvec3& rest)
+glm::dvec3 posed(const Pose& pose, const glm::dvec3& rest)
 {
     const double angle = glm::length(pose.rotation);
     if (!(angle > 0)) // exactly the rest position, so that a key without rotation adds no rounding
@@ -94,7 +91,7 @@ Keyframe about(const Keyframe& pose, const glm::dvec3& centre)
 {
     Keyframe out = pose;
     if (pose.rotate_degrees != 0)
-        out.translate = apply(pose_of(pose), centre) - centre;
+        out.translate = posed(pose_of(pose), centre) - centre;
     out.rotate_centre = centre;
     return out;
 }
@@ -126,16 +123,43 @@ glm::dvec3 pose(const std::vector<Keyframe>& motion, double time, const glm::dve
     const auto after = std::upper_bound(motion.begin(), motion.end(), time,
                                         [](double t, const Keyframe& key) { return t < key.time; });
     if (after == motion.begin())
-        return apply(pose_of(motion.front()), rest);
+        return posed(pose_of(motion.front()), rest);
     if (after == motion.end())
-        return apply(pose_of(motion.back()), rest);
+        return posed(pose_of(motion.back()), rest);
     const Pose a = pose_of(*(after - 1)), b = pose_of(*after);
     const double s = (time - (after - 1)->time) / (after->time - (after - 1)->time);
     // Axis times angle is linear: with one axis the angle is, also beyond a full turn; a key without
     // rotation takes the axis of its neighbour.
-    return apply({a.translate + s * (b.translate - a.translate), a.rotation + s * (b.rotation - a.rotation),
+    return posed({a.translate + s * (b.translate - a.translate), a.rotation + s * (b.rotation - a.rotation),
                   a.centre + s * (b.centre - a.centre)},
                  rest);
+}
+
+void apply(const Transform& transform, std::vector<glm::dvec3>& places)
+{
+    const std::vector<Keyframe> turn = {
+        {0, transform.translate, transform.rotate_axis, transform.rotate_degrees, glm::dvec3(0)}};
+    for (glm::dvec3& place : places)
+        place = pose(turn, 0, place * transform.scale);
+}
+
+bool is_led(const Pin& pin) { return pin.moved_by_program || pin.places || !pin.motion.empty(); }
+
+glm::dvec3 held_at(const Pin& pin, double time, std::size_t own, const glm::dvec3& rest)
+{
+    return pin.places ? place_at(*pin.places, time, pin.vertices[own]) : pose(pin.motion, time, rest);
+}
+
+glm::dvec3 place_at(const SequencePlaces& sequence, double time, std::size_t vertex)
+{
+    const double last = static_cast<double>(sequence.frames.size() - 1);
+    const double at = std::clamp((time - sequence.start) * sequence.rate, 0.0, last);
+    const double before = std::min(std::floor(at), std::max(last - 1, 0.0)), part = at - before;
+    const glm::dvec3& from = sequence.frames[static_cast<std::size_t>(before)][vertex];
+    if (part == 0)
+        return from;
+    const glm::dvec3& to = sequence.frames[static_cast<std::size_t>(before) + 1][vertex];
+    return from + part * (to - from);
 }
 
 glm::dvec3 wind_at(const Wind& wind, double time)

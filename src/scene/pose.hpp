@@ -5,6 +5,16 @@
 
 namespace taut {
 
+/// Takes places of a rest shape into world space.
+void apply(const Transform& transform, std::vector<glm::dvec3>& places);
+
+/// Whether a pin can be elsewhere than where it starts.
+bool is_led(const Pin& pin);
+
+/// Where the `own`th vertex of a pin is held at `time` [s], by its motion or its sequence: not for what a
+/// program moves. `rest`: where it starts, m.
+glm::dvec3 held_at(const Pin& pin, double time, std::size_t own, const glm::dvec3& rest);
+
 /// rad: the axis times the angle of a key, which pose() takes to be linear between keys; 0 without an axis.
 glm::dvec3 rotation_of(const Keyframe& key);
 

@@ -3,6 +3,8 @@
 #include "taut/scene/check_size.hpp"
 #include "taut/scene/checker.hpp"
 #include "taut/scene/embedding.hpp"
+#include "taut/scene/kinematic.hpp"
+#include "taut/scene/pose.hpp"
 #include "taut/scene/settings.hpp"
 
 #include <glm/geometric.hpp>
@@ -43,22 +45,22 @@ void warn_of(const MeshFindings& findings, bool solid, const Checker& out, const
     const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what; };
     if (!findings.degenerate_triangles.empty())
         out.warning(field, "had " + count(findings.degenerate_triangles.size(), "triangles without area, ") +
-                                "dropped; the first is number " +
-                                std::to_string(findings.degenerate_triangles.front()) + " of the file");
+                               "dropped; the first is number " +
+                               std::to_string(findings.degenerate_triangles.front()) + " of the file");
     if (findings.unused_vertices > 0)
         out.warning(field, "had " + count(findings.unused_vertices, "vertices of no ") +
-                                (solid ? "tetrahedron" : "triangle") + ", dropped");
+                               (solid ? "tetrahedron" : "triangle") + ", dropped");
     if (findings.turned_tetrahedra > 0)
         out.warning(field, "had " + count(findings.turned_tetrahedra, "left-handed tetrahedra, turned"));
     for (const auto& [word, lines] : findings.skipped)
         out.warning(field, "has " + count(lines, lines == 1 ? "line " : "lines ") + word +
                                (lines == 1 ? ", which is not read" : ", which are not read"));
     if (!findings.non_manifold_edges.empty())
-        out.warning(field,
-                    "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
-                        "; the first joins vertices " +
-                        std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
-                        std::to_string(findings.non_manifold_edges.front()[1]));
+        out.warning(field, "has " +
+                               count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
+                               "; the first joins vertices " +
+                               std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
+                               std::to_string(findings.non_manifold_edges.front()[1]));
 }
 
 /// The rest mesh in its own space.
@@ -87,10 +89,7 @@ Mesh make_mesh(const Shape& shape, const std::filesystem::path& directory, const
 
 void apply(const Transform& transform, Mesh& mesh)
 {
-    const std::vector<Keyframe> turn = {
-        {0, transform.translate, transform.rotate_axis, transform.rotate_degrees, glm::dvec3(0)}};
-    for (glm::dvec3& position : mesh.positions)
-        position = pose(turn, 0, position * transform.scale);
+    apply(transform, mesh.positions);
     mesh.link_width *= transform.scale;
 }
 
@@ -162,8 +161,13 @@ void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Chec
                                scene_file::shown(pin.box_max) +
                                " holds no vertex at the start; boxes are in world space, m");
     std::sort(vertices.begin(), vertices.end());
-    pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .faces = {}, .motion = std::move(pin.motion),
-              .moved_by_program = pin.moved_by_program};
+    pin = Pin{.vertices = {},
+              .corners = {},
+              .edges = {},
+              .faces = {},
+              .motion = std::move(pin.motion),
+              .moved_by_program = pin.moved_by_program,
+              .places = {}};
     for (const std::uint32_t vertex : vertices)
         if (!held[vertex])
         {
@@ -296,6 +300,12 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
         if (any_error(issues)) // pins may name what is not there
             continue;
         scene_file::check_size(body, scene.method.precision == "double", at);
+        if (body.kinematic.used)
+        {
+            attempt("kinematic.sequence.file", at,
+                    [&] { scene_file::resolve_kinematic(body, scene.directory); });
+            continue;
+        }
         std::vector<bool> held(body.mesh.positions.size(), false);
         for (std::size_t p = 0; p < body.pins.size(); ++p)
             resolve_pin(body, body.pins[p], held, at.at("pins", p));

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -97,6 +98,25 @@ struct Keyframe
 /// outside. Keys must ascend in time (check() says so); no keys: `rest`.
 glm::dvec3 pose(const std::vector<Keyframe>& motion, double time, const glm::dvec3& rest);
 
+/// Where every vertex of a body is over time, as another program wrote it: in the order and the frame of the
+/// body's shape, before its transform.
+struct MeshSequence
+{
+    std::filesystem::path file; ///< a point cache (.pc2) or a folder of .obj files; empty: none
+    double rate = 0;            ///< frames a second, > 0
+    double start = 0;           ///< s, the time of the first frame
+};
+
+/// A sequence that has been read. Linear in between two frames, constant before the first and after the last.
+struct SequencePlaces
+{
+    double rate = 0, start = 0;
+    std::vector<std::vector<glm::dvec3>>
+        frames; ///< of all vertices of the body's mesh, world, m; one at least
+};
+/// Where a vertex of the body's mesh is at `time` [s].
+glm::dvec3 place_at(const SequencePlaces& sequence, double time, std::size_t vertex);
+
 /// Which vertices of a body are held, and how they move. Empty motion: held in place.
 struct Pin
 {
@@ -111,6 +131,18 @@ struct Pin
     std::vector<Keyframe> motion;
     /// Led by World::set_pin_targets and set_pin_pose; held in place until then. Not together with `motion`.
     bool moved_by_program = false;
+    /// Filled by resolve() in kinematic bodies with a sequence, instead of `motion`.
+    std::shared_ptr<const SequencePlaces> places;
+};
+
+/// A body whose vertices are all led, and which nothing moves: a mesh that other bodies run into
+/// (docs/contact.md). Of its material `thickness` alone is read.
+struct Kinematic
+{
+    bool used = false;
+    std::vector<Keyframe> motion; ///< none of the three: it stands where it is
+    MeshSequence sequence;
+    bool moved_by_program = false; ///< by World::set_pin_targets and set_pin_pose of its only pin
 };
 
 struct Transform
@@ -182,7 +214,8 @@ struct Body
     Material material;
     Transform transform;
     BodyContact contact;
-    std::vector<Pin> pins;
+    Kinematic kinematic;
+    std::vector<Pin> pins;  ///< of a kinematic body resolve() makes one, of all vertices
     glm::dvec3 velocity{0}; ///< m/s at start
     /// Per-vertex overrides, for tests and tools; empty = from shape and material.
     std::vector<double> vertex_masses;       ///< kg, > 0
@@ -304,7 +337,7 @@ struct Accept
     /// Strain, > 0: elements strained by more must be so by energy that was put in; what a method keeps at
     /// its length, or within a strain_limit, may be off by no more.
     double stretch = 0.1;
-    double residual = 1; ///< > 0, see StepReport::imbalance and load_residual
+    double residual = 1;        ///< > 0, see StepReport::imbalance and load_residual
     std::uint32_t inverted = 0; ///< tetrahedra inside out at the end
 };
 

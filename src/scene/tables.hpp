@@ -25,6 +25,8 @@ extern const TableOf<Transform> kRotateTable;
 extern const TableOf<Collider> kColliderRotateTable; ///< the keys of kRotateTable
 extern const TableOf<Pin> kPinTable;
 extern const TableOf<Pin> kPinBoxTable;
+extern const TableOf<Kinematic> kKinematicTable;
+extern const TableOf<MeshSequence> kMeshSequenceTable;
 extern const TableOf<Keyframe> kKeyframeTable;
 extern const TableOf<Keyframe> kKeyframeRotateTable;
 extern const TableOf<Body::Spring> kSpringTable;

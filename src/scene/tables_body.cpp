@@ -50,8 +50,11 @@ void read_embedded(const Field& body, Body& out)
         file->refuse("it must name an OBJ, PLY, OFF or STL file, or be left out");
 }
 
+void begin_kinematic(Body& body) { body.kinematic.used = true; }
+bool is_kinematic(const Body& body) { return body.kinematic.used; }
 void begin_box(Pin& pin) { pin.use_box = true; }
 bool has_box(const Pin& pin) { return pin.use_box; }
+bool has_sequence(const Kinematic& kinematic) { return !kinematic.sequence.file.empty(); }
 
 constexpr Key kBody[] = {
     key<&Body::name>("name", "for reports").ranges("any text; two of one name are a warning"),
@@ -81,6 +84,11 @@ constexpr Key kBody[] = {
         .usually("as below"),
     object<&Body::contact>("contact", "how its surface meets itself and others", kBodyContactTable)
         .usually("as below"),
+    object<&Body::kinematic>("kinematic",
+                             "all its vertices are led and nothing moves it: a mesh that others run into",
+                             kKinematicTable)
+        .begins<begin_kinematic>()
+        .when<is_kinematic>(),
     key<&Body::velocity>("velocity", "of all vertices at the start").unit("m/s"),
     list<&Body::pins>("pins", "vertices that are held or led", kPinTable).source(),
     list<&Body::springs>("springs", "further distance constraints", kSpringTable),
@@ -131,6 +139,28 @@ constexpr Key kKeyframe[] = {
     key<&Keyframe::time>("time", "since the start").unit("s").needed().ascending(),
     key<&Keyframe::translate>("translate", "by which it is moved").unit("m"),
     object("rotate", "by which it is turned", kKeyframeRotateTable),
+};
+
+constexpr Key kKinematic[] = {
+    list<&Kinematic::motion>("motion", "how it moves", kKeyframeTable),
+    object<&Kinematic::sequence>("sequence", "how it moves and deforms", kMeshSequenceTable)
+        .when<has_sequence>(),
+    key<&Kinematic::moved_by_program>("moved_by_program", "the program leads its vertices while it runs")
+        .see("how", "how-to/move-things-from-a-program.md"),
+};
+
+constexpr Key kMeshSequence[] = {
+    key<&MeshSequence::file>("file",
+                             "a point cache (.pc2) or a folder of .obj files, of the vertices of the body's "
+                             "shape in their order and frame; `transform` places it; the path is relative to "
+                             "the scene file")
+        .needed()
+        .source(),
+    key<&MeshSequence::rate>("rate", "frames a second; linear in between, the last one stays")
+        .unit("1/s")
+        .above(0)
+        .needed(),
+    key<&MeshSequence::start>("start", "time of the first frame").unit("s"),
 };
 
 constexpr Key kPin[] = {
@@ -191,6 +221,9 @@ constinit const TableOf<Collider> kColliderRotateTable =
 constinit const TableOf<Keyframe> kKeyframeTable("keyframe", kKeyframe);
 constinit const TableOf<Keyframe> kKeyframeRotateTable =
     TableOf<Keyframe>("keyframe rotate", kKeyframeRotate).checks<check_turn<Keyframe>>();
+constinit const TableOf<Kinematic> kKinematicTable =
+    TableOf<Kinematic>("kinematic", kKinematic).checks<check_kinematic>();
+constinit const TableOf<MeshSequence> kMeshSequenceTable("sequence", kMeshSequence);
 constinit const TableOf<Pin> kPinTable = TableOf<Pin>("pin", kPin).choosing(Choice::some).checks<check_pin>();
 constinit const TableOf<Pin> kPinBoxTable = TableOf<Pin>("box", kPinBox).checks<check_pin_box>();
 constinit const TableOf<Body::Spring> kSpringTable =

@@ -42,6 +42,11 @@ constexpr Key kCollider[] = {
     list<&Collider::motion>("motion", "how it moves", kKeyframeTable),
 };
 
+constexpr Stranger kStrangeToColliders[] = {
+    {"mesh",
+     "a mesh that bodies run into is one of the bodies: {\"mesh\": \"torso.obj\", \"kinematic\": {}}"},
+};
+
 constexpr Key kPlane[] = {
     key<&Collider::point>("point", "a point on it").unit("m"),
     key<&Collider::normal>("normal", "towards the free side; its length does not matter").direction(),
@@ -65,8 +70,10 @@ constexpr Key kCuboid[] = {
 
 } // namespace
 
-constinit const TableOf<Collider> kColliderTable =
-    TableOf<Collider>("collider", kCollider).choosing(Choice::exactly_one).checks<check_collider>();
+constinit const TableOf<Collider> kColliderTable = TableOf<Collider>("collider", kCollider)
+                                                       .choosing(Choice::exactly_one)
+                                                       .strange(kStrangeToColliders)
+                                                       .checks<check_collider>();
 constinit const TableOf<Collider> kPlaneTable("plane", kPlane);
 constinit const TableOf<Collider> kSphereTable("sphere", kSphere);
 constinit const TableOf<Collider> kCapsuleTable("capsule", kCapsule);

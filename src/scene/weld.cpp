@@ -129,7 +129,7 @@ std::vector<std::uint32_t> weld_targets(std::span<const glm::dvec3> positions, d
     return target;
 }
 
-Mesh clean(const RawMesh& raw, double weld_distance, MeshFindings& findings)
+Mesh clean(const RawMesh& raw, double weld_distance, MeshFindings& findings, std::vector<std::uint32_t>* kept)
 {
     const std::vector<std::uint32_t> target = weld_targets(raw.positions, weld_distance);
     for (std::uint32_t v = 0; v < target.size(); ++v)
@@ -162,6 +162,8 @@ Mesh clean(const RawMesh& raw, double weld_distance, MeshFindings& findings)
         }
         number[v] = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.push_back(raw.positions[v]);
+        if (kept)
+            kept->push_back(v);
     }
     for (auto& triangle : mesh.triangles)
         for (std::uint32_t& corner : triangle)

@@ -1,6 +1,7 @@
 #include "taut/world/inputs.hpp"
 
 #include "taut/plan/collider_shapes.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <glm/vec4.hpp>
 
@@ -59,9 +60,8 @@ InputWrite wind(const Scene& scene, const Plan& plan, const Stretch& step)
 /// Where a pin that the program moves is to have one of its vertices, at the start and the end of the step.
 std::array<glm::dvec3, 2> by_program(const ProgramMotion& program, const MovingPin& pin)
 {
-    const auto move = std::find_if(program.pins.begin(), program.pins.end(), [&](const PinMove& m) {
-        return m.body == pin.body && m.pin == pin.pin;
-    });
+    const auto move = std::find_if(program.pins.begin(), program.pins.end(),
+                                   [&](const PinMove& m) { return m.body == pin.body && m.pin == pin.pin; });
     if (move == program.pins.end())
         return {pin.rest, pin.rest};
     return {move->from[pin.own], move->to[pin.own]};
@@ -76,10 +76,9 @@ InputWrite pin_targets(const Scene& scene, const Plan& plan, const Stretch& step
     {
         const Pin& pin = scene.bodies[moving.body].pins[moving.pin];
         const std::array<glm::dvec3, 2> ends =
-            pin.moved_by_program
-                ? by_program(program, moving)
-                : std::array{pose(pin.motion, step.from, moving.rest),
-                             pose(pin.motion, step.to, moving.rest)};
+            pin.moved_by_program ? by_program(program, moving)
+                                 : std::array{held_at(pin, step.from, moving.own, moving.rest),
+                                              held_at(pin, step.to, moving.own, moving.rest)};
         for (const glm::dvec3& end : ends)
             out.emplace_back(glm::vec<3, Real>(end), Real(0));
     }

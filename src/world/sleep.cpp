@@ -4,6 +4,7 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/collider.hpp"
 #include "taut/scene/extent.hpp"
+#include "taut/scene/pose.hpp"
 #include "taut/world/carry.hpp"
 #include "taut/world/moved.hpp"
 
@@ -55,9 +56,11 @@ bool pins_move(const Body& body, double from, double to)
 {
     const auto& x = body.mesh.positions;
     return std::any_of(body.pins.begin(), body.pins.end(), [&](const Pin& pin) {
-        return std::any_of(pin.vertices.begin(), pin.vertices.end(), [&](std::uint32_t v) {
-            return pose(pin.motion, from, x[v]) != pose(pin.motion, to, x[v]);
-        });
+        for (std::size_t k = 0; k < pin.vertices.size(); ++k)
+            if (const glm::dvec3& rest = x[pin.vertices[k]];
+                held_at(pin, from, k, rest) != held_at(pin, to, k, rest))
+                return true;
+        return false;
     });
 }
 
@@ -229,7 +232,7 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
     const std::size_t count = my.scene.bodies.size();
     for (std::uint32_t b = 0; b < count; ++b)
         if (std::any_of(my.scene.bodies[b].pins.begin(), my.scene.bodies[b].pins.end(),
-                        [](const Pin& pin) { return !pin.motion.empty(); }))
+                        [](const Pin& pin) { return is_led(pin) && !pin.moved_by_program; }))
             my.led.push_back(b);
     my.awake.resize(count);
     std::iota(my.awake.begin(), my.awake.end(), 0u);

@@ -285,3 +285,29 @@ TEST_CASE("stretch is that of the first frame, and wrong input is refused by nam
     CHECK_THAT(refusal([&] { Judge({{0, 1, 25}}, s.positions); }), Contains("triangle 0 names vertex 25"));
     CHECK_THAT(refusal([&] { Judge({}, s.positions); }), Contains("no triangle"));
 }
+
+TEST_CASE("what is led is judged against what is not, and not among its like")
+{
+    Shape s = sheet(3, [](double x, double y) { return glm::dvec3(x, y, 0); });
+    s.add(sheet(3, [](double x, double y) { return glm::dvec3(x, 0.4, y - 0.5); }));
+    std::vector<glm::dvec3> after = s.positions;
+    for (std::size_t v = 0; v < 16; ++v) // the first sheet goes up and grows
+        after[v] = 1.5 * after[v] + glm::dvec3(0, 0, 2);
+    const auto judged = [&](bool first, bool second) {
+        std::vector<bool> led(32, first);
+        std::fill(led.begin() + 16, led.end(), second);
+        return Judge(s.triangles, s.positions, led);
+    };
+    const Judge none(s.triangles, s.positions);
+    const std::size_t pairs = none.look(s.positions).intersecting;
+    REQUIRE(pairs > 0);
+    CHECK(judged(true, false).look(s.positions).intersecting == pairs);
+    CHECK(judged(false, true).look(s.positions).intersecting == pairs);
+    CHECK(judged(true, true).look(s.positions).intersecting == 0);
+    CHECK(judged(true, true).look(s.positions).nearest.distance < 0);
+    CHECK(judged(true, false).between(s.positions, after).size() == none.between(s.positions, after).size());
+    CHECK(!none.between(s.positions, after).empty());
+    CHECK(judged(true, true).between(s.positions, after).empty());
+    CHECK(judged(false, false).look(after).stretch == Approx(0.5));
+    CHECK(judged(true, false).look(after).stretch == 0);
+}

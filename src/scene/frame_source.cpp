@@ -1,4 +1,4 @@
-#include "taut/judge/sequence.hpp"
+#include "taut/scene/frame_source.hpp"
 
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/file_text.hpp"
@@ -11,10 +11,11 @@
 
 namespace fs = std::filesystem;
 
-namespace taut::judging {
+namespace taut {
 namespace {
 
 using scene_file::RawMesh;
+using Triangle = std::array<std::uint32_t, 3>;
 
 /// Digits compare as numbers, so that mesh_2 comes before mesh_10.
 bool before(const std::string& a, const std::string& b)
@@ -45,7 +46,7 @@ bool before(const std::string& a, const std::string& b)
     return a.size() - i < b.size() - j || (a.size() - i == b.size() - j && a < b);
 }
 
-class Folder : public Sequence
+class Folder : public FrameSource
 {
 public:
     explicit Folder(const fs::path& folder)
@@ -84,15 +85,15 @@ private:
 
 constexpr std::size_t kCacheHead = 32; ///< bytes: signature, version, points, start, rate, samples
 
-class PointCache : public Sequence
+class PointCache : public FrameSource
 {
 public:
-    PointCache(const fs::path& cache, const fs::path& mesh)
+    PointCache(const fs::path& cache, std::size_t vertices, std::vector<Triangle> triangles,
+               const std::string& mesh)
         : file_(cache.string()),
-          triangles_(scene_file::read_raw_mesh(mesh).triangles)
+          triangles_(std::move(triangles))
     {
         static_assert(std::endian::native == std::endian::little, "bytes of a point cache are little endian");
-        const std::size_t vertices = scene_file::read_raw_mesh(mesh).positions.size();
         std::error_code failed;
         const std::uintmax_t bytes = fs::file_size(cache, failed);
         stream_.open(cache, std::ios::binary);
@@ -108,7 +109,7 @@ public:
         samples_ = word(head, 28);
         if (points_ != vertices)
             throw Error(ErrorCode::bad_input, file_ + " moves " + std::to_string(points_) + " vertices; " +
-                                                  mesh.string() + " has " + std::to_string(vertices));
+                                                  mesh + " has " + std::to_string(vertices));
         const std::uintmax_t wanted = kCacheHead + std::uintmax_t(points_) * samples_ * 12;
         if (samples_ == 0 || bytes < wanted)
             throw Error(ErrorCode::bad_input, file_ + " has " + std::to_string(bytes) + " bytes; " +
@@ -149,11 +150,21 @@ private:
 
 } // namespace
 
-std::unique_ptr<Sequence> open_folder(const fs::path& folder) { return std::make_unique<Folder>(folder); }
-
-std::unique_ptr<Sequence> open_point_cache(const fs::path& cache, const fs::path& mesh)
+std::unique_ptr<FrameSource> open_frame_folder(const fs::path& folder)
 {
-    return std::make_unique<PointCache>(cache, mesh);
+    return std::make_unique<Folder>(folder);
 }
 
-} // namespace taut::judging
+std::unique_ptr<FrameSource> open_point_cache(const fs::path& cache, const fs::path& mesh)
+{
+    RawMesh moved = scene_file::read_raw_mesh(mesh);
+    return open_point_cache(cache, moved.positions.size(), std::move(moved.triangles), mesh.string());
+}
+
+std::unique_ptr<FrameSource> open_point_cache(const fs::path& cache, std::size_t vertices,
+                                              std::vector<Triangle> triangles, const std::string& mesh)
+{
+    return std::make_unique<PointCache>(cache, vertices, std::move(triangles), mesh);
+}
+
+} // namespace taut

@@ -1,4 +1,4 @@
-#include "taut/judge/sequence.hpp"
+#include "taut/scene/frame_source.hpp"
 
 #include "support/catch.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -8,7 +8,6 @@
 #include <fstream>
 
 using namespace taut;
-using namespace taut::judging;
 
 namespace fs = std::filesystem;
 
@@ -17,7 +16,7 @@ namespace {
 /// An empty folder of its own, removed at the end.
 struct Folder
 {
-    fs::path path = fs::temp_directory_path() / "taut_judge_sequence_test";
+    fs::path path = fs::temp_directory_path() / "taut_frame_source_test";
     Folder()
     {
         fs::remove_all(path);
@@ -75,9 +74,9 @@ TEST_CASE("a folder gives its frames in the order of their numbers")
     for (const int k : {10, 2, 1})
         folder.write("mesh_" + std::to_string(k) + ".obj", obj(k));
     folder.write("notes.txt", "no frame");
-    const auto frames = open_folder(folder.path);
+    const auto frames = open_frame_folder(folder.path);
     REQUIRE(frames->frames() == 3);
-    CHECK(frames->triangles() == std::vector<Triangle>{{0, 1, 2}});
+    CHECK(frames->triangles() == std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
     CHECK(frames->positions(0)[0].z == 1);
     CHECK(frames->positions(1)[0].z == 2);
     CHECK(frames->positions(2)[0].z == 10);
@@ -88,8 +87,8 @@ TEST_CASE("a folder gives its frames in the order of their numbers")
 TEST_CASE("a folder that is missing or has no frames is refused by name")
 {
     const Folder folder;
-    CHECK_THAT(refusal([&] { open_folder(folder.path); }), Contains("has no file that ends in .obj"));
-    CHECK_THAT(refusal([&] { open_folder(folder.path / "gone"); }), Contains("gone cannot be read"));
+    CHECK_THAT(refusal([&] { open_frame_folder(folder.path); }), Contains("has no file that ends in .obj"));
+    CHECK_THAT(refusal([&] { open_frame_folder(folder.path / "gone"); }), Contains("gone cannot be read"));
 }
 
 TEST_CASE("a point cache gives the frames of its mesh")
