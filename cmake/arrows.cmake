@@ -29,7 +29,8 @@ taut_forbid(src/plan         "taut/(world|judge|report|cli|taut)|taut/runtime/(c
 taut_forbid(src/linear       "taut/(plan|world|judge|report|cli|taut)|taut/runtime/(cpu|vulkan|opengl)")
 # The judge of what kernels did shares nothing with them: of scene it takes the readers of files.
 taut_forbid(src/judge        "taut/(elements|plan|linear|world|report|cli|taut|kernels)|taut/runtime/(device|cpu|vulkan|opengl|compiler)")
-taut_forbid(src/world        "taut/(judge|report|cli)|taut/runtime/(cpu|opengl)")
+# A world asks the judge whether its start is one that contact can hold.
+taut_forbid(src/world        "taut/(report|cli)|taut/runtime/(cpu|opengl)")
 taut_forbid(src/report       "taut/(cli)|taut/runtime/(cpu|opengl)")
 # Every include is from the include root, so that the lines above see all of them.
 taut_forbid(runtime          "[^>\"]*\\.\\./|\\./")

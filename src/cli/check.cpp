@@ -7,6 +7,7 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
+#include "taut/world/crossed_start.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -41,9 +42,12 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         take();
         found = check_resolved(resolved);
         take();
-        if (!any_error(issues))
-            for (const PlanWarning& warning : make_plan(resolved).warnings)
-                issues.push_back({false, "", warning.sentence()});
+        if (any_error(issues))
+            return;
+        for (const PlanWarning& warning : make_plan(resolved).warnings)
+            issues.push_back({false, "", warning.sentence()});
+        if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())
+            issues.push_back({resolved.contact.start == "refuse", "contact", crossed});
     }
     catch (const Error& error)
     {

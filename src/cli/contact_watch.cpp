@@ -57,10 +57,7 @@ void ContactWatch::learn_surfaces()
 
 bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const
 {
-    const Scene& scene = simulation_.scene();
-    return a == b ? scene.bodies[a].contact.self
-                  : bodies_meet(scene) && takes_part(scene, scene.bodies[a]) &&
-                        takes_part(scene, scene.bodies[b]);
+    return surfaces_meet(simulation_.scene(), a, b);
 }
 
 bool ContactWatch::meets_passing(const judging::Passing& p) const

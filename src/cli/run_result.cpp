@@ -36,20 +36,26 @@ std::string hex(std::uint64_t value)
 
 Json solver_json(const SolverReport& solver)
 {
-    return {{"solves", solver.solves},         {"iterations", solver.iterations},
-            {"most_iterations", solver.most},  {"at_limit", solver.limited},
-            {"failed", solver.failed},         {"last_status", to_string(solver.last)}};
+    return {{"solves", solver.solves},        {"iterations", solver.iterations},
+            {"most_iterations", solver.most}, {"at_limit", solver.limited},
+            {"failed", solver.failed},        {"last_status", to_string(solver.last)}};
 }
 
 /// What was left out for any reason is missing.
 Json contacts_json(const StepReport& report)
 {
     const ContactCounts& c = report.contacts;
-    return {{"pairs", c.pairs},
-            {"candidates", c.candidates},
-            {"missing", c.missing + c.cut + c.crowded},
-            {"capacity", c.capacity},
-            {"depth", report.contact_depth}};
+    Json forces = Json::array();
+    for (const BodyContactForce& f : report.contact_forces)
+        forces.push_back({{"a", f.a},
+                          {"b", f.b},
+                          {"pairs", f.pairs},
+                          {"push", f.push},
+                          {"friction", f.friction},
+                          {"force", {f.force.x, f.force.y, f.force.z}}});
+    return {
+        {"pairs", c.pairs},       {"candidates", c.candidates},    {"missing", c.missing + c.cut + c.crowded},
+        {"capacity", c.capacity}, {"depth", report.contact_depth}, {"forces", forces}};
 }
 
 Json passes_json(const std::vector<EffectTime>& passes)

@@ -237,7 +237,7 @@ void prepare_contact(PlanBuilder& b)
     c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
     with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
     add_lists(b, c);
-    b.plan.contact = {c.control, c.lost, c.pair, c.side, c.triangles, c.capacity};
+    b.plan.contact = {c.control, c.lost, c.pair, c.side, c.taken, c.triangles, c.capacity};
 }
 
 void record_contact_search(PlanBuilder& b, const Moment& moment)

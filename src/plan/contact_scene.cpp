@@ -69,6 +69,13 @@ bool takes_part(const Scene& scene, const Body& body)
     return has_surface(body) && (body.contact.self || bodies_meet(scene));
 }
 
+bool surfaces_meet(const Scene& scene, std::size_t a, std::size_t b)
+{
+    if (a == b)
+        return scene.bodies[a].contact.self;
+    return bodies_meet(scene) && has_surface(scene.bodies[a]) && has_surface(scene.bodies[b]);
+}
+
 bool wants_contact(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(),

@@ -17,7 +17,9 @@ double friction_of(const Scene& scene, const Body& body);
 bool bodies_meet(const Scene& resolved);
 /// Whether the surface of a body meets itself or another one.
 bool takes_part(const Scene& resolved, const Body& body);
-/// Whether any does.
+/// Whether the surfaces of two bodies meet, or that of one itself.
+bool surfaces_meet(const Scene& resolved, std::size_t a, std::size_t b);
+/// Whether the surface of any body meets itself or another one.
 bool wants_contact(const Scene& resolved);
 
 /// Throws Error{unsupported} naming the key where the scene's method, or a body in it, cannot meet others,

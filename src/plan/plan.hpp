@@ -118,6 +118,7 @@ struct PlanContact
     std::uint32_t lost = kNoBuffer;    ///< counters of what was left out
     std::uint32_t pair = kNoBuffer;    ///< layout::ContactPair
     std::uint32_t side = kNoBuffer;    ///< layout::ContactSide<real>, a pair
+    std::uint32_t taken = kNoBuffer;   ///< multipliers of the last substep, as contact_push leaves them
     std::uint32_t triangles = 0, capacity = 0;
 };
 

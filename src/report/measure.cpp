@@ -172,6 +172,7 @@ StepReport measure(const World& world)
     measure_residuals(view, out);
     out.volume = measure_volume(world.scene(), view.x);
     out.contacts = world.contacts();
+    out.contact_forces = world.contact_forces();
     out.contact_depth = contact_depth(world, view.x);
     out.torn = world.torn();
     out.position_hash = hash_of(world.state());

@@ -68,6 +68,7 @@ struct StepReport
     SolverReport solver;         ///< of the run so far
     VolumeReport volume;         ///< of bodies with tetrahedra
     ContactCounts contacts;      ///< of surfaces that meet
+    std::vector<BodyContactForce> contact_forces; ///< of bodies that push each other
     double contact_depth = 0;    ///< m: by how much the nearest pair of surfaces is nearer than it is kept
     std::uint64_t torn = 0;      ///< vertices that came apart so far
     std::uint64_t position_hash = 0; ///< FNV-1a over the raw position and low words in plan order

@@ -104,7 +104,6 @@ Material led_material(const Body& body)
     out.density = body.material.density;
     out.thickness = body.material.thickness;
     out.stretch_stiffness = 0;
-    out.volume_stiffness = 0;
     return out;
 }
 

@@ -99,6 +99,8 @@ constexpr Key kWindKey[] = {
     key<&Wind::Key::velocity>("velocity", "of the air at that time").unit("m/s").needed(),
 };
 
+constexpr std::string_view kContactStarts[] = {"ignore", "refuse"};
+
 constexpr Key kContact[] = {
     key<&SceneContact::between>("between", "different bodies meet; bodies say themselves whether they meet "
                                            "themselves"),
@@ -114,6 +116,10 @@ constexpr Key kContact[] = {
     key<&SceneContact::searches>("searches", "how often a time step looks for what may meet: more where "
                                              "several layers fall fast; at most once a substep")
         .range(1, 1000),
+    key<&SceneContact::start>("start",
+                              "what becomes of surfaces that go through each other at the start: they "
+                              "stay so, and the run is `unconverged`, or the scene is refused")
+        .words(kContactStarts),
     key<&SceneContact::sweeps>("sweeps", "over all pairs, after each iteration of the constraints: more for "
                                          "stacks of many layers")
         .range(1, 100),

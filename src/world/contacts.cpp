@@ -7,7 +7,12 @@
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace taut {
 namespace {
@@ -21,12 +26,31 @@ std::uint32_t roomy(std::uint32_t found)
     return capacity;
 }
 
+/// Sides and multipliers of the pairs that are listed. A multiplier is a force times the square of the
+/// substep (contact_push.comp).
 template <typename Real>
-std::vector<double> rest_gaps(Device& device, const BufferPtr& side, std::uint32_t count)
+void add_sides(Device& device, const BufferPtr& side, const BufferPtr& taken, double substep,
+               std::vector<SurfacePair>& pairs)
 {
-    std::vector<double> out;
-    for (const auto& s : device.read<layout::ContactSide<Real>>(side, count))
-        out.push_back(static_cast<double>(s.rest_gap));
+    const auto count = static_cast<std::uint32_t>(pairs.size());
+    const auto sides = device.read<layout::ContactSide<Real>>(side, count);
+    const auto multipliers = device.read<glm::vec<4, Real>>(taken, count);
+    for (std::uint32_t k = 0; k < count; ++k)
+    {
+        const glm::dvec4 force = glm::dvec4(multipliers[k]) / (substep * substep);
+        pairs[k].rest_gap = static_cast<double>(sides[k].rest_gap);
+        pairs[k].normal = {sides[k].normal_x, sides[k].normal_y, sides[k].normal_z};
+        pairs[k].push = force.w;
+        pairs[k].friction = glm::dvec3(force);
+    }
+}
+
+/// The body of each vertex of a scene.
+std::vector<std::uint32_t> bodies_of(const Scene& scene)
+{
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
+        out.resize(out.size() + scene.bodies[b].mesh.positions.size(), b);
     return out;
 }
 
@@ -36,8 +60,8 @@ ContactLists World::Impl::contact_lists() const
 {
     if (plan.contact.control == kNoBuffer)
         return {};
-    return {raw(plan.contact.control), raw(plan.contact.lost), raw(plan.contact.pair),
-            raw(plan.contact.side)};
+    return {raw(plan.contact.control), raw(plan.contact.lost), raw(plan.contact.pair), raw(plan.contact.side),
+            raw(plan.contact.taken)};
 }
 
 /// Pairs only where vertices have kept their numbers.
@@ -50,6 +74,7 @@ void World::Impl::carry_contacts(const ContactLists& before, bool same_vertices)
     {
         device->write(buffers[plan.contact.pair], 0, before.pair);
         device->write(buffers[plan.contact.side], 0, before.side);
+        device->write(buffers[plan.contact.taken], 0, before.taken);
     }
     else
         std::fill_n(control.begin() + TAUT_CONTACT_LISTED * 4, 4, std::byte{0});
@@ -111,16 +136,44 @@ std::vector<SurfacePair> World::contact_pairs() const
     const std::uint32_t count =
         device.read<std::uint32_t>(impl_->buffers[plan.contact.control], 1, TAUT_CONTACT_LISTED * 4).front();
     const auto pairs = device.read<layout::ContactPair<float>>(impl_->buffers[plan.contact.pair], count);
-    const BufferPtr& side = impl_->buffers[plan.contact.side];
-    const std::vector<double> gaps = plan.precision == Precision::float64
-                                         ? rest_gaps<double>(device, side, count)
-                                         : rest_gaps<float>(device, side, count);
     std::vector<SurfacePair> out;
-    for (std::uint32_t k = 0; k < count; ++k)
-        out.push_back({{plan.original[pairs[k].a], plan.original[pairs[k].b], plan.original[pairs[k].c],
-                        plan.original[pairs[k].d]},
-                       pairs[k].kind == TAUT_CONTACT_EDGES,
-                       gaps[k]});
+    for (const auto& p : pairs)
+    {
+        SurfacePair& pair = out.emplace_back();
+        pair.vertex = {plan.original[p.a], plan.original[p.b], plan.original[p.c], plan.original[p.d]};
+        pair.edges = p.kind == TAUT_CONTACT_EDGES;
+    }
+    const BufferPtr& side = impl_->buffers[plan.contact.side];
+    const BufferPtr& taken = impl_->buffers[plan.contact.taken];
+    const double substep = impl_->scene.timestep / plan.substeps;
+    if (plan.precision == Precision::float64)
+        add_sides<double>(device, side, taken, substep, out);
+    else
+        add_sides<float>(device, side, taken, substep, out);
+    return out;
+}
+
+std::vector<BodyContactForce> World::contact_forces() const
+{
+    const std::vector<std::uint32_t> body = bodies_of(impl_->scene);
+    std::map<std::array<std::uint32_t, 2>, BodyContactForce> found;
+    for (const SurfacePair& pair : contact_pairs())
+    {
+        if (!(pair.push > 0))
+            continue;
+        const std::uint32_t first = body[pair.vertex[0]], second = body[pair.vertex[pair.edges ? 2 : 1]];
+        BodyContactForce& sum = found[{std::min(first, second), std::max(first, second)}];
+        sum.a = std::min(first, second);
+        sum.b = std::max(first, second);
+        ++sum.pairs;
+        sum.push += pair.push;
+        sum.friction += glm::length(pair.friction);
+        if (first != second)
+            sum.force += (first < second ? 1.0 : -1.0) * (pair.normal * pair.push + pair.friction);
+    }
+    std::vector<BodyContactForce> out;
+    for (const auto& [bodies, sum] : found)
+        out.push_back(sum);
     return out;
 }
 

@@ -3,6 +3,7 @@
 #include "taut/plan/constraints.hpp"
 #include "taut/runtime/required.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
+#include "taut/world/crossed_start.hpp"
 #include "taut/world/inputs.hpp"
 #include "taut/world/planned.hpp"
 
@@ -229,6 +230,9 @@ World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOpti
 {
     impl_->device = required(std::move(device), "a World");
     impl_->scene = resolved(scene);
+    if (impl_->scene.contact.start == "refuse")
+        if (const std::string crossed = crossed_at_start(impl_->scene); !crossed.empty())
+            throw Error(ErrorCode::bad_input, crossed);
     // Costs only decide how constraints are grouped: without any, no probe runs.
     const DeviceTraits traits = options.traits                  ? *options.traits
                                 : has_constraints(impl_->scene) ? measure_traits(*impl_->device)

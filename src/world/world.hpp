@@ -21,15 +21,15 @@ namespace taut {
 /// Since which step a world has run with its present timestep and gravity. Both may change on the way.
 struct Clock
 {
-    std::uint64_t step = 0;  ///< where this stretch began
-    double time = 0;         ///< s, at that step
-    double timestep = 0;     ///< s, since then; 0 = that of the scene
-    glm::dvec3 gravity{0};   ///< m/s^2, since then
-    glm::dvec3 fall{0};      ///< m/s, integral of gravity over time up to `step`
-    double fall_length = 0;  ///< m/s, integral of its length
-    bool steady = true;      ///< gravity has been the scene's all the time
-    double substep = 0;      ///< s, since then; 0 = that of the world
-    double lead = -0.5;      ///< Plan::velocity_lead of the world whose clock it is
+    std::uint64_t step = 0; ///< where this stretch began
+    double time = 0;        ///< s, at that step
+    double timestep = 0;    ///< s, since then; 0 = that of the scene
+    glm::dvec3 gravity{0};  ///< m/s^2, since then
+    glm::dvec3 fall{0};     ///< m/s, integral of gravity over time up to `step`
+    double fall_length = 0; ///< m/s, integral of its length
+    bool steady = true;     ///< gravity has been the scene's all the time
+    double substep = 0;     ///< s, since then; 0 = that of the world
+    double lead = -0.5;     ///< Plan::velocity_lead of the world whose clock it is
 
     double at(std::uint64_t now) const { return time + static_cast<double>(now - step) * timestep; }
 };
@@ -92,22 +92,35 @@ struct SurfacePair
 {
     std::array<std::uint32_t, 4> vertex{}; ///< scene-wide: v, a, b, c; or the ends of one and of the other
     bool edges = false;
-    double rest_gap = 0; ///< m: how far apart they are kept
+    double rest_gap = 0;    ///< m: how far apart they are kept
+    glm::dvec3 normal{0};   ///< unit, from the second of the pair to the first; 0 before the first sweep
+    double push = 0;        ///< N, 0 or more: force on the first along the normal in the last substep
+    glm::dvec3 friction{0}; ///< N: force on the first across the normal in the last substep
+};
+
+/// What the surfaces of two bodies do to each other in the last substep.
+struct BodyContactForce
+{
+    std::uint32_t a = 0, b = 0; ///< bodies, a < b, or one body that meets itself
+    std::uint64_t pairs = 0;    ///< of the list, that push
+    double push = 0;            ///< N: sum of SurfacePair::push
+    double friction = 0;        ///< N: sum of the lengths of SurfacePair::friction
+    glm::dvec3 force{0};        ///< N: on a, of all pairs together; 0 of a body by itself
 };
 
 /// What has driven a world from outside since it was made, for accounts of energy. A state that is restored
 /// brings back push, kick and placed.
 struct WorldDrive
 {
-    double time = 0;            ///< s
-    double substep = 0;         ///< s
-    double fall = 0;            ///< m/s, integral of the length of gravity over time
-    bool steady_gravity = true; ///< it has been that of the scene all the time
-    double push = 0;            ///< N s, integral of the lengths of all external forces
+    double time = 0;                     ///< s
+    double substep = 0;                  ///< s
+    double fall = 0;                     ///< m/s, integral of the length of gravity over time
+    bool steady_gravity = true;          ///< it has been that of the scene all the time
+    double push = 0;                     ///< N s, integral of the lengths of all external forces
     std::vector<DrivenMover> moved = {}; ///< colliders and pins
-    double wind = 0;            ///< m/s, the fastest that the program has set
-    double kick = 0;            ///< sqrt(J), of all changes by set_velocities: of each the root of its energy
-    std::uint64_t placed = 0;   ///< calls of set_positions: nothing is known of the energy that they gave
+    double wind = 0;                     ///< m/s, the fastest that the program has set
+    double kick = 0;          ///< sqrt(J), of all changes by set_velocities: of each the root of its energy
+    std::uint64_t placed = 0; ///< calls of set_positions: nothing is known of the energy that they gave
 };
 
 /// Device time of one step, summed by effect.
@@ -138,7 +151,8 @@ class World : public ProgramMoves
 {
 public:
     /// Resolves the scene if its bodies have no meshes yet, plans it for the device, uploads, records.
-    /// Throws Error{bad_input} where there is no device, and what resolve() and make_plan() throw.
+    /// Throws Error{bad_input} where there is no device or, with SceneContact::start "refuse", surfaces that
+    /// are to meet go through each other; and what resolve() and make_plan() throw.
     World(const Scene& scene, std::shared_ptr<Device> device, const WorldOptions& = {});
     ~World();
     World(World&&) noexcept;
@@ -151,7 +165,7 @@ public:
     std::vector<EffectTime> step_timed();
 
     std::uint64_t steps() const;
-    double time() const; ///< s
+    double time() const;                ///< s
     glm::dvec3 gravity_impulse() const; ///< m/s, integral of gravity over the time so far
     WorldDrive drive() const;
     const Plan& plan() const;
@@ -159,7 +173,7 @@ public:
     Device& device() const;
 
     /// In the order of the scene: bodies one after another, vertices as in their meshes. Waits.
-    std::vector<glm::dvec3> positions() const;  ///< m, hi + lo
+    std::vector<glm::dvec3> positions() const; ///< m, hi + lo
     /// m/s, at the step. WorldState::velocity is what a method goes on from (Plan::velocity_lead).
     std::vector<glm::dvec3> velocities() const;
     /// Of one body, in the order of its mesh; only these are read. Error{bad_input} without such a body.
@@ -190,6 +204,8 @@ public:
     ContactCounts contacts() const;
     /// Those that the last step's search listed, in the order of the list.
     std::vector<SurfacePair> contact_pairs() const;
+    /// Summed by bodies that push each other, ascending. Waits, as contact_pairs() does.
+    std::vector<BodyContactForce> contact_forces() const;
 
     WorldState state() const;
     /// Throws Error{bad_input} when the state is of another plan (also of a cloth torn otherwise) or holds a

@@ -15,7 +15,7 @@ namespace taut {
 /// What lists of surfaces that meet hold, as bytes; empty without contact.
 struct ContactLists
 {
-    std::vector<std::byte> control, lost, pair, side;
+    std::vector<std::byte> control, lost, pair, side, taken;
 };
 
 /// Places that wait for the next step, as position and low have them, in the plan's order.
@@ -44,15 +44,15 @@ struct World::Impl
     Clock clock;
     Moved program;
     Placed placed;
-    bool moves = false;               ///< inputs change from step to step
-    bool stale = true;                ///< inputs have changed since they were last written
-    std::vector<std::byte> forces;    ///< set from outside, as plan.force; empty without that effect
-    std::vector<std::uint32_t> place; ///< in the plan's order, of each vertex of the scene; for forces
-    bool forces_changed = false;      ///< since they were last handed over
-    double force_sum = 0;             ///< N, of their lengths
+    bool moves = false;                 ///< inputs change from step to step
+    bool stale = true;                  ///< inputs have changed since they were last written
+    std::vector<std::byte> forces;      ///< set from outside, as plan.force; empty without that effect
+    std::vector<std::uint32_t> place;   ///< in the plan's order, of each vertex of the scene; for forces
+    bool forces_changed = false;        ///< since they were last handed over
+    double force_sum = 0;               ///< N, of their lengths
     std::uint32_t contacts_missing = 0; ///< of TAUT_CONTACT_MISSING, when the host looked last
-    double push = 0;                  ///< N s, as WorldDrive::push
-    double kick = 0;                  ///< sqrt(J), as WorldDrive::kick
+    double push = 0;                    ///< N s, as WorldDrive::push
+    double kick = 0;                    ///< sqrt(J), as WorldDrive::kick
     std::uint64_t placings = 0;
     PlanOptions options;
     DeviceTraits traits;

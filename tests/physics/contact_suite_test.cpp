@@ -1,0 +1,260 @@
+// The scenes of examples/contact, each by the criterion that its README names. The judge, which shares
+// nothing with the kernels, looks at every step.
+
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+
+#include "taut/judge/judge.hpp"
+#include "taut/judge/scene_triangles.hpp"
+#include "taut/report/report.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/world/world.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <cmath>
+#include <functional>
+
+using namespace taut;
+
+namespace {
+
+Scene suite(const std::string& name)
+{
+    return load_scene(TAUT_SOURCE_DIR "/examples/contact/" + name + ".json");
+}
+
+/// A world that is judged step by step.
+struct JudgedRun
+{
+    World world;
+    judging::SceneTriangles all = judging::scene_triangles(world.scene());
+    judging::Judge judge{all.triangles, world.positions(), all.led};
+    std::vector<glm::dvec3> before = world.positions();
+    double nearest_parts = 1; ///< m: the least distance of different parts so far
+    std::size_t crossed = 0;  ///< steps in which anything goes through anything, or has since the one before
+
+    explicit JudgedRun(const Scene& scene) : world(scene, test_device("cpu:serial")) {}
+
+    void run(
+        double until, const std::function<void()>& look = [] {})
+    {
+        while (world.time() < until - 1e-9)
+        {
+            world.step();
+            std::vector<glm::dvec3> now = world.positions();
+            const judging::FrameVerdict verdict = judge.look(now);
+            nearest_parts = std::min(nearest_parts, verdict.nearest_parts.distance);
+            crossed += verdict.intersecting > 0 || !judge.between(before, now).empty();
+            before = std::move(now);
+            look();
+        }
+    }
+    std::vector<glm::dvec3> body(std::size_t b) const
+    {
+        const auto& first = world.plan().body_start;
+        return {before.begin() + first[b], before.begin() + first[b + 1]};
+    }
+    glm::dvec3 centre(std::size_t b) const
+    {
+        glm::dvec3 sum(0);
+        for (const glm::dvec3& x : body(b))
+            sum += x;
+        return sum / static_cast<double>(body(b).size());
+    }
+};
+
+double mass_of(const Scene& resolved, std::size_t b)
+{
+    const auto& m = resolved.bodies[b];
+    return m.material.density * m.shape.size.x * m.shape.size.y;
+}
+
+const BodyContactForce* between(const std::vector<BodyContactForce>& all, std::uint32_t a, std::uint32_t b)
+{
+    for (const BodyContactForce& f : all)
+        if (f.a == a && f.b == b)
+            return &f;
+    return nullptr;
+}
+
+} // namespace
+
+TEST_CASE("suite 04: a sheet lies a gap above a plate and does not drift")
+{
+    JudgedRun run(suite("04_sheet_on_plate"));
+    run.run(1);
+    const glm::dvec3 settled = run.centre(1);
+    run.run(2.5);
+    CHECK(run.crossed == 0);
+    CHECK(glm::distance(run.centre(1), settled) < 1e-4);
+    for (const glm::dvec3& x : run.body(1))
+        CHECK(std::abs(x.y - 0.004) < 0.05 * 0.004);
+    const auto forces = run.world.contact_forces();
+    const BodyContactForce* carried = between(forces, 0, 1);
+    REQUIRE(carried);
+    const double weight = 9.81 * mass_of(run.world.scene(), 1);
+    CHECK(-carried->force.y == Approx(weight).epsilon(0.01));
+    CHECK(carried->push == Approx(weight).epsilon(0.01)); // all of it straight up
+}
+
+TEST_CASE("suite 05: the lowest layer of a stack is pressed by all others")
+{
+    JudgedRun run(suite("05_stack"));
+    run.run(0.6);
+    CHECK(run.crossed == 0);
+    const auto forces = run.world.contact_forces();
+    for (std::uint32_t k = 0; k < 8; ++k) // between layers k and k + 1; 0 is the plate
+    {
+        CAPTURE(k);
+        CHECK(run.centre(k + 1).y > run.centre(k).y + 0.9 * 0.004);
+        const BodyContactForce* carried = between(forces, k, k + 1);
+        REQUIRE(carried);
+        CHECK(-carried->force.y == Approx(9.81 * (8 - k) * mass_of(run.world.scene(), 1)).epsilon(0.05));
+    }
+}
+
+TEST_CASE("suite 06: sheets that collide in free space keep their momentum and gain no energy")
+{
+    // A substep may not take them further than the gap: no filter forbids crossings.
+    const auto [speed, substeps] = GENERATE(std::pair(1.0, 20u), std::pair(10.0, 80u));
+    CAPTURE(speed, substeps);
+    Scene scene = suite("06_collision");
+    scene.method.substeps = substeps;
+    scene.bodies[0].velocity.y = -speed / 2;
+    scene.bodies[1].velocity.y = speed / 2;
+    JudgedRun run(scene);
+    const double before = measure(run.world).kinetic_energy;
+    run.run(0.04 / speed + 0.1);
+    const StepReport after = measure(run.world);
+    CHECK(run.crossed == 0);
+    CHECK(after.momentum_error >= 0);
+    CHECK(after.momentum_error < 1e-6);
+    CHECK(after.kinetic_energy < before);
+}
+
+TEST_CASE("suite 10: a cloth is pulled through a ring, and what crosses on the way is said")
+{
+    JudgedRun run(suite("10_through_a_ring"));
+    run.run(1.8);
+    double high = -1;
+    for (const glm::dvec3& x : run.body(1))
+        high = std::max(high, x.y);
+    CHECK(high < -0.1);
+    CHECK(run.nearest_parts > 0.5 * 0.008); // it crosses itself, but not the ring
+    CHECK(measure(run.world).status == Status::completed);
+}
+
+TEST_CASE("suite 22: a sheet slides on a slope above its cone of friction and stays within it")
+{
+    const double g = 9.81 / std::sqrt(1.25); // tan of the slope is 0.5
+    const auto way = [&](double friction) {
+        Scene scene = suite("22_slope");
+        scene.contact.friction = friction;
+        JudgedRun run(scene);
+        run.run(2);
+        CHECK(run.crossed == 0);
+        return run.centre(1).x;
+    };
+    CHECK(way(0.49) == Approx(0.5 * g * (0.5 - 0.49) * 4).epsilon(0.1));
+    CHECK(std::abs(way(0.51)) < 2e-5);
+}
+
+TEST_CASE("suite 23: a sheet slides as far as friction lets it")
+{
+    const double friction = GENERATE(0.5, 1.0);
+    Scene scene = suite("23_slide");
+    scene.contact.friction = friction;
+    JudgedRun run(scene);
+    run.run(2.5);
+    CHECK(run.crossed == 0);
+    CHECK(run.centre(1).x == Approx(100 / (2 * friction * 9.81)).epsilon(0.05));
+}
+
+TEST_CASE("suite 24: a ribbon over a cylinder holds below the capstan equation's ratio and slips above")
+{
+    // exp(0.3 pi) = 2.566 of the forces at the two ends of the half turn.
+    const auto fall = [](double heavy) {
+        Scene scene = suite("24_capstan");
+        auto& m = scene.bodies[1].vertex_masses;
+        m[m.size() - 1] = m[m.size() - 2] = heavy;
+        JudgedRun run(scene);
+        run.run(0.5);
+        const double before = run.body(1).back().y;
+        run.run(1);
+        CHECK(run.crossed == 0);
+        return before - run.body(1).back().y;
+    };
+    CHECK(fall(0.045) < 1e-4);
+    CHECK(fall(0.06) > 0.01);
+}
+
+TEST_CASE("suite 30: cloth on a sphere that turns goes round with it")
+{
+    JudgedRun run(suite("30_turning_sphere"));
+    run.run(1.5);
+    double turned = 0;
+    std::vector<glm::dvec3> last = run.body(1);
+    const auto angle = [](const glm::dvec3& x) { return std::atan2(-x.z, x.x); };
+    std::size_t near = 0; // a vertex that lies on the sphere, off its pole
+    for (std::size_t v = 0; v < last.size(); ++v)
+        if (std::abs(std::hypot(last[v].x, last[v].z) - 0.12) <
+            std::abs(std::hypot(last[near].x, last[near].z) - 0.12))
+            near = v;
+    run.run(2, [&] { last = run.body(1); }); // until it goes round as the sphere does
+    run.run(4, [&] {
+        const auto now = run.body(1);
+        turned += std::remainder(angle(now[near]) - angle(last[near]), glm::two_pi<double>());
+        last = now;
+    });
+    CHECK(run.crossed == 0);
+    CHECK(turned == Approx(glm::two_pi<double>()).epsilon(0.05)); // 360 degrees in two seconds
+}
+
+TEST_CASE("suite 52: a ball that hits a curtain is not passed through")
+{
+    const double speed = GENERATE(1.0, 10.0);
+    CAPTURE(speed);
+    Scene scene = suite("52_hit");
+    scene.bodies[0].kinematic.motion = {{0.1}, {0.1 + 0.5 / speed, {0, 0, 0.5}}};
+    JudgedRun run(scene);
+    run.run(0.1 + 0.5 / speed);
+    CHECK(run.crossed == 0);
+    double front = -1;
+    for (const glm::dvec3& x : run.body(1))
+        front = std::max(front, x.z);
+    CHECK(front > 0.34); // the ball's front is at 0.35
+}
+
+TEST_CASE("suite 54: the corner of a box lifts a sheet whose edges are longer than the box")
+{
+    JudgedRun run(suite("54_corner"));
+    run.run(2);
+    CHECK(run.crossed == 0);
+    double corner = -1, sheet = 1;
+    for (const glm::dvec3& x : run.body(0))
+        corner = std::max(corner, x.y);
+    for (const glm::dvec3& x : run.body(1))
+        sheet = std::min(sheet, x.y);
+    CHECK(corner > 0.22); // it rose above where the sheet hung
+    CHECK(sheet < corner);
+}
+
+TEST_CASE("surfaces that start within each other are named, or refused where the scene asks for that")
+{
+    Scene scene = suite("06_collision");
+    scene.bodies[0].name = "first";
+    scene.bodies[1].transform.translate.y = 0.02;
+    scene.bodies[1].transform.rotate_degrees = -80;
+    CHECK_NOTHROW(World(scene, test_device("cpu:serial")));
+    scene.contact.start = "refuse";
+    CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")),
+                      Contains("go through each other at the start") &&
+                          Contains("of bodies[0] (\"first\") and"));
+    scene.bodies[1].transform.translate.y = -0.02;
+    CHECK_NOTHROW(World(scene, test_device("cpu:serial")));
+    scene.contact.between = false; // then they may
+    scene.bodies[1].transform.translate.y = 0.02;
+    CHECK_NOTHROW(World(scene, test_device("cpu:serial")));
+}
