@@ -331,7 +331,8 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     if (rank(result.report.status) < rank(Status::diverged) && !guard.interrupted() &&
         runner.done() == frames)
     {
-        judge_residuals(world.scene(), residuals_ahead(world), result.report);
+        if (frames > 0) // where nothing was solved, nothing was left unsolved
+            judge_residuals(world.scene(), residuals_ahead(world), result.report);
         if (result.parts.empty())
             result.passes = time_passes(world);
     }
