@@ -114,7 +114,7 @@ public:
             before_ = Columns::Zero(3, x.cols());
         const std::vector<double> moved = moved_of(model_, rows_, x);
         const std::vector<double> came = moved_of(model_, rows_, x - before_);
-        bool near = true;
+        bool near = !came_.empty(); // nothing has come yet
         for (std::size_t b = 0; b < moved.size(); ++b)
         {
             const double ratio = came_.empty() ? 1 : std::max(kLeastRatio, came[b] / came_[b]);

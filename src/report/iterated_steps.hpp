@@ -18,7 +18,7 @@ std::vector<std::vector<glm::dvec3>> iterated_steps(const PhysicalModel& model,
                                                     std::span<const glm::dvec3> x, const Leftover& left,
                                                     const std::vector<std::vector<glm::dvec3>>& forces);
 
-inline constexpr double kStepError = 0.02, kStepFloor = 0.002;
+inline constexpr double kStepError = 0.01, kStepFloor = 0.002;
 inline constexpr int kMostStepIterations = 300;
 
 } // namespace taut
