@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace taut {
@@ -43,22 +44,22 @@ void warn_of(const MeshFindings& findings, bool solid, const Checker& out, const
     const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what; };
     if (!findings.degenerate_triangles.empty())
         out.warning(field, "had " + count(findings.degenerate_triangles.size(), "triangles without area, ") +
-                                "dropped; the first is number " +
-                                std::to_string(findings.degenerate_triangles.front()) + " of the file");
+                               "dropped; the first is number " +
+                               std::to_string(findings.degenerate_triangles.front()) + " of the file");
     if (findings.unused_vertices > 0)
         out.warning(field, "had " + count(findings.unused_vertices, "vertices of no ") +
-                                (solid ? "tetrahedron" : "triangle") + ", dropped");
+                               (solid ? "tetrahedron" : "triangle") + ", dropped");
     if (findings.turned_tetrahedra > 0)
         out.warning(field, "had " + count(findings.turned_tetrahedra, "left-handed tetrahedra, turned"));
     for (const auto& [word, lines] : findings.skipped)
         out.warning(field, "has " + count(lines, lines == 1 ? "line " : "lines ") + word +
                                (lines == 1 ? ", which is not read" : ", which are not read"));
     if (!findings.non_manifold_edges.empty())
-        out.warning(field,
-                    "has " + count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
-                        "; the first joins vertices " +
-                        std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
-                        std::to_string(findings.non_manifold_edges.front()[1]));
+        out.warning(field, "has " +
+                               count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
+                               "; the first joins vertices " +
+                               std::to_string(findings.non_manifold_edges.front()[0]) + " and " +
+                               std::to_string(findings.non_manifold_edges.front()[1]));
 }
 
 /// The rest mesh in its own space.
@@ -162,7 +163,11 @@ void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Chec
                                scene_file::shown(pin.box_max) +
                                " holds no vertex at the start; boxes are in world space, m");
     std::sort(vertices.begin(), vertices.end());
-    pin = Pin{.vertices = {}, .corners = {}, .edges = {}, .faces = {}, .motion = std::move(pin.motion),
+    pin = Pin{.vertices = {},
+              .corners = {},
+              .edges = {},
+              .faces = {},
+              .motion = std::move(pin.motion),
               .moved_by_program = pin.moved_by_program};
     for (const std::uint32_t vertex : vertices)
         if (!held[vertex])
@@ -209,10 +214,14 @@ void add_network(Body& body)
 /// Names the first vertex that is not.
 bool all_finite(const Mesh& mesh, const Checker& out)
 {
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        if (!out.finite("", mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
-            return false;
-    return true;
+    const auto out_of_range = [](const glm::dvec3& p) {
+        return !(std::abs(p.x) <= scene_file::kMaxValue && std::abs(p.y) <= scene_file::kMaxValue &&
+                 std::abs(p.z) <= scene_file::kMaxValue);
+    };
+    const auto& all = mesh.positions;
+    const auto found = std::find_if(all.begin(), all.end(), out_of_range);
+    return found == all.end() ||
+           out.finite("", *found, "m, vertex " + std::to_string(found - all.begin()) + " in world space");
 }
 
 /// A file that cannot be used is an issue of the field that names it.
@@ -287,7 +296,7 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
     std::vector<SceneIssue> issues = check(scene);
     throw_if_any(issues, found);
     Scene resolved = scene;
-    const Checker out(issues, {});
+    const Checker out(issues);
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
         Body& body = resolved.bodies[b];
