@@ -168,24 +168,28 @@ double largest_wind(const Wind& wind)
 } // namespace
 
 EnergyBudget::EnergyBudget(const Scene& resolved)
-    : model_(make_model(resolved)),
-      paths_(paths_of(movers_of(resolved, model_))),
-      depth_(deepest_start(resolved, model_)),
+    : EnergyBudget(resolved, std::make_shared<const PhysicalModel>(make_model(resolved)))
+{}
+
+EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model)
+    : shared_(std::move(model)),
+      paths_(paths_of(movers_of(resolved, *shared_))),
+      depth_(deepest_start(resolved, *shared_)),
       drawn_(std::make_shared<const DrawnBodies>(resolved)),
-      violation_(largest_violation(resolved, model_)),
+      violation_(largest_violation(resolved, *shared_)),
       depenetration_(resolved.depenetration_speed),
       wind_speed_(largest_wind(resolved.wind)),
       wind_drag_(wind_drag(resolved))
 {
     lightest_ = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < model_.mass.size(); ++i)
-        if (!model_.pinned[i])
+    for (std::size_t i = 0; i < shared_->mass.size(); ++i)
+        if (!shared_->pinned[i])
         {
-            mass_ += model_.mass[i];
-            lightest_ = std::min(lightest_, model_.mass[i]);
+            mass_ += shared_->mass[i];
+            lightest_ = std::min(lightest_, shared_->mass[i]);
         }
-    start_ = kinetic_energy(model_) + elastic_at_start(model_) + gas_energy(model_, model_.start);
-    gravity_start_ = gravity_energy(model_, model_.start);
+    start_ = kinetic_energy(*shared_) + elastic_at_start(*shared_) + gas_energy(*shared_, shared_->start);
+    gravity_start_ = gravity_energy(*shared_, shared_->start);
 }
 
 MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const
@@ -193,8 +197,8 @@ MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::
     MoverReach out;
     const bool moved = !paths_.empty() || !drive.moved.empty();
     std::vector<Extent> rooms;
-    for (std::size_t b = 0; moved && b + 1 < model_.body_start.size(); ++b)
-        rooms.push_back(room_of(model_, x, model_.body_start[b], model_.body_start[b + 1], drive.time));
+    for (std::size_t b = 0; moved && b + 1 < shared_->body_start.size(); ++b)
+        rooms.push_back(room_of(*shared_, x, shared_->body_start[b], shared_->body_start[b + 1], drive.time));
     const auto add = [&](bool holds, const MoverReach& reach) {
         const bool meets = holds || std::any_of(rooms.begin(), rooms.end(), [&](const Extent& room) {
                                return glm::all(glm::lessThanEqual(reach.low, room.high)) &&
@@ -222,11 +226,11 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     const MoverReach reach = reach_at(drive, x);
     const double wind = std::max(wind_speed_, drive.wind), wind_force = wind_drag_ * wind * wind;
-    const double g = glm::length(model_.gravity);
-    double in = start_ - gas_energy(model_, x);
+    const double g = glm::length(shared_->gravity);
+    double in = start_ - gas_energy(*shared_, x);
     double root = 0; // what is added to sqrt(E)
     if (drive.steady_gravity)
-        in += gravity_start_ - gravity_energy(model_, x) + mass_ * g * reach.travel;
+        in += gravity_start_ - gravity_energy(*shared_, x) + mass_ * g * reach.travel;
     else
         root += std::sqrt(mass_ / 2) * drive.fall;
     if (depth_ > 0)
@@ -237,14 +241,14 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
     {
         double moved = 0;
         for (std::size_t i = 0; i < x.size(); ++i)
-            moved = std::max(moved, glm::distance(x[i], model_.start[i]));
+            moved = std::max(moved, glm::distance(x[i], shared_->start[i]));
         in += wind_force * moved;
     }
     root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force > 0 ? kHits * wind : 0.0);
     root += drive.kick;
     if (drive.push > 0)
         root += drive.push / std::sqrt(2 * lightest_);
-    if (root == 0 && wind_force == 0 && model_.gases.empty())
+    if (root == 0 && wind_force == 0 && shared_->gases.empty())
         in -= damped_;
     const DrawnEnergy drawn = drawn_->at(drive.time, way);
     const auto with = [&](double elastic) {
@@ -259,14 +263,14 @@ double EnergyBudget::rounding(Precision precision, double substep) const
     const bool single = precision == Precision::float32;
     const double digit = single ? 6e-8 : 1.1e-16; // of a coordinate
     const double strain = single ? 1e-5 : 1e-12;  // that its rounding leaves
-    const double speed = 32 * digit * model_.diameter / substep;
+    const double speed = 32 * digit * shared_->diameter / substep;
     double out = 0.5 * mass_ * speed * speed;
-    for (const StretchElement& e : model_.springs)
+    for (const StretchElement& e : shared_->springs)
         if (e.compliance > 0)
             out += 0.5 * strain * strain * e.rest_length * e.rest_length / e.compliance;
-    for (const SolidElement& e : model_.solids)
+    for (const SolidElement& e : shared_->solids)
         out += 0.5 * strain * strain * (e.mu + e.lambda) * e.rest_volume;
-    for (const BendElement& e : model_.hinges)
+    for (const BendElement& e : shared_->hinges)
         if (e.compliance > 0)
             out += 0.5 * strain * strain / e.compliance;
     return out;
@@ -274,7 +278,7 @@ double EnergyBudget::rounding(Precision precision, double substep) const
 
 double EnergyBudget::small() const
 {
-    return 0.01 * mass_ * glm::length(model_.gravity) * model_.diameter;
+    return 0.01 * mass_ * glm::length(shared_->gravity) * shared_->diameter;
 }
 
 } // namespace taut
