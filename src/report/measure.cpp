@@ -126,7 +126,8 @@ void judge_all(const View& view, StepReport& out)
     count(Warning::solve_failed, out.solver.failed, out.warnings);
     for (const PlanWarning& warning : view.plan.warnings)
         out.warnings[warning.word] += warning.count;
-    const std::shared_ptr<const PhysicalModel> model({}, &view.model); // the view outlives the budget
+    const std::shared_ptr<void> kept_elsewhere; // the view outlives the budget
+    const std::shared_ptr<const PhysicalModel> model(kept_elsewhere, &view.model);
     const Soundness found = taut::judge(EnergyBudget(view.world.scene(), model), view.world);
     out.judged_energy = found.energy;
     out.energy_most = found.energy_most;
