@@ -117,16 +117,21 @@ double kinetic_energy(const PhysicalModel& model)
 }
 
 /// A rigid element that starts off its rest length has no energy to speak of: it counts as 0 here.
-double elastic_at_start(PhysicalModel model)
+double elastic_at_start(const PhysicalModel& model)
 {
-    const auto drop_rigid = [](auto& elements) {
-        std::erase_if(elements, [](const auto& e) { return !(e.compliance > 0); });
+    const auto rigid = [](const auto& e) { return !(e.compliance > 0); };
+    const auto any_rigid = [&](const auto& elements) {
+        return std::any_of(elements.begin(), elements.end(), rigid);
     };
-    drop_rigid(model.springs);
-    drop_rigid(model.hinges);
-    drop_rigid(model.volumes);
-    drop_rigid(model.surfaces);
-    return elastic_energy(model, model.start);
+    if (!any_rigid(model.springs) && !any_rigid(model.hinges) && !any_rigid(model.volumes) &&
+        !any_rigid(model.surfaces))
+        return elastic_energy(model, model.start);
+    PhysicalModel soft = model;
+    std::erase_if(soft.springs, rigid);
+    std::erase_if(soft.hinges, rigid);
+    std::erase_if(soft.volumes, rigid);
+    std::erase_if(soft.surfaces, rigid);
+    return elastic_energy(soft, soft.start);
 }
 
 /// m: how far springs that a method keeps by projection are from their length at the start. Such a step puts
