@@ -23,10 +23,7 @@ std::string object_name(const Body& body, std::size_t index)
 
 } // namespace
 
-MeshSequence::MeshSequence(const Scene& resolved, fs::path folder) : folder_(std::move(folder))
-{
-    set_scene(resolved);
-}
+MeshSequence::MeshSequence(fs::path folder) : folder_(std::move(folder)) {}
 
 void MeshSequence::set_scene(const Scene& resolved)
 {
@@ -36,7 +33,8 @@ void MeshSequence::set_scene(const Scene& resolved)
     std::size_t first = 0;
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
-        const Mesh& mesh = resolved.bodies[b].mesh;
+        const Embedding& embedding = resolved.bodies[b].embedding;
+        const Mesh& mesh = embedding.used() ? embedding.surface : resolved.bodies[b].mesh;
         std::string text = "o " + object_name(resolved.bodies[b], b) + "\n";
         scene_file::append_elements(text, mesh, first);
         faces_.push_back(std::move(text));

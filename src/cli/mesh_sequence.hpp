@@ -15,12 +15,13 @@ class MeshSequence
 {
 public:
     /// Files go to folder/mesh_00000.obj and on; the folder exists.
-    MeshSequence(const Scene& resolved, std::filesystem::path folder);
+    explicit MeshSequence(std::filesystem::path folder);
 
-    /// From now on the bodies are those of this scene: cloth that tears has new vertices.
+    /// From now on the bodies are those of this scene, by the surfaces that they carry along where they do:
+    /// before the first write(), and again when cloth has torn.
     void set_scene(const Scene& resolved);
 
-    /// Positions in the order of the scene, m. Throws Error{io}.
+    /// Positions of shown vertices (scene/embedding.hpp), m. Throws Error{io}.
     void write(const std::vector<glm::dvec3>& positions, std::uint64_t frame, double time);
 
     std::size_t count() const { return count_; }

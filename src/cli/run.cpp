@@ -85,7 +85,7 @@ public:
           frames_(frames),
           every_(mesh_interval(options, simulation.scene())),
           moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
-          meshes_(shown_scene(simulation.scene()), options.folder),
+          meshes_(options.folder),
           looks_(frames),
           watch_(frames),
           tunnelling_(simulation, frames),
@@ -182,13 +182,18 @@ private:
         if (simulation_.torn() != torn_)
         {
             torn_ = simulation_.torn();
-            meshes_.set_scene(shown_scene(simulation_.scene()));
-            torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
+            scene_known_ = false;
+            moment_scene_ = nullptr;
         }
+        if (mesh && !scene_known_)
+            meshes_.set_scene(simulation_.scene());
+        scene_known_ = scene_known_ || mesh;
+        if (moment && !moment_scene_)
+            moment_scene_ = std::make_shared<const Scene>(simulation_.scene());
         if (mesh)
             meshes_.write(shown_positions(simulation_.scene(), positions), done_, simulation_.time());
         if (moment)
-            moments_.push_back({simulation_.time(), std::move(positions), torn_scene_});
+            moments_.push_back({simulation_.time(), std::move(positions), moment_scene_});
     }
 
     const RunCommand& options_;
@@ -200,15 +205,17 @@ private:
     std::vector<PictureMoment> moments_;
     MeshSequence meshes_;
     std::uint64_t torn_ = 0;
-    bool has_volume_ = measure_volume(simulation_.scene(), simulation_.positions()).any;
-    double volume_min_ = measure_volume(simulation_.scene(), simulation_.positions()).least;
+    VolumeReport volume_ = measure_volume(simulation_.scene(), simulation_.positions());
+    bool has_volume_ = volume_.any;
+    double volume_min_ = volume_.least;
     Looks looks_;
     SoundnessWatch watch_;
     TunnelWatch tunnelling_;
     ContactWatch contact_;
     std::vector<StretchElement> springs_; ///< as of `looked_torn_`
     std::uint64_t looked_torn_ = 0;
-    std::shared_ptr<const Scene> torn_scene_ = std::make_shared<const Scene>(simulation_.scene());
+    bool scene_known_ = false;                  ///< to `meshes_`, as of `torn_`
+    std::shared_ptr<const Scene> moment_scene_; ///< as of `torn_`, once a moment was kept
 };
 
 /// Device times by effect: the median of three further frames. Timestamps never touch what was simulated,
@@ -304,11 +311,12 @@ void draw(const RunCommand& options, const World& world, const std::shared_ptr<D
         result.messages.push_back(why_not);
 }
 
-RunResult simulate(const RunCommand& options, const Scene& scene, const InterruptGuard& guard)
+RunResult simulate(const RunCommand& options, Scene scene, const InterruptGuard& guard)
 {
     const std::unique_ptr<Simulation> simulation =
         naming(options.scene, [&] { return open_simulation(options.simulation, scene); });
     const std::uint64_t frames = frame_count(options, scene);
+    scene = Scene(); // the simulation has its own
     make_folder(options.folder);
     forget_older_run(options.folder);
     Runner runner(options, *simulation, frames);
@@ -331,7 +339,8 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
     if (rank(result.report.status) < rank(Status::diverged) && !guard.interrupted() &&
         runner.done() == frames)
     {
-        judge_residuals(world.scene(), residuals_ahead(world), result.report);
+        if (frames > 0) // where nothing was solved, nothing was left unsolved
+            judge_residuals(world.scene(), residuals_ahead(world), result.report);
         if (result.parts.empty())
             result.passes = time_passes(world);
     }
@@ -341,14 +350,14 @@ RunResult simulate(const RunCommand& options, const Scene& scene, const Interrup
 int run(RunCommand options)
 {
     std::vector<SceneIssue> issues;
-    const Scene scene = resolve_file(options.scene, options.settings, &issues);
+    Scene scene = resolve_file(options.scene, options.settings, &issues);
     for (const SceneIssue& unread :
          unread_keys(scene.method, given_method_keys(options.scene, options.settings)))
         issues.push_back(unread);
     if (options.folder.empty())
         options.folder = fs::path("out") / fs::path(options.scene).stem();
     const InterruptGuard guard; // until the report is written
-    RunResult result = simulate(options, scene, guard);
+    RunResult result = simulate(options, std::move(scene), guard);
     for (const SceneIssue& issue : issues)
         result.messages.push_back((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
     const std::string report = to_text(to_json(result));

@@ -161,7 +161,7 @@ void prepare_kind(PlanBuilder& b, const ElementKind& kind)
     }
     std::vector<Added> flat;
     std::vector<std::uint32_t> table;
-    ConstraintSet set = lay_out(kind.name, coloured, flat, table);
+    ConstraintSet set = lay_out(kind.name, std::move(coloured), flat, table);
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {

@@ -37,12 +37,13 @@ void prepare_set(PlanBuilder& b, const SetOptions& options, std::uint32_t multip
     }
     List flat;
     std::vector<std::uint32_t> table;
-    ConstraintSet set = lay_out(options.kind, coloured, flat, table);
+    ConstraintSet set = lay_out(options.kind, std::move(coloured), flat, table);
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {
         using Kept = decltype(record(zero, flat.front()));
         std::vector<Kept> records;
+        records.reserve(flat.size());
         for (const Element& e : flat)
             records.push_back(record(zero, e));
         set.buffer = b.add_buffer<Kept>(set.kind, set.kind + " constraints", records);

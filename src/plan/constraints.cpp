@@ -67,11 +67,13 @@ Colouring stretch_colouring(const PlanBuilder& b, std::size_t body,
     if (is_grid(b.scene.bodies[body]))
     {
         std::vector<std::array<std::uint32_t, 2>> edges;
+        edges.reserve(elements.size());
         for (const StretchElement& e : elements)
             edges.push_back({std::min(e.a, e.b) - first, std::max(e.a, e.b) - first});
         return grid_edge_colouring(edges, b.scene.bodies[body].mesh.grid_columns);
     }
     ConstraintGraph graph = body_graph(b, body, 2);
+    graph.vertices.reserve(2 * elements.size());
     for (const StretchElement& e : elements)
         graph.vertices.insert(graph.vertices.end(), {e.a - first, e.b - first});
     Colouring colouring = colour_greedy(graph, {hub_degree, true});
@@ -185,6 +187,7 @@ void add_set(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> tabl
 Colouring grid_edge_colouring(std::span<const std::array<std::uint32_t, 2>> edges, std::uint32_t columns)
 {
     std::vector<GridSpring> springs;
+    springs.reserve(edges.size());
     for (const auto& [a, b] : edges)
     {
         const std::uint32_t row = a / columns, column = a % columns;
@@ -215,7 +218,7 @@ void prepare_springs(PlanBuilder& b, const SetOptions& options)
     }
     std::vector<StretchElement> flat;
     std::vector<std::uint32_t> table;
-    ConstraintSet set = lay_out(options.kind, coloured, flat, table);
+    ConstraintSet set = lay_out(options.kind, std::move(coloured), flat, table);
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {

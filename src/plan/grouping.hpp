@@ -26,8 +26,11 @@ Colours<Element> by_colour(const std::vector<Element>& elements, const Colouring
 {
     Colours<Element> out(colouring.colour_count());
     for (std::size_t c = 0; c < colouring.colour_count(); ++c)
+    {
+        out[c].reserve(colouring.colour_start[c + 1] - colouring.colour_start[c]);
         for (std::uint32_t k = colouring.colour_start[c]; k < colouring.colour_start[c + 1]; ++k)
             out[c].push_back(elements[colouring.order[k]]);
+    }
     return out;
 }
 
@@ -70,37 +73,52 @@ void add_body(const PlanBuilder& b, Coloured<Element>& out, const std::vector<El
     }
     out.colours.resize(std::max(out.colours.size(), own.size()));
     for (std::size_t c = 0; c < own.size(); ++c)
-        out.colours[c].insert(out.colours[c].end(), own[c].begin(), own[c].end());
+        if (out.colours[c].empty())
+            out.colours[c] = std::move(own[c]);
+        else
+            out.colours[c].insert(out.colours[c].end(), own[c].begin(), own[c].end());
 }
 
-/// Puts the records into one list and says where what went. `table` gets the colours.
+/// Puts the records into one list and says where what went. `table` gets the colours. Each part is freed once
+/// it has been copied.
 template <typename Element>
-ConstraintSet lay_out(std::string_view kind, const Coloured<Element>& coloured, std::vector<Element>& flat,
+ConstraintSet lay_out(std::string_view kind, Coloured<Element> coloured, std::vector<Element>& flat,
                       std::vector<std::uint32_t>& table)
 {
     ConstraintSet set;
     set.kind = std::string(kind);
-    const auto append = [&](const std::vector<Element>& part) {
+    const auto append = [&](std::vector<Element>& part) {
         flat.insert(flat.end(), part.begin(), part.end());
+        part = std::vector<Element>();
         return static_cast<std::uint32_t>(flat.size());
     };
+    std::size_t count = 0;
+    const auto add = [&](const std::vector<std::vector<Element>>& parts) {
+        for (const auto& part : parts)
+            count += part.size();
+    };
+    add(coloured.colours);
+    add(coloured.hubs);
+    for (const Colours<Element>& body : coloured.small)
+        add(body);
+    flat.reserve(count);
     set.colour_start.push_back(0);
-    for (const auto& colour : coloured.colours)
+    for (auto& colour : coloured.colours)
         if (!colour.empty())
             set.colour_start.push_back(append(colour));
     if (!coloured.hubs.empty())
         set.hub_start.push_back(static_cast<std::uint32_t>(flat.size()));
-    for (const auto& hub : coloured.hubs)
+    for (auto& hub : coloured.hubs)
         set.hub_start.push_back(append(hub));
     table = set.colour_start;
     const auto before_small = static_cast<std::uint32_t>(flat.size());
     std::vector<std::uint32_t> ranges;
-    for (const Colours<Element>& body : coloured.small)
+    for (Colours<Element>& body : coloured.small)
     {
         ranges.push_back(static_cast<std::uint32_t>(table.size()));
         ranges.push_back(static_cast<std::uint32_t>(table.size() + body.size()));
         table.push_back(static_cast<std::uint32_t>(flat.size()));
-        for (const auto& colour : body)
+        for (auto& colour : body)
             table.push_back(append(colour));
         set.small_colours = std::max(set.small_colours, static_cast<std::uint32_t>(body.size()));
     }

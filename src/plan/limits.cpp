@@ -95,11 +95,10 @@ std::vector<NearestPin> nearest_pins(const Body& body)
 {
     const std::vector<glm::dvec3>& x = body.mesh.positions;
     std::vector<std::vector<std::uint32_t>> neighbours(x.size());
-    for (const MeshEdge& edge : mesh_edges(body.mesh))
-    {
-        neighbours[edge.a].push_back(edge.b);
-        neighbours[edge.b].push_back(edge.a);
-    }
+    each_edge(body.mesh, [&](std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t>) {
+        neighbours[a].push_back(b);
+        neighbours[b].push_back(a);
+    });
     std::vector<NearestPin> out(x.size(), {0, std::numeric_limits<double>::infinity()});
     using Place = std::pair<double, std::uint32_t>;
     std::priority_queue<Place, std::vector<Place>, std::greater<>> open;
@@ -139,7 +138,7 @@ void prepare_strain_limit(PlanBuilder& b)
         }
     std::vector<StretchElement> flat;
     std::vector<std::uint32_t> table;
-    ConstraintSet set = lay_out(kStrain, coloured, flat, table);
+    ConstraintSet set = lay_out(kStrain, std::move(coloured), flat, table);
     if (flat.empty())
         return;
     set.buffer = add_springs(b, kStrain, "strain limits", flat);

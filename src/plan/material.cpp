@@ -49,16 +49,15 @@ void fill_missing(std::vector<double>& mass, const Body& body)
 
 void append_edges(std::vector<StretchElement>& out, const Mesh& mesh, double modulus)
 {
-    for (const MeshEdge& edge : mesh_edges(mesh))
-    {
-        const double length = glm::distance(mesh.positions[edge.a], mesh.positions[edge.b]);
+    out.reserve(out.size() + 3 * mesh.triangles.size() / 2 + mesh.positions.size() / 100);
+    each_edge(mesh, [&](std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> triangles) {
+        const double length = glm::distance(mesh.positions[a], mesh.positions[b]);
         double area = 0;
-        for (std::uint32_t t : edge.triangles)
+        for (const std::uint32_t t : triangles)
             area += triangle_area(mesh, t);
-        if (edge.triangles.empty() || (length > 0 && !(area > 0)))
-            continue;
-        out.push_back({edge.a, edge.b, length, length > 0 ? length * length / (modulus * area) : 0.0});
-    }
+        if (!triangles.empty() && (!(length > 0) || area > 0))
+            out.push_back({a, b, length, length > 0 ? length * length / (modulus * area) : 0.0});
+    });
 }
 
 void append_links(std::vector<StretchElement>& out, const Mesh& mesh, double modulus)
@@ -141,6 +140,7 @@ std::vector<StretchElement> stretch_elements(const Body& body)
     }
     if (of_springs(body))
         append_solid_edges(out, body.mesh, body.material.youngs_modulus);
+    out.reserve(out.size() + body.springs.size());
     for (const Body::Spring& s : body.springs)
         out.push_back({s.a, s.b, s.rest_length, s.compliance, s.kind});
     for (StretchElement& e : out)

@@ -81,18 +81,19 @@ void refuse_rigid(const Scene& scene)
 
 std::vector<StretchElement> acting_springs(PlanBuilder& b, std::size_t body)
 {
-    std::vector<StretchElement> out;
-    std::size_t conflicts = 0;
-    for (StretchElement e : stretch_elements(b.scene.bodies[body]))
+    std::vector<StretchElement> out = stretch_elements(b.scene.bodies[body]);
+    std::size_t conflicts = 0, kept = 0;
+    for (StretchElement e : out)
     {
         e.a = b.vertex(body, e.a);
         e.b = b.vertex(body, e.b);
         if (b.inverse_mass[e.a] > 0 || b.inverse_mass[e.b] > 0)
-            out.push_back(e);
+            out[kept++] = e;
         else
             conflicts +=
                 std::abs(glm::length(b.start[e.a] - b.start[e.b]) - e.rest_length) > 1e-6 * e.rest_length;
     }
+    out.resize(kept);
     if (conflicts > 0)
         b.plan.warnings.push_back({"conflict", conflicts,
                                    std::to_string(conflicts) +
@@ -130,8 +131,13 @@ std::vector<Element> of_all_bodies(PlanBuilder& b, std::vector<Element> (*acting
 {
     std::vector<Element> out;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
-        for (const Element& e : acting(b, body))
-            out.push_back(e);
+    {
+        std::vector<Element> own = acting(b, body);
+        if (out.empty())
+            out = std::move(own);
+        else
+            out.insert(out.end(), own.begin(), own.end());
+    }
     return out;
 }
 

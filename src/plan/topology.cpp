@@ -109,26 +109,27 @@ bool wound_along(const Mesh& mesh, std::uint32_t triangle, std::uint32_t a, std:
            (corner[2] == a && corner[0] == b);
 }
 
-void add_hinges(const Mesh& mesh, const MeshEdge& edge, std::vector<Hinge>& out)
+/// Of the edge from a to b with the triangles `at` it.
+void add_hinges(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> at,
+                std::vector<Hinge>& out)
 {
-    const auto& at = edge.triangles;
     if (at.size() > kMaxEdgeTriangles)
     {
-        throw Error(ErrorCode::limit, "the edge between vertices " + std::to_string(edge.a) + " and " +
-                                          std::to_string(edge.b) + " has " + std::to_string(at.size()) +
+        throw Error(ErrorCode::limit, "the edge between vertices " + std::to_string(a) + " and " +
+                                          std::to_string(b) + " has " + std::to_string(at.size()) +
                                           " triangles; bending takes at most " +
                                           std::to_string(kMaxEdgeTriangles) + " at one edge");
     }
     for (std::size_t i = 0; i < at.size(); ++i)
     {
-        const bool along = wound_along(mesh, at[i], edge.a, edge.b);
-        const std::uint32_t wing0 = opposite(mesh, at[i], edge.a, edge.b);
+        const bool along = wound_along(mesh, at[i], a, b);
+        const std::uint32_t wing0 = opposite(mesh, at[i], a, b);
         for (std::size_t j = i + 1; j < at.size(); ++j)
         {
-            const std::uint32_t wing1 = opposite(mesh, at[j], edge.a, edge.b);
+            const std::uint32_t wing1 = opposite(mesh, at[j], a, b);
             if (wing0 != wing1)
             {
-                out.push_back({along ? edge.a : edge.b, along ? edge.b : edge.a, wing0, wing1});
+                out.push_back({along ? a : b, along ? b : a, wing0, wing1});
             }
         }
     }
@@ -159,7 +160,7 @@ std::uint64_t morton_code(const glm::dvec3& offset, double extent)
 
 } // namespace
 
-std::vector<MeshEdge> mesh_edges(const Mesh& mesh)
+void each_edge(const Mesh& mesh, const EdgeVisit& visit)
 {
     check_mesh(mesh);
     // Sides fall into one bucket a lower vertex, so that the sort is near-linear.
@@ -174,35 +175,39 @@ std::vector<MeshEdge> mesh_edges(const Mesh& mesh)
         sides[next[std::min(a, b)]++] = {std::max(a, b), triangle};
     });
 
-    std::vector<MeshEdge> edges;
-    edges.reserve(sides.size() / 2 + 1);
+    std::vector<std::uint32_t> triangles;
     for (std::uint32_t low = 0; low + 1 < start.size(); ++low)
     {
         const auto begin = sides.begin() + static_cast<std::ptrdiff_t>(start[low]);
         const auto end = sides.begin() + static_cast<std::ptrdiff_t>(start[low + 1]);
         std::sort(begin, end);
-        for (auto side = begin; side != end; ++side)
+        for (auto side = begin; side != end;)
         {
-            if (side == begin || side->high != (side - 1)->high)
-            {
-                edges.push_back({low, side->high, {}});
-            }
-            if (side->triangle != kNoTriangle)
-            {
-                edges.back().triangles.push_back(side->triangle);
-            }
+            const std::uint32_t high = side->high;
+            triangles.clear();
+            for (; side != end && side->high == high; ++side)
+                if (side->triangle != kNoTriangle)
+                    triangles.push_back(side->triangle);
+            visit(low, high, triangles);
         }
     }
+}
+
+std::vector<MeshEdge> mesh_edges(const Mesh& mesh)
+{
+    std::vector<MeshEdge> edges;
+    each_edge(mesh, [&](std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> triangles) {
+        edges.push_back({a, b, {triangles.begin(), triangles.end()}});
+    });
     return edges;
 }
 
 std::vector<Hinge> mesh_hinges(const Mesh& mesh)
 {
     std::vector<Hinge> hinges;
-    for (const MeshEdge& edge : mesh_edges(mesh))
-    {
-        add_hinges(mesh, edge, hinges);
-    }
+    each_edge(mesh, [&](std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> triangles) {
+        add_hinges(mesh, a, b, triangles, hinges);
+    });
     return hinges;
 }
 

@@ -5,6 +5,7 @@
 #include "taut/scene/mesh.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct MeshEdge
 /// tetrahedra. Throws
 /// Error{bad_input} for a corner that is no vertex and for an edge from a vertex to itself.
 std::vector<MeshEdge> mesh_edges(const Mesh& mesh);
+
+/// The same one by one: a million edges are no million lists. `triangles` is of this call alone.
+using EdgeVisit =
+    std::function<void(std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> triangles)>;
+void each_edge(const Mesh& mesh, const EdgeVisit& visit);
 
 /// Two triangles that share an edge: wing0 is opposite in the first, wing1 in the second. Along
 /// edge0->edge1 the first triangle is wound (edge0, edge1, wing0), however the second is wound.

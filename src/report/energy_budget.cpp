@@ -149,16 +149,21 @@ double kinetic_energy(const PhysicalModel& model)
 }
 
 /// A rigid element that starts off its rest length has no energy to speak of: it counts as 0 here.
-double elastic_at_start(PhysicalModel model)
+double elastic_at_start(const PhysicalModel& model)
 {
-    const auto drop_rigid = [](auto& elements) {
-        std::erase_if(elements, [](const auto& e) { return !(e.compliance > 0); });
+    const auto rigid = [](const auto& e) { return !(e.compliance > 0); };
+    const auto any_rigid = [&](const auto& elements) {
+        return std::any_of(elements.begin(), elements.end(), rigid);
     };
-    drop_rigid(model.springs);
-    drop_rigid(model.hinges);
-    drop_rigid(model.volumes);
-    drop_rigid(model.surfaces);
-    return elastic_energy(model, model.start);
+    if (!any_rigid(model.springs) && !any_rigid(model.hinges) && !any_rigid(model.volumes) &&
+        !any_rigid(model.surfaces))
+        return elastic_energy(model, model.start);
+    PhysicalModel soft = model;
+    std::erase_if(soft.springs, rigid);
+    std::erase_if(soft.hinges, rigid);
+    std::erase_if(soft.volumes, rigid);
+    std::erase_if(soft.surfaces, rigid);
+    return elastic_energy(soft, soft.start);
 }
 
 /// m: how far springs that a method keeps by projection are from their length at the start. Such a step puts
@@ -199,24 +204,28 @@ double largest_wind(const Wind& wind)
 } // namespace
 
 EnergyBudget::EnergyBudget(const Scene& resolved)
-    : model_(make_model(resolved)),
-      paths_(paths_of(resolved, model_)),
-      depth_(deepest_start(resolved, model_)),
+    : EnergyBudget(resolved, std::make_shared<const PhysicalModel>(make_model(resolved)))
+{}
+
+EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model)
+    : shared_(std::move(model)),
+      paths_(paths_of(resolved, *shared_)),
+      depth_(deepest_start(resolved, *shared_)),
       drawn_(std::make_shared<const DrawnBodies>(resolved)),
-      violation_(largest_violation(resolved, model_)),
+      violation_(largest_violation(resolved, *shared_)),
       depenetration_(resolved.depenetration_speed),
       wind_speed_(largest_wind(resolved.wind)),
       wind_drag_(wind_drag(resolved))
 {
     lightest_ = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < model_.mass.size(); ++i)
-        if (!model_.pinned[i])
+    for (std::size_t i = 0; i < shared_->mass.size(); ++i)
+        if (!shared_->pinned[i])
         {
-            mass_ += model_.mass[i];
-            lightest_ = std::min(lightest_, model_.mass[i]);
+            mass_ += shared_->mass[i];
+            lightest_ = std::min(lightest_, shared_->mass[i]);
         }
-    start_ = kinetic_energy(model_) + elastic_at_start(model_) + gas_energy(model_, model_.start);
-    gravity_start_ = gravity_energy(model_, model_.start);
+    start_ = kinetic_energy(*shared_) + elastic_at_start(*shared_) + gas_energy(*shared_, shared_->start);
+    gravity_start_ = gravity_energy(*shared_, shared_->start);
 }
 
 MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const
@@ -224,8 +233,8 @@ MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::
     MoverReach out;
     const bool moved = !paths_.empty() || !drive.moved.empty();
     std::vector<Extent> rooms;
-    for (std::size_t b = 0; moved && b + 1 < model_.body_start.size(); ++b)
-        rooms.push_back(room_of(model_, x, model_.body_start[b], model_.body_start[b + 1], drive.time));
+    for (std::size_t b = 0; moved && b + 1 < shared_->body_start.size(); ++b)
+        rooms.push_back(room_of(*shared_, x, shared_->body_start[b], shared_->body_start[b + 1], drive.time));
     const auto add = [&](bool holds, const MoverReach& reach) {
         const bool meets = holds || std::any_of(rooms.begin(), rooms.end(), [&](const Extent& room) {
                                return glm::all(glm::lessThanEqual(reach.low, room.high)) &&
@@ -253,11 +262,11 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     const MoverReach reach = reach_at(drive, x);
     const double wind = std::max(wind_speed_, drive.wind), wind_force = wind_drag_ * wind * wind;
-    const double g = glm::length(model_.gravity);
-    double in = start_ - gas_energy(model_, x);
+    const double g = glm::length(shared_->gravity);
+    double in = start_ - gas_energy(*shared_, x);
     double root = 0; // what is added to sqrt(E)
     if (drive.steady_gravity)
-        in += gravity_start_ - gravity_energy(model_, x) + mass_ * g * reach.travel;
+        in += gravity_start_ - gravity_energy(*shared_, x) + mass_ * g * reach.travel;
     else
         root += std::sqrt(mass_ / 2) * drive.fall;
     if (depth_ > 0)
@@ -268,14 +277,14 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
     {
         double moved = 0;
         for (std::size_t i = 0; i < x.size(); ++i)
-            moved = std::max(moved, glm::distance(x[i], model_.start[i]));
+            moved = std::max(moved, glm::distance(x[i], shared_->start[i]));
         in += wind_force * moved;
     }
     root += std::sqrt(mass_ / 2) * std::max(reach.speed, wind_force > 0 ? kHits * wind : 0.0);
     root += drive.kick;
     if (drive.push > 0)
         root += drive.push / std::sqrt(2 * lightest_);
-    if (root == 0 && wind_force == 0 && model_.gases.empty())
+    if (root == 0 && wind_force == 0 && shared_->gases.empty())
         in -= damped_;
     const DrawnEnergy drawn = drawn_->at(drive.time, way);
     const auto with = [&](double elastic) {
@@ -290,19 +299,22 @@ double EnergyBudget::rounding(Precision precision, double substep) const
     const bool single = precision == Precision::float32;
     const double digit = single ? 6e-8 : 1.1e-16; // of a coordinate
     const double strain = single ? 1e-5 : 1e-12;  // that its rounding leaves
-    const double speed = 32 * digit * model_.diameter / substep;
+    const double speed = 32 * digit * shared_->diameter / substep;
     double out = 0.5 * mass_ * speed * speed;
-    for (const StretchElement& e : model_.springs)
+    for (const StretchElement& e : shared_->springs)
         if (e.compliance > 0)
             out += 0.5 * strain * strain * e.rest_length * e.rest_length / e.compliance;
-    for (const SolidElement& e : model_.solids)
+    for (const SolidElement& e : shared_->solids)
         out += 0.5 * strain * strain * (e.mu + e.lambda) * e.rest_volume;
-    for (const BendElement& e : model_.hinges)
+    for (const BendElement& e : shared_->hinges)
         if (e.compliance > 0)
             out += 0.5 * strain * strain / e.compliance;
     return out;
 }
 
-double EnergyBudget::small() const { return 0.01 * mass_ * glm::length(model_.gravity) * model_.diameter; }
+double EnergyBudget::small() const
+{
+    return 0.01 * mass_ * glm::length(shared_->gravity) * shared_->diameter;
+}
 
 } // namespace taut

@@ -44,8 +44,10 @@ public:
     /// `resolved` as the world had it at the start, before anything tore; what its program moves counts by
     /// WorldDrive::moved.
     explicit EnergyBudget(const Scene& resolved);
+    /// The same for one who has make_model(resolved) already.
+    EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model);
 
-    const PhysicalModel& model() const { return model_; }
+    const PhysicalModel& model() const { return *shared_; }
 
     /// At places `x` [m, scene-wide]. Infinite after World::set_positions.
     EnergyMost most(std::span<const glm::dvec3> x, const WorldDrive& drive) const;
@@ -71,7 +73,7 @@ private:
     /// Of all that can have touched bodies that are at `x`, together; `speed` is what they can pass on.
     MoverReach reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const;
 
-    PhysicalModel model_;
+    std::shared_ptr<const PhysicalModel> shared_;
     std::vector<MoverPath> paths_;
     double mass_ = 0, lightest_ = 0, start_ = 0, gravity_start_ = 0, depth_ = 0;
     std::shared_ptr<const DrawnBodies> drawn_;

@@ -2,8 +2,7 @@
 //
 // Based on: Nocedal, Wright. Numerical Optimization, 2nd ed., 2006, section 3.3 (the Newton step measures
 //   the distance to a minimum in the variables; the gradient does so in forces, which say little where
-//   directions differ in stiffness). Steihaug. The Conjugate Gradient Method and Trust Regions. SINUM 20,
-//   1983, theorem 2.1 (iterates of conjugate gradients grow).
+//   directions differ in stiffness).
 // Departures: taken relative to the motion that the loads alone make, by mass; under methods of one sweep in
 //   many small substeps, whose leftovers add up over them, to what the loads move in a long time. A sweep
 //   carries a load over one link: where too few are taken, what is left is small beside the springs' own
@@ -11,10 +10,10 @@
 
 #include "taut/report/load_residual.hpp"
 
+#include "taut/report/iterated_steps.hpp"
 #include "taut/report/static_energy.hpp"
 #include "taut/scene/extent.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 
 #include <glm/geometric.hpp>
@@ -34,29 +33,53 @@ using reference::StaticEnergy;
 using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
 
 constexpr int kMostFactored = 30000, kMostFactoredOfSolids = 6000; // unknowns; solids fill more
-constexpr int kMostIterations = 1000;
 constexpr double kHeld = 1e9;     // times the diagonal
 constexpr double kTouching = 0.5; // right runs leave more where vertices are held that a contact may let go
 
-Eigen::MatrixXd solve(const Matrix& a, const Eigen::MatrixXd& b, bool solids)
+using Motion = std::vector<glm::dvec3>; ///< a vertex: N, or m
+
+State state_of(std::span<const glm::dvec3> x)
 {
-    if (a.rows() <= (solids ? kMostFactoredOfSolids : kMostFactored))
-    {
-        const Eigen::SimplicialLDLT<Matrix> factors(a);
-        if (factors.info() == Eigen::Success)
-            return factors.solve(b);
-    }
-    Eigen::ConjugateGradient<Matrix, Eigen::Lower> gradients(a);
-    gradients.setTolerance(1e-3);
-    gradients.setMaxIterations(kMostIterations);
-    return gradients.solve(b);
+    State out;
+    out.reserve(x.size());
+    for (const glm::dvec3& p : x)
+        out.push_back({p.x, p.y, p.z});
+    return out;
+}
+
+/// m, for each of `forces`; vertices that touch are held.
+std::vector<Motion> factored_steps(const StaticEnergy& energy, std::span<const glm::dvec3> x,
+                                   const Leftover& left, const std::vector<Motion>& forces)
+{
+    Matrix stiffness = energy.hessian(state_of(x), Curvature::projected, 1 / (left.time * left.time));
+    Eigen::MatrixXd force =
+        Eigen::MatrixXd::Zero(energy.unknowns(), static_cast<Eigen::Index>(forces.size()));
+    for (std::size_t i = 0; i < x.size(); ++i)
+        for (int c = 0; c < 3 && energy.unknown(i) >= 0; ++c)
+        {
+            const int u = energy.unknown(i) + c;
+            if (left.touches[i])
+                stiffness.coeffRef(u, u) *= kHeld;
+            for (std::size_t f = 0; f < forces.size() && !left.touches[i]; ++f)
+                force(u, static_cast<Eigen::Index>(f)) = forces[f][i][c];
+        }
+    const Eigen::SimplicialLDLT<Matrix> factors(stiffness);
+    if (factors.info() != Eigen::Success)
+        return {};
+    const Eigen::MatrixXd step = factors.solve(force);
+    std::vector<Motion> out(forces.size(), Motion(x.size(), glm::dvec3(0)));
+    for (std::size_t i = 0; i < x.size(); ++i)
+        for (std::size_t f = 0; f < forces.size() && energy.unknown(i) >= 0; ++f)
+            for (int c = 0; c < 3; ++c)
+                out[f][i][c] = step(energy.unknown(i) + c, static_cast<Eigen::Index>(f));
+    return out;
 }
 
 /// m, of each vertex: the Newton step, and what the loads move along gravity, or along each axis without.
 struct Steps
 {
-    std::vector<glm::dvec3> left;
-    std::vector<std::vector<glm::dvec3>> loads;
+    Motion left;
+    std::vector<Motion> loads;
 };
 
 /// Which way loads may pull.
@@ -67,42 +90,34 @@ std::vector<glm::dvec3> pulls_of(const PhysicalModel& model)
     return {glm::normalize(model.gravity)};
 }
 
+/// N: what is left, and the loads on each way that they may pull.
+std::vector<Motion> forces_of(const PhysicalModel& model, const Leftover& left)
+{
+    std::vector<Motion> out{left.force};
+    for (glm::dvec3& f : out[0])
+        f = -f;
+    if (left.against_response)
+        for (const glm::dvec3& pull : pulls_of(model))
+        {
+            Motion& loads = out.emplace_back();
+            for (const double load : left.load)
+                loads.push_back(load * pull);
+        }
+    return out;
+}
+
 Steps newton_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left)
 {
     const StaticEnergy energy(model);
-    State at;
-    for (const glm::dvec3& p : x)
-        at.push_back({p.x, p.y, p.z});
-    Matrix stiffness = energy.hessian(at, Curvature::projected, 1 / (left.time * left.time));
-    const std::vector<glm::dvec3> pulls = left.against_response ? pulls_of(model) : std::vector<glm::dvec3>{};
-    Eigen::MatrixXd force =
-        Eigen::MatrixXd::Zero(energy.unknowns(), 1 + static_cast<Eigen::Index>(pulls.size()));
-    for (std::size_t i = 0; i < x.size(); ++i)
-        if (const int u = energy.unknown(i); u >= 0)
-        {
-            for (int c = 0; c < 3 && !left.touches[i]; ++c)
-            {
-                force(u + c, 0) = -left.force[i][c];
-                for (std::size_t p = 0; p < pulls.size(); ++p)
-                    force(u + c, 1 + static_cast<Eigen::Index>(p)) = left.load[i] * pulls[p][c];
-            }
-            for (int c = 0; c < 3 && left.touches[i]; ++c)
-                stiffness.coeffRef(u + c, u + c) *= kHeld;
-        }
+    const std::vector<Motion> forces = forces_of(model, left);
     const bool solids = !model.solids.empty() || !model.volumes.empty();
-    const Eigen::MatrixXd step = solve(stiffness, force, solids);
-    const std::vector<glm::dvec3> none(x.size(), glm::dvec3(0));
-    Steps out{none, {pulls.size(), none}};
-    for (std::size_t i = 0; i < x.size(); ++i)
-        if (const int u = energy.unknown(i); u >= 0)
-        {
-            out.left[i] = {step(u, 0), step(u + 1, 0), step(u + 2, 0)};
-            for (std::size_t p = 0; p < pulls.size(); ++p)
-            {
-                const auto column = 1 + static_cast<Eigen::Index>(p);
-                out.loads[p][i] = {step(u, column), step(u + 1, column), step(u + 2, column)};
-            }
-        }
+    std::vector<Motion> steps;
+    if (energy.unknowns() <= (solids ? kMostFactoredOfSolids : kMostFactored))
+        steps = factored_steps(energy, x, left, forces);
+    if (steps.empty())
+        steps = iterated_steps(model, energy, x, left, forces);
+    Steps out{std::move(steps[0]), {}};
+    out.loads.assign(std::make_move_iterator(steps.begin() + 1), std::make_move_iterator(steps.end()));
     return out;
 }
 
@@ -111,7 +126,7 @@ double largest_response(const PhysicalModel& model, const Steps& step, std::uint
                         std::uint32_t last)
 {
     double most = 0;
-    for (const std::vector<glm::dvec3>& moved : step.loads)
+    for (const Motion& moved : step.loads)
     {
         double sum = 0;
         for (std::uint32_t i = first; i < last; ++i)

@@ -27,12 +27,16 @@ std::vector<StretchElement> scene_springs(const Scene& resolved)
     std::uint32_t first = 0;
     for (const Body& body : resolved.bodies)
     {
-        for (StretchElement e : stretch_elements(body))
+        std::vector<StretchElement> own = stretch_elements(body);
+        for (StretchElement& e : own)
         {
             e.a += first;
             e.b += first;
-            out.push_back(e);
         }
+        if (out.empty())
+            out = std::move(own);
+        else
+            out.insert(out.end(), own.begin(), own.end());
         first += static_cast<std::uint32_t>(body.mesh.positions.size());
     }
     return out;

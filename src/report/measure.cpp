@@ -126,7 +126,9 @@ void judge_all(const View& view, StepReport& out)
     count(Warning::solve_failed, out.solver.failed, out.warnings);
     for (const PlanWarning& warning : view.plan.warnings)
         out.warnings[warning.word] += warning.count;
-    const Soundness found = taut::judge(EnergyBudget(view.world.scene()), view.world);
+    const std::shared_ptr<void> kept_elsewhere; // the view outlives the budget
+    const std::shared_ptr<const PhysicalModel> model(kept_elsewhere, &view.model);
+    const Soundness found = taut::judge(EnergyBudget(view.world.scene(), model), view.world);
     out.judged_energy = found.energy;
     out.energy_most = found.energy_most;
     set_status(found, out);

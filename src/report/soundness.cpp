@@ -67,23 +67,30 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
     const MethodKind kind = method_of(scene);
     const bool kept = kind == MethodKind::pbd;
     const double share = kept ? scene.method.stretch : 1;
-    std::uint32_t first = 0;
-    for (const Body& body : scene.bodies)
+    // Cloth that has torn since the model was made has other springs than the model.
+    const bool torn = x.size() != model.mass.size();
+    const std::vector<StretchElement> now = torn ? scene_springs(scene) : std::vector<StretchElement>();
+    std::size_t body = 0;
+    std::size_t next = scene.bodies.empty() ? 0 : scene.bodies[0].mesh.positions.size();
+    std::size_t first = 0;
+    for (const StretchElement& e : torn ? now : model.springs)
     {
-        for (const StretchElement& e : stretch_elements(body))
+        for (; e.a >= next; next += scene.bodies[body].mesh.positions.size())
         {
-            if (!(e.rest_length > 0) || (model.pinned[first + e.a] && model.pinned[first + e.b]))
-                continue;
-            const double stretch = glm::distance(x[first + e.a], x[first + e.b]) - e.rest_length;
-            const double strain = stretch / e.rest_length;
-            if (kept || !(e.compliance > 0))
-                out.kept_strain = std::max(out.kept_strain, share * strain);
-            else if (std::abs(strain) > accepted && !model.flows[first])
-                out.energy += 0.5 * stretch * stretch / e.compliance;
-            if (body.material.strain_limit > 0)
-                out.limit_strain = std::max(out.limit_strain, strain - body.material.strain_limit);
+            first = next;
+            ++body;
         }
-        first += static_cast<std::uint32_t>(body.mesh.positions.size());
+        if (!(e.rest_length > 0) || (model.pinned[e.a] && model.pinned[e.b]))
+            continue;
+        const double stretch = glm::distance(x[e.a], x[e.b]) - e.rest_length;
+        const double strain = stretch / e.rest_length;
+        if (kept || !(e.compliance > 0))
+            out.kept_strain = std::max(out.kept_strain, share * strain);
+        else if (std::abs(strain) > accepted && !model.flows[first])
+            out.energy += 0.5 * stretch * stretch / e.compliance;
+        const double limit = scene.bodies[body].material.strain_limit;
+        if (limit > 0)
+            out.limit_strain = std::max(out.limit_strain, strain - limit);
     }
 }
 

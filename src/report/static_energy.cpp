@@ -276,44 +276,50 @@ State StaticEnergy::gradient(const State& x) const
     return g;
 }
 
+void StaticEnergy::elements(const std::function<void(std::span<const std::uint32_t>)>& visit) const
+{
+    for (const StretchElement& s : model_.springs)
+        visit(std::array{s.a, s.b});
+    for (const BendElement& h : model_.hinges)
+        visit(vertices(h));
+    for (const SolidElement& e : solids_)
+        visit(e.vertex);
+}
+
+void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, const Block& visit) const
+{
+    const auto visit_all = [&](const std::array<std::uint32_t, 4>& v, const Matrix12& k) {
+        for (std::size_t r = 0; r < 4; ++r)
+            for (std::size_t c = 0; c < 4; ++c)
+                visit(v[r], v[c], k.block<3, 3>(static_cast<int>(3 * r), static_cast<int>(3 * c)));
+    };
+    for (std::uint32_t i = 0; i < x.size(); ++i)
+        visit(i, i, shift * model_.mass[i] * Eigen::Matrix3d::Identity());
+    for (const StretchElement& s : model_.springs)
+    {
+        const Eigen::Matrix3d k = spring_block(s, narrow(x[s.a] - x[s.b]), curvature);
+        visit(s.a, s.a, k);
+        visit(s.b, s.b, k);
+        visit(s.a, s.b, -k);
+        visit(s.b, s.a, -k);
+    }
+    for (const BendElement& h : model_.hinges)
+        visit_all(vertices(h), hinge_block(h, x, curvature));
+    for (const SolidElement& e : solids_)
+        visit_all(e.vertex, solid_block(e, x, curvature));
+}
+
 Eigen::SparseMatrix<double> StaticEnergy::hessian(const State& x, Curvature curvature, double shift) const
 {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(model_.springs.size() * 36 + (model_.hinges.size() + solids_.size()) * 144 +
                     x.size() * 3);
-    const auto add = [&](std::uint32_t a, std::uint32_t b, const auto& block) {
+    blocks(x, curvature, shift, [&](std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d& block) {
         if (unknown_[b] >= 0 && unknown_[a] >= unknown_[b]) // the lower triangle
             for (int r = 0; r < 3; ++r)
                 for (int c = 0; c < 3; ++c)
                     entries.emplace_back(unknown_[a] + r, unknown_[b] + c, block(r, c));
-    };
-    for (std::uint32_t i = 0; i < x.size(); ++i)
-        add(i, i, Eigen::Matrix3d(shift * model_.mass[i] * Eigen::Matrix3d::Identity()));
-    for (const StretchElement& s : model_.springs)
-    {
-        const Eigen::Matrix3d k = spring_block(s, narrow(x[s.a] - x[s.b]), curvature);
-        add(s.a, s.a, k);
-        add(s.b, s.b, k);
-        add(s.a, s.b, Eigen::Matrix3d(-k));
-        add(s.b, s.a, Eigen::Matrix3d(-k));
-    }
-    for (const BendElement& h : model_.hinges)
-    {
-        const Matrix12 k = hinge_block(h, x, curvature);
-        const auto v = vertices(h);
-        for (int r = 0; r < 4; ++r)
-            for (int c = 0; c < 4; ++c)
-                add(v[static_cast<std::size_t>(r)], v[static_cast<std::size_t>(c)],
-                    Eigen::Matrix3d(k.block<3, 3>(3 * r, 3 * c)));
-    }
-    for (const SolidElement& e : solids_)
-    {
-        const Matrix12 k = solid_block(e, x, curvature);
-        for (int r = 0; r < 4; ++r)
-            for (int c = 0; c < 4; ++c)
-                add(e.vertex[static_cast<std::size_t>(r)], e.vertex[static_cast<std::size_t>(c)],
-                    Eigen::Matrix3d(k.block<3, 3>(3 * r, 3 * c)));
-    }
+    });
     Eigen::SparseMatrix<double> out(unknowns_, unknowns_);
     out.setFromTriplets(entries.begin(), entries.end());
     return out;

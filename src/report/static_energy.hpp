@@ -6,6 +6,8 @@
 
 #include <Eigen/SparseCore>
 
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace taut::reference {
@@ -26,6 +28,13 @@ public:
     State gradient(const State& x) const; ///< N; zero at pins
     /// N/m; shift * mass is added to the diagonal (1/s^2). The lower triangle, one pattern for all x.
     Eigen::SparseMatrix<double> hessian(const State& x, Curvature curvature, double shift) const;
+
+    /// The 3 x 3 blocks that hessian() adds up, N/m, in a fixed order and with (b, a) beside (a, b): of every
+    /// element at every two of its vertices, and shift * mass at each vertex; those of pins, too.
+    using Block = std::function<void(std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d&)>;
+    void blocks(const State& x, Curvature curvature, double shift, const Block& visit) const;
+    /// The vertices of every element, in the order of blocks().
+    void elements(const std::function<void(std::span<const std::uint32_t>)>& visit) const;
 
     int unknowns() const { return unknowns_; }
     /// First of the three unknowns of a vertex; -1 = pinned.

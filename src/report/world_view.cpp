@@ -38,6 +38,7 @@ auto decode_as(const std::vector<std::byte>& bytes)
 std::vector<DistanceRecord> records_of(const std::vector<StretchElement>& springs)
 {
     std::vector<DistanceRecord> out;
+    out.reserve(springs.size());
     for (const StretchElement& e : springs)
         out.push_back({e.a, e.b, e.rest_length, e.compliance});
     return out;
@@ -70,9 +71,9 @@ std::vector<std::byte> contents(const World& world, std::uint32_t buffer)
 }
 
 /// The records of a constraint kind as the device has them, else those of the model; vertices scene-wide.
-template <template <typename> typename Record>
+template <template <typename> typename Record, typename Element>
 std::vector<Record<double>> records(const World& world, std::string_view kind,
-                                    std::vector<Record<double>> of_model)
+                                    const std::vector<Element>& of_model)
 {
     const Plan& plan = world.plan();
     for (const ConstraintSet& set : plan.constraints)
@@ -85,7 +86,7 @@ std::vector<Record<double>> records(const World& world, std::string_view kind,
                 to_scene(record, plan.original);
             return out;
         }
-    return of_model;
+    return records_of(of_model);
 }
 
 /// Gives springs that flow as forces the rest lengths that they have come to.
@@ -122,8 +123,8 @@ View::View(const World& w)
       model(make_model(w.scene())),
       x(w.positions()),
       v(w.velocities()),
-      distance(records<layout::DistanceConstraint>(world, "distance", records_of(model.springs))),
-      bending(records<layout::BendingConstraint>(world, "bending", records_of(model.hinges)))
+      distance(records<layout::DistanceConstraint>(world, "distance", model.springs)),
+      bending(records<layout::BendingConstraint>(world, "bending", model.hinges))
 {
     if (plan.flowing == kNoBuffer)
         return;

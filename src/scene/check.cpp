@@ -91,7 +91,7 @@ namespace {
 std::vector<SceneIssue> check_as(const Scene& scene, scene_file::Scope scope)
 {
     std::vector<SceneIssue> issues;
-    scene_file::check_table(scene_file::kSceneTable, &scene, scene_file::Checker(issues, {}, scope));
+    scene_file::check_table(scene_file::kSceneTable, &scene, scene_file::Checker(issues, scope));
     return issues;
 }
 

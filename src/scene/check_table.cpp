@@ -46,15 +46,14 @@ void check_count(const Key& key, std::uint32_t value, const Checker& out)
 template <class Vector>
 void check_parts(const Key& key, const Vector& value, const Checker& out)
 {
-    std::string whole;
     bool good = true;
     for (int i = 0; i < Vector::length(); ++i)
-    {
         good = good && key.limits.contains(value[i]);
-        whole += (i == 0 ? "[" : ", ") + shown(value[i]);
-    }
     if (good)
         return;
+    std::string whole;
+    for (int i = 0; i < Vector::length(); ++i)
+        whole += (i == 0 ? "[" : ", ") + shown(value[i]);
     Key low = key;
     if (key.limits.high >= kMaxCount)
         low.limits.high = kMaxValue;

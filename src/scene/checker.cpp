@@ -3,6 +3,7 @@
 #include "taut/scene/keys.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace taut::scene_file {
@@ -14,16 +15,27 @@ std::string shown(const glm::dvec3& value)
 
 std::string Checker::join(std::string_view member) const
 {
-    if (member.empty())
-        return path_;
-    return path_.empty() ? std::string(member) : path_ + '.' + std::string(member);
+    std::string out;
+    const auto append = [&](std::string_view name) {
+        if (!name.empty())
+            (out += out.empty() ? "" : ".") += name;
+    };
+    for (std::size_t k = 0; k < depth_; ++k)
+    {
+        append(path_[k].member);
+        if (path_[k].index != kNoIndex)
+            out += '[' + std::to_string(path_[k].index) + ']';
+    }
+    append(member);
+    return out;
 }
-
-Checker Checker::at(std::string_view member) const { return {issues_, join(member), scope_}; }
 
 Checker Checker::at(std::string_view member, std::size_t index) const
 {
-    return {issues_, join(member) + '[' + std::to_string(index) + ']', scope_};
+    Checker out = *this;
+    assert(out.depth_ < out.path_.size());
+    out.path_[out.depth_++] = {member, index};
+    return out;
 }
 
 void Checker::error(std::string_view member, const std::string& text, ErrorCode code) const

@@ -5,6 +5,7 @@
 #include "taut/scene/descriptor.hpp"
 #include "taut/scene/scene.hpp"
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,18 +27,19 @@ enum class Scope
     keys    ///< each key by itself: others could not be read
 };
 
-/// Appends issues whose fields start with a path.
+/// Appends issues whose fields start with a path. Paths become text where there is an issue, and only there:
+/// a million vertices have a checker each.
 class Checker
 {
 public:
-    Checker(std::vector<SceneIssue>& issues, std::string path, Scope scope = Scope::scene)
+    explicit Checker(std::vector<SceneIssue>& issues, Scope scope = Scope::scene)
         : issues_(issues),
-          path_(std::move(path)),
           scope_(scope)
     {}
 
-    /// A checker for a member ("material") or an element ("pins", 3).
-    Checker at(std::string_view member) const;
+    /// A checker for a member ("material") or an element ("pins", 3). The name must outlive it, as those of
+    /// keys and literals do. Nine levels at most.
+    Checker at(std::string_view member) const { return at(member, kNoIndex); }
     Checker at(std::string_view member, std::size_t index) const;
 
     void error(std::string_view member, const std::string& text, ErrorCode code = ErrorCode::bad_input) const;
@@ -53,10 +55,18 @@ public:
     Scope scope() const { return scope_; }
 
 private:
+    static constexpr std::size_t kNoIndex = static_cast<std::size_t>(-1);
+    struct Step
+    {
+        std::string_view member;
+        std::size_t index = kNoIndex;
+    };
+
     std::string join(std::string_view member) const;
 
     std::vector<SceneIssue>& issues_;
-    std::string path_;
+    std::array<Step, 9> path_;
+    std::size_t depth_ = 0;
     Scope scope_;
 };
 

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace taut {
@@ -213,10 +214,14 @@ void add_network(Body& body)
 /// Names the first vertex that is not.
 bool all_finite(const Mesh& mesh, const Checker& out)
 {
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        if (!out.finite("", mesh.positions[v], "m, vertex " + std::to_string(v) + " in world space"))
-            return false;
-    return true;
+    const auto out_of_range = [](const glm::dvec3& p) {
+        return !(std::abs(p.x) <= scene_file::kMaxValue && std::abs(p.y) <= scene_file::kMaxValue &&
+                 std::abs(p.z) <= scene_file::kMaxValue);
+    };
+    const auto& all = mesh.positions;
+    const auto found = std::find_if(all.begin(), all.end(), out_of_range);
+    return found == all.end() ||
+           out.finite("", *found, "m, vertex " + std::to_string(found - all.begin()) + " in world space");
 }
 
 /// A file that cannot be used is an issue of the field that names it.
@@ -291,7 +296,7 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
     std::vector<SceneIssue> issues = check(scene);
     throw_if_any(issues, found);
     Scene resolved = scene;
-    const Checker out(issues, {});
+    const Checker out(issues);
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
         Body& body = resolved.bodies[b];

@@ -116,17 +116,24 @@ std::vector<double> World::Impl::of_constraints(std::string_view kind,
 template <typename Real>
 std::vector<Kept> World::Impl::kept(const Vertices& of) const
 {
+    std::vector<Kept> out(of.count);
+    each_kept<Real>(of, [&](std::uint32_t v, const Kept& vertex) { out[v] = vertex; });
+    return out;
+}
+
+template <typename Real, typename Visit>
+void World::Impl::each_kept(const Vertices& of, const Visit& visit) const
+{
     using Vec = glm::vec<4, Real>;
     const auto read = [&](std::uint32_t buffer) {
         return device->read<Vec>(buffers[buffer], of.count, of.first * sizeof(Vec));
     };
     const auto velocity = read(plan.velocity), delta = read(plan.delta);
-    const auto coasting = plan.coasting != kNoBuffer ? read(plan.coasting) : delta;
-    std::vector<Kept> out;
+    const auto coasted = plan.coasting != kNoBuffer ? read(plan.coasting) : std::vector<Vec>();
+    const auto& coasting = plan.coasting != kNoBuffer ? coasted : delta;
     for (std::uint32_t v = 0; v < of.count; ++v)
-        out.push_back({plan.pull[of.first + v], glm::dvec3(velocity[v]), glm::dvec3(delta[v]),
-                       glm::dvec3(coasting[v])});
-    return out;
+        visit(v, {plan.pull[of.first + v], glm::dvec3(velocity[v]), glm::dvec3(delta[v]),
+                  glm::dvec3(coasting[v])});
 }
 template std::vector<Kept> World::Impl::kept<float>(const Vertices&) const;
 template std::vector<Kept> World::Impl::kept<double>(const Vertices&) const;
@@ -136,9 +143,13 @@ std::vector<glm::dvec3> World::Impl::velocities(const Vertices& of) const
     if (plan.velocity == kNoBuffer)
         return {};
     std::vector<glm::dvec3> out(of.count);
-    const auto kept_ones = plan.precision == Precision::float64 ? kept<double>(of) : kept<float>(of);
-    for (std::uint32_t v = 0; v < of.count; ++v)
-        out[plan.original[of.first + v] - of.first] = velocity_at_step(pace(), kept_ones[v]);
+    const auto put = [&](std::uint32_t v, const Kept& vertex) {
+        out[plan.original[of.first + v] - of.first] = velocity_at_step(pace(), vertex);
+    };
+    if (plan.precision == Precision::float64)
+        each_kept<double>(of, put);
+    else
+        each_kept<float>(of, put);
     return out;
 }
 

@@ -96,6 +96,9 @@ struct World::Impl
     /// The same in the plan's order.
     template <typename Real>
     std::vector<Kept> kept(const Vertices& of) const;
+    /// Calls visit(v, vertex) for each, v counted from the first of them.
+    template <typename Real, typename Visit>
+    void each_kept(const Vertices& of, const Visit& visit) const;
     template <typename Real>
     void repace(const Pace& before);
     std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added, const Vertices& of) const;
