@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -33,7 +34,8 @@ constexpr double kNearLimit = 0.9;
 
 struct Substep
 {
-    PhysicalModel model;                    ///< with dampers as springs
+    /// With dampers as springs: that of the view, which outlives it, where there are none.
+    std::shared_ptr<const PhysicalModel> model;
     std::vector<glm::dvec3> moved, inertia; ///< m; (x - x~) / h^2, m/s^2
     Leftover left;
 };
@@ -41,11 +43,15 @@ struct Substep
 /// A damper of c N s/m adds the force c/h e to a spring, e what the substep made it longer: together they are
 /// a spring of k + c/h with the rest length at which that gives the force of both. implicit_euler takes e
 /// along the present direction, vbd as the difference of lengths.
-void put_dampers_into_springs(const View& view, const std::vector<glm::dvec3>& moved, double h,
-                              PhysicalModel& model)
+std::shared_ptr<const PhysicalModel> with_dampers_as_springs(const View& view,
+                                                             const std::vector<glm::dvec3>& moved, double h)
 {
+    const auto damped = [](const StretchElement& e) { return e.damping > 0; };
+    if (std::none_of(view.model.springs.begin(), view.model.springs.end(), damped))
+        return {std::shared_ptr<void>(), &view.model};
+    auto model = std::make_shared<PhysicalModel>(view.model);
     const bool by_length = method_of(view.world.scene()) == MethodKind::vbd;
-    for (StretchElement& e : model.springs)
+    for (StretchElement& e : model->springs)
     {
         const glm::dvec3 d = view.x[e.a] - view.x[e.b], change = moved[e.a] - moved[e.b];
         const double length = glm::length(d);
@@ -57,6 +63,7 @@ void put_dampers_into_springs(const View& view, const std::vector<glm::dvec3>& m
         e.compliance = 1 / (stiffness + drag);
         e.rest_length = length - pull * e.compliance;
     }
+    return model;
 }
 
 std::optional<Substep> last_substep(const View& view)
@@ -67,18 +74,18 @@ std::optional<Substep> last_substep(const View& view)
         return std::nullopt;
     const std::size_t count = view.x.size();
     const double h = view.plan.timestep / view.plan.substeps;
-    Substep out{view.model, view.world.displacements(), {}, {}};
-    put_dampers_into_springs(view, out.moved, h, out.model);
+    Substep out{nullptr, view.world.displacements(), {}, {}};
+    out.model = with_dampers_as_springs(view, out.moved, h);
     std::vector<glm::dvec3> force(count, glm::dvec3(0)), gas(count, glm::dvec3(0));
-    add_forces(out.model, view.x, force);
-    for (const GasElement& e : out.model.gases) // of the guess, which it has pushed
+    add_forces(*out.model, view.x, force);
+    for (const GasElement& e : out.model->gases) // of the guess, which it has pushed
         add_gas_forces(e, view.x, gas);
     out.left = {
         std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), {}, h, false};
     for (std::size_t i = 0; i < count; ++i)
     {
-        const double mass = out.model.mass[i];
-        const glm::dvec3 elastic = force[i] - gas[i] - mass * out.model.gravity;
+        const double mass = out.model->mass[i];
+        const glm::dvec3 elastic = force[i] - gas[i] - mass * out.model->gravity;
         out.inertia.push_back((out.moved[i] - guess[i]) / (h * h));
         out.left.force[i] = mass * out.inertia[i] - elastic;
     }
@@ -123,15 +130,15 @@ void measure_implicit_residual(const View& view, StepReport& out)
     const std::optional<Substep> last = last_substep(view);
     if (!last)
         return;
-    const double gravity = glm::length(last->model.gravity);
+    const double gravity = glm::length(last->model->gravity);
     std::vector<double> size(view.x.size(), 0.0);
-    add_force_sizes(last->model, view.x, size);
+    add_force_sizes(*last->model, view.x, size);
     double worst = 0, lefts = 0, sizes = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
-        if (last->model.pinned[i] || last->model.flows[i] || touches_collider(view, i))
+        if (last->model->pinned[i] || last->model->flows[i] || touches_collider(view, i))
             continue;
-        const double mass = last->model.mass[i], left = glm::length(last->left.force[i]);
+        const double mass = last->model->mass[i], left = glm::length(last->left.force[i]);
         worst = std::max(worst, left / mass / (gravity > 0 ? gravity : 1.0));
         lefts += left;
         sizes += mass * glm::length(last->inertia[i]) + size[i];
@@ -179,7 +186,7 @@ void put_loads(const View& view, Substep& last)
         for (std::size_t i = view.model.body_start[b]; i < view.model.body_start[b + 1]; ++i)
         {
             const double moved = glm::length(last.moved[i]);
-            last.left.load[i] = last.model.mass[i] * std::max(least[b], glm::length(last.inertia[i]));
+            last.left.load[i] = last.model->mass[i] * std::max(least[b], glm::length(last.inertia[i]));
             // One that a collider pushed may have left it in the same substep.
             last.left.touches[i] = view.model.flows[i] || touches_collider(view, i, moved + gravity * h * h);
         }
@@ -193,7 +200,9 @@ void put_loads(const View& view, Substep& last)
 
 LoadResidual measure_load_residual(const World& world)
 {
-    const View view(world);
+    View view(world);
+    view.distance = std::vector<reference::DistanceRecord>(); // the matrix takes their room
+    view.v = std::vector<glm::dvec3>();
     const MethodKind kind = method_of(world.scene());
     const bool sweeps = kind == MethodKind::xpbd;
     if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps) ||
@@ -214,8 +223,8 @@ LoadResidual measure_load_residual(const World& world)
     }
     if (!sweeps)
         for (std::size_t i = 0; i < view.x.size(); ++i)
-            left.carried.push_back(last->model.pinned[i] ? glm::length(last->moved[i]) : 0.0);
-    return load_residual(last->model, view.x, left);
+            left.carried.push_back(last->model->pinned[i] ? glm::length(last->moved[i]) : 0.0);
+    return load_residual(*last->model, view.x, left);
 }
 
 } // namespace taut

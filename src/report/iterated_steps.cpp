@@ -24,8 +24,9 @@ using reference::State;
 using Motion = std::vector<glm::dvec3>;
 
 constexpr std::uint32_t kHeld = 0xffffffffu;
-constexpr std::uint32_t kGroup = 100;       ///< vertices that are to move as one rigid body
-constexpr std::uint32_t kMostGroups = 2000; ///< of solids, whose small systems fill more when factored
+constexpr std::uint32_t kGroup = 100; ///< vertices that are to move as one rigid body
+/// Groups, which are then larger: the small system is factored. That of solids fills more.
+constexpr std::uint32_t kMostGroups = 4000, kMostOfSolids = 2000;
 
 /// The vertices that move, and their rows.
 struct Rows
@@ -147,7 +148,7 @@ std::vector<Motion> iterated_steps(const PhysicalModel& model, const reference::
         return out;
     const BlockMatrix stiffness = stiffness_of(energy, x, left.time, rows);
     const bool solids = !model.solids.empty() || !model.volumes.empty();
-    const std::uint32_t size = solids ? std::max(kGroup, stiffness.rows() / kMostGroups) : kGroup;
+    const std::uint32_t size = std::max(kGroup, stiffness.rows() / (solids ? kMostOfSolids : kMostGroups));
     const reference::RigidGradients gradients(stiffness, rows.columns(x), size);
     std::vector<double> loads(rows.body_start.size() - 1, 0.0);
     for (std::size_t b = 0; b < loads.size() && forces.size() == 1; ++b)
