@@ -25,6 +25,7 @@
 #include <iostream>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -117,7 +118,7 @@ public:
     std::size_t mesh_count() const { return meshes_.count(); }
     const std::vector<double>& step_ms() const { return step_ms_; }
     /// The smallest V / V0 of all frames.
-    double volume_min() const { return volume_min_; }
+    double volume_min() const { return volume_.least; }
     const std::vector<PictureMoment>& moments() const { return moments_; }
     const std::vector<Look>& looks() const { return looks_.list(); }
     const SoundnessWatch& watch() const { return watch_; }
@@ -137,9 +138,9 @@ private:
         step_ms_.push_back(
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         ++done_;
-        if (has_volume_)
-            volume_min_ =
-                std::min(volume_min_, measure_volume(simulation_.scene(), simulation_.positions()).least);
+        if (volume_.any)
+            volume_.least =
+                std::min(volume_.least, measure_volume(simulation_.scene(), simulation_.positions()).least);
         finite_ = simulation_.events().non_finite == 0;
         if (finite_ && watch_.due(done_)) // whole() may have to put it together
             watch_.after(done_, simulation_.whole());
@@ -179,16 +180,10 @@ private:
         if (!mesh && !moment)
             return;
         std::vector<glm::dvec3> positions = simulation_.positions();
-        if (simulation_.torn() != torn_)
-        {
-            torn_ = simulation_.torn();
-            scene_known_ = false;
-            moment_scene_ = nullptr;
-        }
-        if (mesh && !scene_known_)
+        const std::optional<std::uint64_t> torn = simulation_.torn();
+        if (mesh && std::exchange(meshes_torn_, torn) != torn)
             meshes_.set_scene(simulation_.scene());
-        scene_known_ = scene_known_ || mesh;
-        if (moment && !moment_scene_)
+        if (moment && std::exchange(moment_torn_, torn) != torn)
             moment_scene_ = std::make_shared<const Scene>(simulation_.scene());
         if (mesh)
             meshes_.write(shown_positions(simulation_.scene(), positions), done_, simulation_.time());
@@ -204,18 +199,16 @@ private:
     std::vector<double> step_ms_;
     std::vector<PictureMoment> moments_;
     MeshSequence meshes_;
-    std::uint64_t torn_ = 0;
     VolumeReport volume_ = measure_volume(simulation_.scene(), simulation_.positions());
-    bool has_volume_ = volume_.any;
-    double volume_min_ = volume_.least;
     Looks looks_;
     SoundnessWatch watch_;
     TunnelWatch tunnelling_;
     ContactWatch contact_;
     std::vector<StretchElement> springs_; ///< as of `looked_torn_`
     std::uint64_t looked_torn_ = 0;
-    bool scene_known_ = false;                  ///< to `meshes_`, as of `torn_`
-    std::shared_ptr<const Scene> moment_scene_; ///< as of `torn_`, once a moment was kept
+    std::optional<std::uint64_t> meshes_torn_;  ///< torn() of the scene that `meshes_` know
+    std::optional<std::uint64_t> moment_torn_;  ///< that of `moment_scene_`
+    std::shared_ptr<const Scene> moment_scene_;
 };
 
 /// Device times by effect: the median of three further frames. Timestamps never touch what was simulated,

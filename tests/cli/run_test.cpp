@@ -192,8 +192,8 @@ TEST_CASE("no frames at all is a run too")
     CHECK(report["frames"] == 0);
     CHECK(report["simulated_seconds"] == 0);
     CHECK(report["load_residual"].is_null()); // nothing was solved, so nothing was left unsolved
-    const Result further =
-        folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--out", folder / "o", "--json"});
+    const Result further = folder.taut(
+        {"run", scene, "--device", "cpu:serial", "--frames", "1", "--out", folder / "o", "--json"});
     CHECK(program::parse(further.out)["load_residual"].is_number());
 }
 
