@@ -200,6 +200,9 @@ struct SceneContact
     /// Surfaces that are to meet and go through each other at the start: "ignore" (they stay so) or "refuse":
     /// World throws.
     std::string start = "ignore";
+    /// "none", or "no_crossing": surfaces that meet and do not cross at the start never do; a filter cuts the
+    /// ways of vertices for it (docs/contact.md, "The guarantee").
+    std::string guarantee = "none";
 };
 
 /// The same of one body's surface.
