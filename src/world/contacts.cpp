@@ -116,9 +116,9 @@ std::vector<InputWrite> World::Impl::before_step() const
 {
     if (!plan.contact.guarded)
         return {};
-    std::vector<std::uint32_t> changed = {plan.position,        plan.low,         plan.velocity,
-                                          plan.delta,           plan.coasting,    plan.events,
-                                          plan.contact.control, plan.contact.lost};
+    std::vector<std::uint32_t> changed = {plan.position,    plan.low,  plan.velocity, plan.delta,
+                                          plan.coasting,    plan.owed, plan.events,   plan.contact.control,
+                                          plan.contact.lost};
     changed.insert(changed.end(), plan.kept.begin(), plan.kept.end());
     std::vector<InputWrite> out;
     for (const std::uint32_t buffer : changed)
