@@ -4,8 +4,10 @@
 //
 // Based on: shared/scan.glsl.
 // Departures: each lane adds a stretch of its own first.
+// GUARD, with the guarantee, says whether the search has left anything out: then all stand still.
 // Bytes per row: 8 read, 4 written; ROWS 4 more read.
 //! variant rows ROWS=1
+//! variant guarded_rows ROWS=1 GUARD=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
@@ -23,6 +25,9 @@ WRITE(1, uint, start); // one more than rows
 #if ROWS
 READ(2, uint, compared);
 UPDATE(3, uint, control);
+#endif
+#if GUARD
+READ(4, uint, lost);
 #endif
 
 SHARED(uint, before, TAUT_LINEAR_GROUP); // and with the lane's own
@@ -70,6 +75,12 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         control[TAUT_CONTACT_FOUND] = total;
         control[TAUT_CONTACT_COMPARED] = before[TAUT_LINEAR_GROUP - 1];
         control[TAUT_CONTACT_MISSING] += total - listed;
+#if GUARD
+        bool left_out = total > listed || lost[TAUT_CONTACT_CUT] != control[TAUT_CONTACT_CUT_SEEN];
+        control[TAUT_CONTACT_HOLDS] = left_out ? 1u : 0u;
+        control[TAUT_CONTACT_GATE_PAIRS] = control[TAUT_CONTACT_PAIR_GROUPS];
+        control[TAUT_CONTACT_CUT_SEEN] = lost[TAUT_CONTACT_CUT];
+#endif
     }
     LANES_END
 #endif

@@ -7,16 +7,27 @@
 // d the displacement of the first substep: the skin is for what changes it later. Without FILL the pairs are
 // counted, with FILL they are written behind those of the triangles before, in the order of the tree.
 //
+// GUARD, with the guarantee, asks whether they could meet if each corner went along its forecast d as far as
+// it likes, or stood still, and up to a tenth of it astray (guarantee_anchor holds them to that):
+//
+//   |x_A - x_B| < R + substeps |D|,   and less than R across D,   D the mean of the four d,
+//   R = r_A + r_B + skin + substeps (max (|d_i - D| + |d_i| / 10) + max (|d_j - D| + |d_j| / 10)).
+//
 // Based on: Curtis, Tamstorf, Manocha. Fast Collision Detection for Deformable Models using Representative-
 //   Triangles. I3D 2008 (every vertex and edge belongs to one triangle); Smits. Efficiency Issues for Ray
 //   Tracing. Journal of Graphics Tools 3(2), 1998 (a tree walked without a stack).
 // Departures: in the full binary tree the next node to visit is in the number of the last one.
 // Bytes per triangle: 20 + 32 a node visited, 20 + 96 a triangle compared; FILL 20 a pair written (float).
 //! variant fill FILL=1
+//! variant guarded GUARD=1
+//! variant guarded_fill GUARD=1 FILL=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
 #include "shared/closest.glsl"
+#if GUARD
+#include "shared/guarantee.glsl"
+#endif
 
 PARAMS
 {
@@ -48,6 +59,56 @@ uint corner_of(ContactTriangle t, uint k)
     return k == 0u ? t.a : (k == 1u ? t.b : t.c);
 }
 
+#if GUARD
+rvec3 way_of(uint v)
+{
+    return sound_way(rvec3(position[v]), rvec3(delta[v]));
+}
+
+/// How far a corner may stray in a substep from the mean way.
+real stray(rvec3 d, rvec3 mean)
+{
+    return length(d - mean) + sway() * length(d);
+}
+
+rvec3 across(rvec3 x, rvec3 direction)
+{
+    return x - direction * dot(x, direction);
+}
+
+/// Whether the four, places relative to the first, could meet until the next search.
+bool could_meet(uint kind, uint a, uint b, uint c, uint d, rvec3 eb, rvec3 ec, rvec3 ed, real gap)
+{
+    rvec3 p = way_of(a);
+    rvec3 q = way_of(b);
+    rvec3 r = way_of(c);
+    rvec3 s = way_of(d);
+    rvec3 mean = ((p + q) + (r + s)) * real(0.25);
+    real first = stray(p, mean);
+    real second = max(stray(r, mean), stray(s, mean));
+    if (kind == TAUT_CONTACT_EDGES)
+        first = max(first, stray(q, mean));
+    else
+        second = max(second, stray(q, mean));
+    real reached = (gap + real(skin)) + (first + second) * real(substeps);
+    real speed = length(mean);
+    real all = reached + speed * real(substeps);
+    Closest near = closest_vertex_triangle(eb, ec, ed);
+    if (kind == TAUT_CONTACT_EDGES)
+        near = closest_edges(eb, ec, ed);
+    bool comes = near.squared < all * all;
+    if (comes && speed > real(0))
+    {
+        rvec3 u = mean / speed;
+        if (kind == TAUT_CONTACT_EDGES)
+            near = closest_edges(across(eb, u), across(ec, u), across(ed, u));
+        else
+            near = closest_vertex_triangle(across(eb, u), across(ec, u), across(ed, u));
+        comes = near.squared < reached * reached;
+    }
+    return comes;
+}
+#else
 /// The greatest square of the differences of how two corners and two others are displaced.
 real apart(uint a, uint b, uint c, uint d)
 {
@@ -63,16 +124,25 @@ bool is_near(real squared, real motion, real gap)
     real reached = (gap + real(skin)) + sqrt(motion) * real(substeps);
     return squared < reached * reached;
 }
+#endif
 
 /// Whether the way of a corner, or of a side with two, comes within reach of a box.
 bool reaches(uint a, uint b, rvec4 least, rvec4 most)
 {
     rvec3 p = rvec3(position[a]);
     rvec3 q = rvec3(position[b]);
+#if GUARD
+    rvec3 d = way_of(a) * real(substeps);
+    rvec3 e = way_of(b) * real(substeps);
+    rvec3 m = rvec3(max(length(d), length(e)) * sway() + real(reach));
+    rvec3 l = min(min(p, q), min(p + d, q + e)) - m;
+    rvec3 h = max(max(p, q), max(p + d, q + e)) + m;
+#else
     rvec3 r = p + rvec3(delta[a]) * real(substeps);
     rvec3 s = q + rvec3(delta[b]) * real(substeps);
     rvec3 l = min(min(p, q), min(r, s)) - rvec3(real(reach));
     rvec3 h = max(max(p, q), max(r, s)) + rvec3(real(reach));
+#endif
     return l.x <= most.x && l.y <= most.y && l.z <= most.z && h.x >= least.x && h.y >= least.y &&
            h.z >= least.z;
 }
@@ -87,8 +157,13 @@ bool vertex_meets(uint v, ContactTriangle t, real gap)
     rvec4 c = position[t.c];
     bool moves = x.w + ((a.w + b.w) + c.w) > real(0);
     rvec3 o = rvec3(x);
+#if GUARD
+    return moves && could_meet(TAUT_CONTACT_VERTEX, v, t.a, t.b, t.c, rvec3(a) - o, rvec3(b) - o,
+                               rvec3(c) - o, gap);
+#else
     Closest near = closest_vertex_triangle(rvec3(a) - o, rvec3(b) - o, rvec3(c) - o);
     return moves && is_near(near.squared, max(apart(v, v, t.a, t.b), apart(v, v, t.c, t.c)), gap);
+#endif
 }
 
 bool edges_meet(uint p, uint q, uint r, uint s, real gap)
@@ -101,8 +176,13 @@ bool edges_meet(uint p, uint q, uint r, uint s, real gap)
     rvec4 d = position[s];
     bool moves = (a.w + b.w) + (c.w + d.w) > real(0);
     rvec3 o = rvec3(a);
+#if GUARD
+    return moves &&
+           could_meet(TAUT_CONTACT_EDGES, p, q, r, s, rvec3(b) - o, rvec3(c) - o, rvec3(d) - o, gap);
+#else
     Closest near = closest_edges(rvec3(b) - o, rvec3(c) - o, rvec3(d) - o);
     return moves && is_near(near.squared, apart(p, q, r, s), gap);
+#endif
 }
 
 /// Puts the pair down if there is a place for it, and gives the next place.

@@ -21,10 +21,36 @@
 #define TAUT_CONTACT_MISSING 11
 #define TAUT_CONTACT_WORDS 12
 
+/// With the guarantee there are more: whether all stand still until the next search, because the last one did
+/// not list everything; what was counted of searches cut short, and of vertices that stray, when they were
+/// looked at last; searches over the whole run; group counts of the passes of a search, which are 0 in
+/// substeps without.
+#define TAUT_CONTACT_HOLDS 12
+#define TAUT_CONTACT_CUT_SEEN 13
+#define TAUT_CONTACT_STRAYED_SEEN 14
+#define TAUT_CONTACT_SEARCHED 15
+#define TAUT_CONTACT_GATE_TRIANGLES 16
+#define TAUT_CONTACT_GATE_VERTICES 20
+#define TAUT_CONTACT_GATE_ONE 24
+#define TAUT_CONTACT_GATE_PAIRS 28
+#define TAUT_CONTACT_GATE_LEVELS 32 // of the tree, 4 words each
+#define TAUT_CONTACT_MOST_LEVELS 4
+#define TAUT_CONTACT_GUARDED_WORDS 48
+
 /// Words of the counters of what was left out: queries that were cut short, vertices with too many corners of
 /// pairs.
 #define TAUT_CONTACT_CUT 0
 #define TAUT_CONTACT_CROWDED 1
+#define TAUT_CONTACT_LOST_WORDS 2
+
+/// With the guarantee more, a vertex and substep each: ways that were cut, vertices and pairs for which what
+/// is held leaves no place, vertices that stood still because a pair of theirs could not be told apart or the
+/// lists were too short, vertices that have used up half of what the last search let them stray.
+#define TAUT_CONTACT_FILTERED 2
+#define TAUT_CONTACT_PINCHED 3
+#define TAUT_CONTACT_HELD 4
+#define TAUT_CONTACT_STRAYED 5
+#define TAUT_CONTACT_GUARDED_LOST_WORDS 6
 
 /// Trips of a query's loop, and corners of pairs at one vertex, that a device can be trusted with.
 #define TAUT_CONTACT_TRIPS 28000u

@@ -53,9 +53,12 @@ Json contacts_json(const StepReport& report)
                           {"push", f.push},
                           {"friction", f.friction},
                           {"force", {f.force.x, f.force.y, f.force.z}}});
-    return {
+    Json json = {
         {"pairs", c.pairs},       {"candidates", c.candidates},    {"missing", c.missing + c.cut + c.crowded},
         {"capacity", c.capacity}, {"depth", report.contact_depth}, {"forces", forces}};
+    if (c.guarded)
+        json.update(Json{{"filtered", c.filtered}, {"pinched", c.pinched}, {"held", c.held}});
+    return json;
 }
 
 Json passes_json(const std::vector<EffectTime>& passes)
@@ -198,6 +201,9 @@ std::string summary(const RunResult& result)
         text += "contact " + std::to_string(c.pairs) + " pairs, " + std::to_string(c.candidates) +
                 " triangles compared, " + std::to_string(c.missing + c.cut + c.crowded) + " missing; depth " +
                 number(1000 * report.contact_depth, 3) + " mm\n";
+    if (const ContactCounts& c = report.contacts; c.guarded)
+        text += "guarded " + std::to_string(c.filtered) + " ways cut, " + std::to_string(c.pinched) +
+                " pinched, " + std::to_string(c.held) + " held\n";
     if (report.torn > 0)
         text += "torn    at " + std::to_string(report.torn) + " vertices\n";
     for (const auto& [word, count] : report.warnings)

@@ -3,8 +3,8 @@
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014 (contacts as
 //   constraints of positions); Tonge, Benevolenski, Voroshilov. SIGGRAPH 2012 (mass splitting). Each kernel
 //   of kernels/contact says more.
-// Departures: nothing forbids a crossing; what comes closer between two searches than the skin allows for is
-//   missed (docs/contact.md, "Limits").
+// Departures: without the guarantee (guarantee.cpp) nothing forbids a crossing; what comes closer between two
+//   searches than the skin allows for is missed (docs/contact.md, "Limits").
 
 #include "taut/plan/contact.hpp"
 
@@ -17,6 +17,7 @@
 #include "taut/kernels/contact_scan.hpp"
 #include "taut/kernels/contact_search.hpp"
 #include "taut/kernels/contact_sort.hpp"
+#include "taut/kernels/guarantee_wake.hpp"
 #include "taut/kernels/shared/contact_rows.h"
 #include "taut/plan/contact_scene.hpp"
 #include "taut/plan/contact_tree.hpp"
@@ -28,6 +29,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace taut {
 namespace {
@@ -92,11 +94,15 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
     c.found = b.add_buffer(kEffect, "pairs of triangles", c.triangles * word);
     c.compared = b.add_buffer(kEffect, "triangles compared", c.triangles * word);
     c.start = b.add_buffer(kEffect, "pairs of triangles, start", (c.triangles + std::uint64_t(1)) * word);
-    std::vector<std::uint32_t> control(TAUT_CONTACT_WORDS, 0);
+    const bool guarded = wants_guarantee(b.scene);
+    std::vector<std::uint32_t> control(guarded ? TAUT_CONTACT_GUARDED_WORDS : TAUT_CONTACT_WORDS, 0);
     for (const std::size_t gate : {TAUT_CONTACT_PAIR_GROUPS, TAUT_CONTACT_VERTEX_GROUPS})
         control[gate + 1] = control[gate + 2] = 1;
+    for (std::size_t gate = TAUT_CONTACT_GATE_TRIANGLES; gate + 2 < control.size(); gate += 4)
+        control[gate + 1] = control[gate + 2] = 1;
     c.control = b.add_buffer<std::uint32_t>(kEffect, "contact control", control);
-    c.lost = b.add_buffer(kEffect, "what was left out", 2 * word);
+    c.lost = b.add_buffer(kEffect, "what was left out",
+                          (guarded ? TAUT_CONTACT_GUARDED_LOST_WORDS : TAUT_CONTACT_LOST_WORDS) * word);
     c.pair = b.add_buffer(kEffect, "pairs", pairs * sizeof(layout::ContactPair<float>));
     c.row = b.add_buffer(kEffect, "weights of pairs", pairs * 8 * real);
     c.taken = b.add_buffer(kEffect, "multipliers of pairs", pairs * 4 * real);
@@ -124,6 +130,37 @@ void gated(PlanBuilder& b, const Bindings<Use>& uses, const typename Bindings<Us
     b.dispatch_indirect(kEffect, "", uses, params, count, b.contact->control, gate * sizeof(std::uint32_t));
 }
 
+/// Adds a pass of a search: with the guarantee it runs where `gate` lets it.
+template <template <typename> typename Bindings>
+void searching(PlanBuilder& b, std::string_view variant, const Bindings<Use>& uses,
+               const typename Bindings<Use>::Params& params, std::uint32_t count, std::uint64_t gate,
+               std::uint64_t elements = 0)
+{
+    if (wants_guarantee(b.scene))
+        b.dispatch_indirect(kEffect, variant, uses, params, count, b.contact->control,
+                            gate * sizeof(std::uint32_t));
+    else
+        b.dispatch(kEffect, variant, uses, params, count, elements);
+}
+
+std::uint32_t refit_groups(std::uint32_t level)
+{
+    return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
+}
+
+void record_wake(PlanBuilder& b, const ContactBuffers& c, bool due)
+{
+    const auto groups = [](std::uint32_t count) { return (count + kGroupSize - 1) / kGroupSize; };
+    std::array<std::uint32_t, TAUT_CONTACT_MOST_LEVELS> levels = {refit_groups(c.leaves)};
+    for (std::size_t k = 1; k < levels.size(); ++k)
+        levels[k] = levels[k - 1] > 1 ? refit_groups(levels[k - 1]) : 0;
+    const kernels::guarantee_wake::Bindings<Use> uses = {.lost = {c.lost, 0}, .control = {c.control}};
+    b.dispatch("guarantee", "", uses,
+               {1, due, groups(c.triangles), groups(b.plan.vertex_count), levels[0], levels[1], levels[2],
+                levels[3]},
+               1);
+}
+
 void record_refit(PlanBuilder& b, const ContactBuffers& c)
 {
     const kernels::contact_refit::Bindings<Use> leaves = {.node = {c.node, 2},
@@ -131,12 +168,12 @@ void record_refit(PlanBuilder& b, const ContactBuffers& c)
                                                           .position = {b.plan.position, 3},
                                                           .delta = {b.plan.delta, 3}};
     const kernels::contact_refit::Bindings<Use> nodes = {.node = {c.node, 2}};
-    const auto groups = [](std::uint32_t level) {
-        return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
-    };
-    b.dispatch(kEffect, "leaves", leaves, {c.leaves, c.triangles, c.every}, groups(c.leaves), c.triangles);
-    for (std::uint32_t level = groups(c.leaves); level > 1; level = groups(level))
-        b.dispatch(kEffect, "", nodes, {level, c.triangles, c.every}, groups(level), 2 * level);
+    const std::string_view variant = wants_guarantee(b.scene) ? "guarded" : "leaves";
+    std::uint64_t gate = TAUT_CONTACT_GATE_LEVELS;
+    searching(b, variant, leaves, {c.leaves, c.triangles, c.every}, refit_groups(c.leaves), gate,
+              c.triangles);
+    for (std::uint32_t level = refit_groups(c.leaves); level > 1; level = refit_groups(level))
+        searching(b, "", nodes, {level, c.triangles, c.every}, refit_groups(level), gate += 4, 2 * level);
 }
 
 void record_lists(PlanBuilder& b, const ContactBuffers& c)
@@ -155,11 +192,15 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     fill.pair = {c.pair};
     const kernels::contact_search::Bindings<Use>::Params how = {
         n, c.leaves, bodies_meet(b.scene), c.every, c.skin, c.reach, c.capacity};
-    b.dispatch(kEffect, "", count, how, n);
-    const kernels::contact_scan::Bindings<Use> rows = {
+    const bool guarded = wants_guarantee(b.scene);
+    searching(b, guarded ? "guarded" : "", count, how, n, TAUT_CONTACT_GATE_TRIANGLES);
+    kernels::contact_scan::Bindings<Use> rows = {
         .found = {c.found, n}, .start = {c.start, n}, .compared = {c.compared, n}, .control = {c.control}};
-    b.dispatch(kEffect, "rows", rows, {n, c.capacity, vertices}, 1);
-    b.dispatch(kEffect, "fill", fill, how, n);
+    if (guarded)
+        rows.lost = {c.lost, 0};
+    searching(b, guarded ? "guarded_rows" : "rows", rows, {n, c.capacity, vertices}, 1,
+              TAUT_CONTACT_GATE_ONE);
+    searching(b, guarded ? "guarded_fill" : "fill", fill, how, n, TAUT_CONTACT_GATE_TRIANGLES);
     const kernels::contact_make::Bindings<Use> make = {.pair = {c.pair},
                                                        .position = {b.plan.position, 4},
                                                        .rest = {c.rest, 4},
@@ -167,22 +208,23 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                        .control = {c.control, 0},
                                                        .side = {c.side},
                                                        .corners = {c.corners, 4}};
-    gated(b, make, {c.capacity}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    const std::uint64_t pairs = guarded ? TAUT_CONTACT_GATE_PAIRS : TAUT_CONTACT_PAIR_GROUPS;
+    gated(b, make, {c.capacity}, c.capacity, pairs);
     const kernels::contact_scan::Bindings<Use> places = {.found = {c.corners, vertices},
                                                          .start = {c.corner_start, vertices}};
-    b.dispatch(kEffect, "", places, {vertices, 0, vertices}, 1);
+    searching(b, "", places, {vertices, 0, vertices}, 1, TAUT_CONTACT_GATE_ONE);
     const kernels::contact_corners::Bindings<Use> corners = {.pair = {c.pair},
                                                              .control = {c.control, 0},
                                                              .start = {c.corner_start, 4},
                                                              .corner = {c.corner, 4},
                                                              .taken = {c.placed, 4}};
-    gated(b, corners, {c.capacity}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    gated(b, corners, {c.capacity}, c.capacity, pairs);
     const kernels::contact_sort::Bindings<Use> sort = {.start = {c.corner_start, 2},
                                                        .corner = {c.corner},
                                                        .corners = {c.corners},
                                                        .taken = {c.placed},
                                                        .lost = {c.lost, 0}};
-    b.dispatch(kEffect, "", sort, {vertices}, vertices);
+    searching(b, "", sort, {vertices}, vertices, TAUT_CONTACT_GATE_VERTICES);
 }
 
 void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
@@ -237,13 +279,17 @@ void prepare_contact(PlanBuilder& b)
     c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
     with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
     add_lists(b, c);
-    b.plan.contact = {c.control, c.lost, c.pair, c.side, c.taken, c.triangles, c.capacity};
+    b.plan.contact = {c.control, c.lost,      c.pair,     c.side,
+                      c.taken,   c.triangles, c.capacity, wants_guarantee(b.scene)};
 }
 
 void record_contact_search(PlanBuilder& b, const Moment& moment)
 {
-    if (moment.substep % b.contact->every != 0)
+    const bool due = moment.substep % b.contact->every == 0, guarded = wants_guarantee(b.scene);
+    if (!due && !guarded)
         return;
+    if (guarded)
+        record_wake(b, *b.contact, due);
     record_refit(b, *b.contact);
     record_lists(b, *b.contact);
 }

@@ -18,6 +18,8 @@ struct ContactBuffers
     // Of the corners of pairs at each vertex.
     std::uint32_t corners = kNoBuffer, placed = kNoBuffer, corner_start = kNoBuffer, corner = kNoBuffer,
                   active = kNoBuffer;
+    // Of vertices, with the guarantee (guarantee.hpp).
+    std::uint32_t anchor = kNoBuffer, asked = kNoBuffer, asked_next = kNoBuffer;
     std::uint32_t triangles = 0, leaves = 0, capacity = 0;
     std::uint32_t every = 1;   ///< substeps from one search to the next
     float skin = 0, reach = 0; ///< m

@@ -28,6 +28,23 @@ std::string asked_by(const Scene& scene)
     return {};
 }
 
+void check_guarantee(const Scene& scene)
+{
+    if (scene.contact.guarantee == "none")
+        return;
+    const std::string asked = "contact.guarantee is \"" + scene.contact.guarantee + "\"";
+    if (!wants_contact(scene))
+        throw Error(ErrorCode::bad_input,
+                    asked + ", but no surfaces meet: set bodies[].contact.self, or contact.between and two "
+                            "bodies with surfaces; or leave it out");
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+        if (scene.bodies[k].material.tear_strain > 0)
+            throw Error(ErrorCode::unsupported,
+                        asked + ", but " + at_body(k) + ".material.tear_strain is " +
+                            shown(scene.bodies[k].material.tear_strain) +
+                            ": cloth that comes apart begins in the same place twice; leave one of them out");
+}
+
 void check_radius(const Scene& scene, std::size_t k)
 {
     const Body& body = scene.bodies[k];
@@ -82,8 +99,14 @@ bool wants_contact(const Scene& scene)
                        [&](const Body& body) { return takes_part(scene, body); });
 }
 
+bool wants_guarantee(const Scene& scene)
+{
+    return scene.contact.guarantee == "no_crossing" && wants_contact(scene);
+}
+
 void check_contact(const Scene& scene)
 {
+    check_guarantee(scene);
     if (!wants_contact(scene))
         return;
     if (!find_method(method_of(scene)).contact)

@@ -22,8 +22,12 @@ bool surfaces_meet(const Scene& resolved, std::size_t a, std::size_t b);
 /// Whether the surface of any body meets itself or another one.
 bool wants_contact(const Scene& resolved);
 
+/// Whether surfaces that meet must never cross.
+bool wants_guarantee(const Scene& resolved);
+
 /// Throws Error{unsupported} naming the key where the scene's method, or a body in it, cannot meet others,
-/// and Error{bad_input} for a surface too thin for where it is.
+/// or where it asks for a guarantee that cannot be given; Error{bad_input} for a surface too thin for
+/// where it is, and for a guarantee where nothing meets.
 void check_contact(const Scene& resolved);
 
 } // namespace taut

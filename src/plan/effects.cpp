@@ -11,6 +11,7 @@
 #include "taut/plan/contact.hpp"
 #include "taut/plan/contact_scene.hpp"
 #include "taut/plan/corner_forces.hpp"
+#include "taut/plan/guarantee.hpp"
 #include "taut/plan/implicit_constraints.hpp"
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/limits.hpp"
@@ -207,12 +208,15 @@ constexpr Effect kEffectsBefore[] = {
     {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
     {"momentum", Stage::contact, wants_momentum, prepare_momentum, record_momentum_end, kDescents},
     {"contact", Stage::start, wants_contact, prepare_contact, record_contact_search, only(MethodKind::xpbd)},
+    {"guarantee", Stage::start, wants_guarantee, prepare_guarantee, record_guarantee_anchor,
+     only(MethodKind::xpbd)},
     {"contact", Stage::contact, wants_contact, nullptr, record_contact, only(MethodKind::xpbd)},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
 };
 
 /// After the colliders.
 constexpr Effect kEffectsAfter[] = {
+    {"guarantee", Stage::finish, wants_guarantee, nullptr, record_guarantee, only(MethodKind::xpbd)},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
     {"plasticity", Stage::after, wants_plasticity, prepare_plasticity, record_plasticity,
      kMassSpring | only(MethodKind::xpbd) | only(MethodKind::implicit_euler) | kVbd},

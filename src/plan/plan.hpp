@@ -120,6 +120,7 @@ struct PlanContact
     std::uint32_t side = kNoBuffer;    ///< layout::ContactSide<real>, a pair
     std::uint32_t taken = kNoBuffer;   ///< multipliers of the last substep, as contact_push leaves them
     std::uint32_t triangles = 0, capacity = 0;
+    bool guarded = false; ///< the guarantee's counters stand behind those of `lost`
 };
 
 /// A pinned vertex that moves.

@@ -197,9 +197,9 @@ struct SceneContact
     double friction = 0;   ///< Coulomb coefficient of all surfaces that give none, >= 0
     std::uint32_t searches = 4; ///< a time step, 1..1000: how often pairs that may meet are looked for
     std::uint32_t sweeps = 2;   ///< 1..100: over all pairs, after each iteration of the constraints
-    /// Surfaces that are to meet and go through each other at the start: "ignore" (they stay so) or "refuse":
-    /// World throws.
+    /// Surfaces that meet and cross at the start: "ignore" (they stay so) or "refuse": World throws.
     std::string start = "ignore";
+    std::string guarantee = "none"; ///< or "no_crossing": no pair that meets ever crosses (docs/contact.md)
 };
 
 /// The same of one body's surface.

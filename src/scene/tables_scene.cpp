@@ -100,6 +100,7 @@ constexpr Key kWindKey[] = {
 };
 
 constexpr std::string_view kContactStarts[] = {"ignore", "refuse"};
+constexpr std::string_view kGuarantees[] = {"none", "no_crossing"};
 
 constexpr Key kContact[] = {
     key<&SceneContact::between>("between", "different bodies meet; bodies say themselves whether they meet "
@@ -123,6 +124,9 @@ constexpr Key kContact[] = {
     key<&SceneContact::sweeps>("sweeps", "over all pairs, after each iteration of the constraints: more for "
                                          "stacks of many layers")
         .range(1, 100),
+    key<&SceneContact::guarantee>("guarantee", "\"no_crossing\": surfaces that meet, and do not cross at the "
+                                               "start, never do ([the guarantee](contact.md#the-guarantee))")
+        .words(kGuarantees),
 };
 
 constexpr Key kBodyContact[] = {

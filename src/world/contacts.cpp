@@ -2,6 +2,7 @@
 
 #include "taut/kernels/shared/contact_rows.h"
 #include "taut/plan/contact_scene.hpp"
+#include "taut/world/planned.hpp"
 #include "taut/world/world_impl.hpp"
 
 #define TAUT_HOST
@@ -110,6 +111,43 @@ void World::Impl::hold_contacts(std::uint32_t capacity)
     guessed = false;
 }
 
+/// With the guarantee: what a step changes and the next one goes on from. Without it nothing.
+std::vector<InputWrite> World::Impl::before_step() const
+{
+    if (!plan.contact.guarded)
+        return {};
+    std::vector<std::uint32_t> changed = {plan.position,    plan.low,  plan.velocity, plan.delta,
+                                          plan.coasting,    plan.owed, plan.events,   plan.contact.control,
+                                          plan.contact.lost};
+    changed.insert(changed.end(), plan.kept.begin(), plan.kept.end());
+    std::vector<InputWrite> out;
+    for (const std::uint32_t buffer : changed)
+        if (buffer != kNoBuffer)
+            out.push_back({buffer, raw(buffer)});
+    return out;
+}
+
+/// A step of which a search has found more than its list holds stood still in part. It is done again with
+/// longer lists, from what was before it.
+void World::Impl::repeat_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs)
+{
+    while (plan.contact.guarded && plan.contact.capacity < kMostContactPairs)
+    {
+        const auto words = device->read<std::uint32_t>(buffers[plan.contact.control], TAUT_CONTACT_WORDS);
+        const std::uint32_t missing = words[TAUT_CONTACT_MISSING] - contacts_missing;
+        if (missing == 0)
+            return;
+        hold_contacts(roomy(std::max(words[TAUT_CONTACT_FOUND], plan.contact.capacity + missing)));
+        for (const InputWrite& was : before)
+            device->write(buffers[was.buffer], was.offset, was.bytes);
+        // The new buffers have not seen the step's inputs, which may not all have been written for it.
+        std::vector<InputWrite> again =
+            step_inputs(scene, plan, {clock.at(steps), clock.at(steps + 1)}, program.values());
+        again.insert(again.end(), inputs.begin(), inputs.end());
+        device->replay(*recording, writes_of(buffers, again));
+    }
+}
+
 ContactCounts World::contacts() const
 {
     const PlanContact& contact = impl_->plan.contact;
@@ -117,14 +155,23 @@ ContactCounts World::contacts() const
         return {};
     const auto words =
         impl_->device->read<std::uint32_t>(impl_->buffers[contact.control], TAUT_CONTACT_WORDS);
-    const auto lost = impl_->device->read<std::uint32_t>(impl_->buffers[contact.lost], 2);
-    return {true,
-            words[TAUT_CONTACT_FOUND],
-            words[TAUT_CONTACT_COMPARED],
-            words[TAUT_CONTACT_MISSING],
-            lost[TAUT_CONTACT_CUT],
-            lost[TAUT_CONTACT_CROWDED],
-            contact.capacity};
+    const auto lost = impl_->device->read<std::uint32_t>(impl_->buffers[contact.lost],
+                                                         contact.guarded ? TAUT_CONTACT_GUARDED_LOST_WORDS
+                                                                         : TAUT_CONTACT_LOST_WORDS);
+    ContactCounts out{true,
+                      words[TAUT_CONTACT_FOUND],
+                      words[TAUT_CONTACT_COMPARED],
+                      words[TAUT_CONTACT_MISSING],
+                      lost[TAUT_CONTACT_CUT],
+                      lost[TAUT_CONTACT_CROWDED],
+                      contact.capacity,
+                      contact.guarded};
+    if (!contact.guarded)
+        return out;
+    out.filtered = lost[TAUT_CONTACT_FILTERED];
+    out.pinched = lost[TAUT_CONTACT_PINCHED];
+    out.held = lost[TAUT_CONTACT_HELD];
+    return out;
 }
 
 std::vector<SurfacePair> World::contact_pairs() const

@@ -267,15 +267,17 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::step()
 {
-    const std::vector<InputWrite> inputs = impl_->take_inputs();
+    const std::vector<InputWrite> before = impl_->before_step(), inputs = impl_->take_inputs();
     if (impl_->recording)
         impl_->device->replay(*impl_->recording, writes_of(impl_->buffers, inputs));
+    impl_->repeat_step(before, inputs);
     impl_->after_step();
 }
 
 std::vector<EffectTime> World::step_timed()
 {
-    for (const InputWrite& write : impl_->take_inputs())
+    const std::vector<InputWrite> before = impl_->before_step(), inputs = impl_->take_inputs();
+    for (const InputWrite& write : inputs)
         impl_->device->write(impl_->buffers[write.buffer], write.offset, write.bytes);
     std::vector<EffectTime> times;
     for (const EffectCost& effect : impl_->plan.effects)
@@ -288,6 +290,7 @@ std::vector<EffectTime> World::step_timed()
                     ++effect.dispatches;
                     effect.milliseconds += t.nanoseconds * 1e-6;
                 }
+    impl_->repeat_step(before, inputs);
     impl_->after_step();
     return times;
 }

@@ -85,6 +85,13 @@ struct ContactCounts
     std::uint64_t cut = 0;        ///< searches of a triangle that took too many steps and ended early
     std::uint64_t crowded = 0;    ///< vertices with so many pairs that none acted on them
     std::uint64_t capacity = 0;   ///< pairs that the list holds
+    // With SceneContact::guarantee "no_crossing", over the whole run, a vertex and substep each:
+    bool guarded = false;
+    std::uint64_t filtered = 0; ///< ways of vertices that were cut
+    /// Of these and of pairs: where held vertices that move leave no place. What is not held has given way,
+    /// or stands still and may be crossed.
+    std::uint64_t pinched = 0;
+    std::uint64_t held = 0; ///< stood still, because no plane told a pair apart or a list was too short
 };
 
 /// One pair of the list: a vertex and a triangle, or two edges.

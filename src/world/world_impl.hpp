@@ -78,6 +78,8 @@ struct World::Impl
     void carry_contacts(const ContactLists& before, bool same_vertices);
     void grow_contacts();
     void hold_contacts(std::uint32_t capacity);
+    std::vector<InputWrite> before_step() const;
+    void repeat_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs);
     Vertices all() const { return {0, plan.vertex_count}; }
     Vertices of_body(std::size_t body, const char* who) const;
     void put_at(const Vertices& where, std::span<const glm::dvec3> x, const char* who);

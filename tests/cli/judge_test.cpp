@@ -101,8 +101,16 @@ TEST_CASE("a sheet that is through another one within a frame is seen, though no
     const Result result =
         folder.taut({"run", "fast.json", "--device", "cpu:serial", "--no-picture", "--json"});
     CHECK(result.status == 1);
-    CHECK_THAT(program::parse(result.out)["reason"].get<std::string>(),
-               Contains("passed through each other"));
+    const auto json = program::parse(result.out);
+    CHECK_THAT(json["reason"].get<std::string>(), Contains("passed through each other"));
+    CHECK(!json["contacts"].contains("filtered"));
+    const Result guarded = folder.taut({"run", "fast.json", "--device", "cpu:serial", "--no-picture", "--set",
+                                        "contact.guarantee=no_crossing", "--json"});
+    CHECK(guarded.status == 0);
+    const auto contacts = program::parse(guarded.out)["contacts"];
+    CHECK(contacts["filtered"] > 0);
+    CHECK(contacts["pinched"] == 0);
+    CHECK(contacts["held"] == 0);
 }
 
 TEST_CASE("what cannot be judged is refused by name")

@@ -5,6 +5,7 @@
 #include "taut/kernels/contact_refit.hpp"
 #include "taut/kernels/contact_scan.hpp"
 
+#include <algorithm>
 #include <map>
 
 using namespace taut;
@@ -24,9 +25,32 @@ struct Near
     double must = 0; ///< at some time until the next search, if all go on as in the first substep
 };
 
+/// How near a pair comes under the guarantee, beside `reach`: each corner anywhere on its way, and a tenth of
+/// it astray. Looked for by places of all corners on their ways, so it is not less than the truth.
+template <typename Real>
+double nearest_astray(const ContactNet<Real>& net, const layout::ContactPair<Real>& p, std::size_t ends)
+{
+    const std::uint32_t ids[] = {p.a, p.b, p.c, p.d};
+    double stray[] = {0, 0};
+    for (std::size_t k = 0; k < 4; ++k)
+        stray[k < ends ? 0 : 1] =
+            std::max(stray[k < ends ? 0 : 1], 0.1 * kSubsteps * glm::length(net.d(ids[k])));
+    double least = 1e9;
+    for (std::uint32_t stops = 0; stops < 81; ++stops) // each corner at its start, half way, or its end
+    {
+        const std::uint32_t at[] = {stops % 3, stops / 3 % 3, stops / 9 % 3, stops / 27};
+        const auto x = [&](std::uint32_t v) {
+            const auto k = static_cast<std::size_t>(std::find(ids, ids + 4, v) - ids);
+            return net.x(v) + 0.5 * at[k] * kSubsteps * net.d(v);
+        };
+        least = std::min(least, nearest_of(p, x).distance());
+    }
+    return least - stray[0] - stray[1];
+}
+
 /// Every pair that can be meant.
 template <typename Real>
-std::map<Key, Near> all_pairs(const ContactNet<Real>& net, bool between)
+std::map<Key, Near> all_pairs(const ContactNet<Real>& net, bool between, bool guarded = false)
 {
     std::map<Key, Near> out;
     const auto put = [&](const layout::ContactPair<Real>& p, std::size_t ends, double gap) {
@@ -47,7 +71,15 @@ std::map<Key, Near> all_pairs(const ContactNet<Real>& net, bool between)
         for (int k = 1; k <= 10; ++k)
             least = std::min(least, at(0.1 * k * kSubsteps));
         const double reach = gap + static_cast<double>(kSkin);
-        out[{p.a, p.b, p.c, p.d, p.kind}] = {reach + kSubsteps * motion - at(0), reach - least};
+        Near& near = out[{p.a, p.b, p.c, p.d, p.kind}];
+        near = {reach + kSubsteps * motion - at(0), reach - least};
+        if (!guarded)
+            return;
+        double ways = 0;
+        for (const std::uint32_t v : ids)
+            ways = std::max(ways, glm::length(net.d(v)));
+        const bool far = at(0) > reach + 2.2 * kSubsteps * ways;
+        near = {reach + kSubsteps * 5.2 * ways - at(0), far ? -1 : reach - nearest_astray(net, p, ends)};
     };
     for (std::size_t i = 0; i < net.triangle.size(); ++i)
         for (std::size_t j = 0; j < net.triangle.size(); ++j)
@@ -69,7 +101,7 @@ std::map<Key, Near> all_pairs(const ContactNet<Real>& net, bool between)
 }
 
 template <typename Real>
-Case search(const ContactNet<Real>& net, bool between, std::uint32_t capacity)
+Case search(const ContactNet<Real>& net, bool between, std::uint32_t capacity, bool guarded = false)
 {
     const auto count = static_cast<std::uint32_t>(net.triangle.size());
     Case c;
@@ -88,20 +120,22 @@ Case search(const ContactNet<Real>& net, bool between, std::uint32_t capacity)
             {"pair", bytes_of(std::vector<layout::ContactPair<Real>>(capacity, {7, 7, 7, 7, 7}))}};
     const kernels::contact_search::Params how = {count, net.leaves,    between, kSubsteps,
                                                  kSkin, 0.04f + kSkin, capacity};
-    c.launches = {make_launch(kernels::contact_search::info("", c.precision), how, count)};
+    c.launches = {
+        make_launch(kernels::contact_search::info(guarded ? "guarded" : "", c.precision), how, count)};
     const auto groups = [](std::uint32_t level) {
         return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
     };
-    std::vector<Launch> refit = {make_launch(kernels::contact_refit::info("leaves", c.precision),
-                                             kernels::contact_refit::Params{net.leaves, count, kSubsteps},
-                                             groups(net.leaves))};
+    std::vector<Launch> refit = {
+        make_launch(kernels::contact_refit::info(guarded ? "guarded" : "leaves", c.precision),
+                    kernels::contact_refit::Params{net.leaves, count, kSubsteps}, groups(net.leaves))};
     for (std::uint32_t level = groups(net.leaves); level > 1; level = groups(level))
         refit.push_back(make_launch(kernels::contact_refit::info("", c.precision),
                                     kernels::contact_refit::Params{level, count, kSubsteps}, groups(level)));
     c.launches.insert(c.launches.begin(), refit.begin(), refit.end());
     c.launches.push_back(make_launch(kernels::contact_scan::info("rows", c.precision),
                                      kernels::contact_scan::Params{count, capacity, 1}, 1));
-    c.launches.push_back(make_launch(kernels::contact_search::info("fill", c.precision), how, count));
+    c.launches.push_back(make_launch(
+        kernels::contact_search::info(guarded ? "guarded_fill" : "fill", c.precision), how, count));
     return c;
 }
 
@@ -112,14 +146,14 @@ TEMPLATE_TEST_CASE("contact_search finds every pair that may meet, once, and non
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 2u, 63u, 65u, 300u);
-    const bool between = GENERATE(true, false);
-    CAPTURE(count, between);
+    const bool between = GENERATE(true, false), guarded = GENERATE(false, true);
+    CAPTURE(count, between, guarded);
     Random random(2200 + count);
     const auto net = contact_net<Real>(count, random, 0.003);
-    const std::map<Key, Near> wanted = all_pairs(net, between);
+    const std::map<Key, Near> wanted = all_pairs(net, between, guarded);
     const std::uint32_t capacity = 1 << 15;
     const double doubt = sizeof(Real) == 8 ? 1e-12 : 1e-5;
-    look_on_every_device(search(net, between, capacity), [&](const Buffers& out) {
+    look_on_every_device(search(net, between, capacity, guarded), [&](const Buffers& out) {
         const auto pairs = values_of<layout::ContactPair<Real>>(out.at("pair"));
         const std::uint32_t listed = words_of(out, "control")[TAUT_CONTACT_LISTED];
         REQUIRE(words_of(out, "start").back() == listed);

@@ -145,6 +145,7 @@ TEST_CASE("cloth tears and constraints act where the golden scenes are about tha
     };
     CHECK(after("tear").torn() > 0);
     CHECK(after("contact").contacts().pairs > 0);
+    CHECK(after("guarded").contacts().filtered > 0);
     for (const std::string name : {"acad", "acad_compress"})
     {
         CAPTURE(name);

@@ -93,6 +93,15 @@ inline Scene contact()
     return scene;
 }
 
+/// The same, thrown so fast that ways have to be cut.
+inline Scene guarded()
+{
+    Scene scene = contact();
+    scene.bodies[1].velocity = {0, 0, -16};
+    scene.contact.guarantee = "no_crossing";
+    return scene;
+}
+
 /// A weak cloth, held at its top, tears under a heavy row at its end.
 inline Scene tear()
 {
@@ -123,6 +132,7 @@ inline std::map<std::string, Scene> scenes()
     all.merge(std::map<std::string, Scene>{{"effects", effects()},
                                            {"tear", tear()},
                                            {"contact", contact()},
+                                           {"guarded", guarded()},
                                            {"jelly", jelly("xpbd", "tetrahedra")},
                                            {"hanging", hanging()},
                                            {"drape", drape()},

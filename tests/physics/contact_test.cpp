@@ -180,53 +180,6 @@ TEST_CASE("a sheet on a tilted one stays below the angle of friction and slides 
     CHECK(std::abs(way - expected) < (pull > 0 ? 0.03 * expected : 1e-4));
 }
 
-TEST_CASE("a strip that falls on itself lies above itself, without a triangle in another")
-{
-    Scene scene;
-    Body strip = sheet(1, 1, {0, 0, 0});
-    strip.shape.cells = {40, 5};
-    strip.shape.size = {0.4, 0.05};
-    strip.material.bending_stiffness = 1e-6;
-    strip.contact.self = true;
-    // Half of it lies, held; the other is folded back above it, upright at the fold, and falls.
-    scene.bodies = {strip};
-    const Mesh mesh = resolve(scene).bodies[0].mesh;
-    for (const glm::dvec3& x : mesh.positions)
-    {
-        const double past = std::max(0.0, x.x), bend = std::min(past, 0.03);
-        const double turn = bend / 0.03 * glm::radians(180.0), r = 0.03 / glm::radians(180.0);
-        strip.start_positions.push_back({std::min(x.x, 0.0) + r * std::sin(turn) - std::max(0.0, past - 0.03),
-                                         r * (1 - std::cos(turn)), x.z});
-    }
-    Pin pin;
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
-        if (mesh.positions[v].x < 1e-3)
-            pin.vertices.push_back(v);
-    strip.pins = {pin};
-    scene.bodies = {strip};
-    scene.contact.friction = 1; // else the fold pulls the rest over the edge of what is held
-    scene.contact.between = false;
-    scene.method.substeps = 20;
-    const bool meets = GENERATE(true, false);
-    scene.bodies[0].contact.self = meets;
-    World world(scene, test_device("cpu:serial"));
-    const auto triangles = test::all_triangles(world.scene());
-    REQUIRE(test::intersections(triangles, world.positions()) == 0);
-    std::size_t crossed = 0;
-    for (int step = 0; step < 90; ++step)
-    {
-        world.step();
-        crossed += test::intersections(triangles, world.positions());
-    }
-    CAPTURE(lowest(world.positions()));
-    if (meets)
-        CHECK(crossed == 0);
-    else
-        CHECK(crossed > 0); // it would hang through itself
-    if (meets)
-        CHECK(std::abs(world.positions()[30].y - kGap) < 0.1 * kGap); // above what is held
-}
-
 TEST_CASE("lists that are too short are counted, grow, and then miss nothing")
 {
     Scene scene = two_sheets(0.004); // near from the first step on

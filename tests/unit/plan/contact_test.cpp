@@ -173,3 +173,45 @@ TEST_CASE("the tree holds every triangle once, each half about one place, and sh
         CHECK(std::abs(apart) / 192 > 0.4);
     }
 }
+
+TEST_CASE(
+    "the guarantee is the last to write ways in every substep, and adds nothing where it is not asked for",
+    "[contact]")
+{
+    Scene scene = two();
+    scene.contact.between = true;
+    const Plan plain = make_plan(scene);
+    CHECK(find_effect(plain, "guarantee") == nullptr);
+    scene.contact.guarantee = "no_crossing";
+    const Plan guarded = make_plan(scene);
+    REQUIRE(find_effect(guarded, "guarantee") != nullptr);
+    CHECK(!plain.contact.guarded);
+    CHECK(guarded.contact.guarded);
+    std::uint32_t ends = 0, filters = 0;
+    for (std::size_t k = 0; k < guarded.passes.size(); ++k)
+    {
+        const std::string_view kernel = guarded.passes[k].kernel->name;
+        filters += kernel == "guarantee_filter" ? 1 : 0;
+        if (kernel != "finish")
+            continue;
+        ++ends;
+        CHECK(guarded.passes[k - 1].kernel->name == "guarantee_filter");
+    }
+    CHECK(ends == guarded.substeps);
+    CHECK(filters == ends);
+}
+
+TEST_CASE("the guarantee is refused by name under methods without contact", "[contact]")
+{
+    for (const std::string& method : test::methods())
+    {
+        Scene scene = test::under(two(), method);
+        scene.contact.between = true;
+        scene.contact.guarantee = "no_crossing";
+        CAPTURE(method);
+        if (method == "xpbd")
+            CHECK_NOTHROW(make_plan(scene));
+        else
+            CHECK_THROWS_WITH(make_plan(scene), Contains(method) && Contains("contact"));
+    }
+}

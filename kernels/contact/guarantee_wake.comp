@@ -1,0 +1,40 @@
+// Whether this substep begins with a search: because one is due, or because a vertex has used up half of what
+// the last one allowed it to stray. Group counts of the passes of a search, or none. One invocation.
+//
+// Based on: indirect dispatches of no groups.
+// Departures: none.
+// Bytes: 12 read, 88 written.
+#include "shared/portable.glsl"
+#include "shared/layouts.h"
+#include "shared/contact_rows.h"
+
+PARAMS
+{
+    uint count;     // 1
+    uint due;       // 1: a search whatever has happened
+    uint triangles; // groups over triangles
+    uint vertices;  // groups over vertices
+    uint level_0;   // groups over the levels of the tree, from the leaves up; 0 beyond the root
+    uint level_1;
+    uint level_2;
+    uint level_3;
+};
+
+READ(0, uint, lost);
+UPDATE(1, uint, control);
+
+KERNEL(count)
+{
+    uint strayed = lost[TAUT_CONTACT_STRAYED];
+    uint open = due != 0u || strayed != control[TAUT_CONTACT_STRAYED_SEEN] ? 1u : 0u;
+    control[TAUT_CONTACT_STRAYED_SEEN] = strayed;
+    control[TAUT_CONTACT_GATE_TRIANGLES] = open * triangles;
+    control[TAUT_CONTACT_GATE_VERTICES] = open * vertices;
+    control[TAUT_CONTACT_GATE_ONE] = open;
+    control[TAUT_CONTACT_GATE_PAIRS] = 0u; // contact_scan says how many, if there is a search
+    control[TAUT_CONTACT_GATE_LEVELS] = open * level_0;
+    control[TAUT_CONTACT_GATE_LEVELS + 4] = open * level_1;
+    control[TAUT_CONTACT_GATE_LEVELS + 8] = open * level_2;
+    control[TAUT_CONTACT_GATE_LEVELS + 12] = open * level_3;
+    control[TAUT_CONTACT_SEARCHED] += open;
+}

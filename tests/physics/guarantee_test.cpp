@@ -1,0 +1,381 @@
+// Surfaces that never cross (docs/contact.md, "The guarantee"), whatever is thrown at them; judged by
+// src/judge, which shares nothing with the kernels.
+
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+#include "support/expect.hpp"
+#include "support/thrown_sheets.hpp"
+
+#include "taut/judge/judge.hpp"
+#include "taut/plan/contact_scene.hpp"
+#include "taut/report/report.hpp"
+#include "taut/world/world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+using namespace taut;
+
+namespace {
+
+/// Pairs of features that met: in a frame, or on the straight ways between two.
+struct Crossed
+{
+    std::size_t met = 0;
+    ContactCounts counts;
+};
+
+/// The vertices of a scene, and which pairs of them count: of bodies that are to meet each other, or
+/// themselves, and not all held.
+struct Meant
+{
+    const Scene& scene;
+    judging::SceneTriangles all = judging::scene_triangles(scene);
+    std::vector<bool> held = std::vector<bool>(all.body.size(), false);
+
+    explicit Meant(const Scene& of) : scene(of)
+    {
+        std::uint32_t first = 0;
+        for (const Body& body : scene.bodies)
+        {
+            for (const Pin& pin : body.pins)
+                for (const std::uint32_t v : pin.vertices)
+                    held[first + v] = true;
+            first += static_cast<std::uint32_t>(body.mesh.positions.size());
+        }
+    }
+    template <typename A, typename B>
+    bool operator()(const A& a, const B& b) const
+    {
+        const auto is_held = [&](std::uint32_t v) { return held[v]; };
+        if (std::all_of(a.begin(), a.end(), is_held) && std::all_of(b.begin(), b.end(), is_held))
+            return false;
+        return all.body[a[0]] == all.body[b[0]] ? scene.bodies[all.body[a[0]]].contact.self
+                                                : bodies_meet(scene);
+    }
+};
+
+std::size_t met_between(const Meant& meant, const judging::Judge& judge,
+                        const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& after)
+{
+    std::size_t met = 0;
+    const judging::Surface& s = judge.surface();
+    for (const judging::Passing& p : judge.between(before, after))
+        met +=
+            (p.edges ? meant(s.edges[p.a], s.edges[p.b]) : meant(std::array{p.a}, s.triangles[p.b])) ? 1 : 0;
+    for (const auto& [t, u] : judging::intersecting_triangles(s, after))
+        met += meant(s.triangles[t], s.triangles[u]) ? 1 : 0;
+    return met;
+}
+
+/// Every step is one substep where `ways`: then ways are straight between frames.
+Crossed run_thrown(const Scene& scene, int steps, bool ways, const std::string& device = "cpu:serial")
+{
+    World world(scene, test_device(device));
+    const Meant meant(world.scene());
+    std::vector<glm::dvec3> before = world.positions();
+    const judging::Judge judge(meant.all.triangles, before);
+    Crossed out;
+    for (int step = 0; step < steps; ++step)
+    {
+        world.step();
+        const std::vector<glm::dvec3> after = world.positions();
+        out.met += met_between(meant, judge, ways ? before : after, after);
+        before = after;
+    }
+    out.counts = world.contacts();
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("thrown sheets never cross with the guarantee, and do without")
+{
+    const double origin = GENERATE(0.0, 1.0, 30.0);
+    const double speed = GENERATE(1.0, 10.0, 60.0);
+    CAPTURE(origin, speed);
+    std::size_t met = 0, filtered = 0, scenes = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed)
+    {
+        Scene scene = test::thrown_sheets(1000 + seed, {1, 1, origin, speed, false});
+        met += run_thrown(scene, 30, true).met;
+        scene.contact.guarantee = "no_crossing";
+        const Crossed guarded = run_thrown(scene, 30, true);
+        CAPTURE(seed, guarded.counts.filtered, guarded.counts.held, guarded.counts.pinched);
+        CHECK(guarded.met == 0);
+        CHECK(guarded.counts.pinched == 0);
+        filtered += guarded.counts.filtered;
+        ++scenes;
+    }
+    CHECK(met > 0);
+    CHECK(filtered > 0);
+}
+
+namespace {
+
+/// A square of cloth that lies level.
+Body level_sheet(std::uint32_t cells, double size, const glm::dvec3& centre)
+{
+    Body body;
+    body.shape.cells = {cells, cells};
+    body.shape.size = {size, size};
+    body.material.stretch_stiffness = 1000;
+    body.material.thickness = 0.001;
+    body.transform.rotate_axis = {1, 0, 0};
+    body.transform.rotate_degrees = -90;
+    body.transform.translate = centre;
+    return body;
+}
+
+void hold_all(Body& body, const std::vector<Keyframe>& motion)
+{
+    Pin pin;
+    pin.box_min = glm::dvec3(-10);
+    pin.box_max = glm::dvec3(10);
+    pin.use_box = true;
+    pin.motion = motion;
+    body.pins = {pin};
+}
+
+Scene guarded_scene(std::vector<Body> bodies)
+{
+    Scene scene;
+    scene.bodies = std::move(bodies);
+    scene.contact.between = true;
+    scene.contact.guarantee = "no_crossing";
+    scene.method.substeps = 10;
+    return scene;
+}
+
+std::string refusal_of(const Scene& scene)
+{
+    try
+    {
+        World(scene, test_device("cpu:serial"));
+    }
+    catch (const Error& error)
+    {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("layers that fall together are not held up by the guarantee")
+{
+    Scene scene = guarded_scene({});
+    for (int k = 0; k < 4; ++k)
+    {
+        Body sheet = level_sheet(6, 0.12, {0.001 * k, 0.004 * k, 0});
+        sheet.velocity = {2, -8, 0}; // 13 mm a substep, 4 mm from one to the next
+        sheet.contact.self = true;
+        scene.bodies.push_back(sheet);
+    }
+    World guarded(scene, test_device("cpu:serial"));
+    scene.contact.guarantee = "none";
+    World free(scene, test_device("cpu:serial"));
+    for (int step = 0; step < 10; ++step)
+    {
+        guarded.step();
+        free.step();
+    }
+    const ContactCounts counts = guarded.contacts();
+    CAPTURE(counts.pairs, counts.held, counts.cut, counts.crowded, counts.missing, counts.capacity);
+    REQUIRE(counts.pairs > 500);
+    CHECK(guarded.contacts().filtered == 0);
+    CHECK((guarded.positions() == free.positions()));
+}
+
+TEST_CASE("a sheet that strikes a held one at any speed ends above it, and gains nothing by the filter")
+{
+    const double speed = GENERATE(3.0, 30.0, 300.0);
+    CAPTURE(speed);
+    Scene scene =
+        guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.05, 0.007})});
+    hold_all(scene.bodies[0], {});
+    scene.bodies[1].velocity = {0, -speed, 0};
+    scene.bodies[1].contact.self = true;
+    scene.gravity = glm::dvec3(0);
+    World world(scene, test_device("cpu:serial"));
+    const Meant meant(world.scene());
+    const judging::Judge judge(meant.all.triangles, world.positions());
+    double energy = measure(world).kinetic_energy;
+    const double first = energy;
+    for (int step = 0; step < 12; ++step)
+    {
+        world.step();
+        CHECK(met_between(meant, judge, world.positions(), world.positions()) == 0);
+        for (const glm::dvec3& x : world.positions(1))
+            CHECK((x.y > 0 || std::abs(x.x) > 0.15 || std::abs(x.z) > 0.15));
+        CHECK(measure(world).kinetic_energy <= first * 1.0001);
+    }
+    const ContactCounts counts = world.contacts();
+    CAPTURE(counts.filtered, counts.held);
+    CHECK(counts.pinched == 0);
+    CHECK((speed > 100 || counts.cut + counts.crowded + counts.held == 0));
+    scene.contact.guarantee = "none";
+    World free(scene, test_device("cpu:serial"));
+    std::size_t met = 0;
+    for (int step = 0; step < 12; ++step)
+    {
+        const auto before = free.positions();
+        free.step();
+        met += met_between(meant, judge, before, free.positions());
+    }
+    CHECK((met > 0) == (speed > 20));
+}
+
+TEST_CASE("a held sheet that moves pushes a free one before it")
+{
+    Scene scene =
+        guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.004, 0.007})});
+    const double speed = GENERATE(1.0, 10.0);
+    hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.2 * speed, 0}}});
+    const Crossed guarded = run_thrown(resolve(scene), 12, false);
+    CHECK(guarded.met == 0);
+    CHECK((guarded.counts.pinched > 0) == (speed > 5)); // from rest it may not follow at once
+    scene.contact.guarantee = "none";
+    CHECK((run_thrown(resolve(scene), 12, true).met > 0) == (speed > 5));
+}
+
+TEST_CASE("a sheet between two held ones that close is counted as pinched, and the run goes on")
+{
+    Scene scene = guarded_scene({level_sheet(8, 0.2, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.02, 0.007}),
+                                 level_sheet(8, 0.2, {0.003, 0.04, 0.002})});
+    hold_all(scene.bodies[0], {});
+    hold_all(scene.bodies[2], {{0, glm::dvec3(0)}, {0.2, {0, -0.039, 0}}, {0.3, {0, -0.06, 0}}});
+    World world(scene, test_device("cpu:serial"));
+    std::uint64_t before_it = 0;
+    for (int step = 0; step < 24; ++step)
+    {
+        world.step();
+        if (step == 8)
+            before_it = world.contacts().pinched;
+    }
+    CHECK(before_it == 0);
+    CHECK(world.contacts().pinched > 0);
+    for (const glm::dvec3& x : world.positions())
+        CHECK(glm::length(x) < 1);
+    CHECK(world.events().non_finite == 0);
+}
+
+TEST_CASE("with the guarantee a step whose lists are too short is done again, bit for bit")
+{
+    Scene scene =
+        guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.02, 0.007})});
+    hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.05, 0}}}); // inputs that change in every step
+    scene.bodies[1].velocity = {0, -1, 0};
+    scene.bodies[1].contact.self = true;
+    WorldOptions options;
+    options.plan.contact_capacity = 8;
+    World small(scene, test_device("cpu:serial"), options), roomy(scene, test_device("cpu:serial"));
+    std::vector<glm::dvec3> lifted = roomy.positions(1);
+    for (glm::dvec3& x : lifted)
+        x.y += 0.001;
+    small.set_positions(1, lifted); // goes with a step that is repeated
+    roomy.set_positions(1, lifted);
+    for (int step = 0; step < 8; ++step)
+    {
+        small.step();
+        roomy.step();
+        CHECK(small.positions() == roomy.positions());
+        CHECK(small.velocities() == roomy.velocities());
+    }
+    CHECK(small.contacts().capacity > 8);
+    CHECK(small.contacts().missing == 0);
+    CHECK(small.contacts().held == 0);
+    CHECK(small.contacts().filtered == roomy.contacts().filtered);
+}
+
+TEST_CASE("the guarantee is the same bit for bit on every executor")
+{
+    Scene scene = test::thrown_sheets(1003, {2, 1, 1, 10, false});
+    scene.contact.guarantee = "no_crossing";
+    scene.method.precision = GENERATE("float", "double");
+    std::uint64_t hash = 0, filtered = 0;
+    for (const std::string& selector : test_devices())
+    {
+        const auto device = test_device(selector);
+        if (scene.method.precision == "double" && !device->limits().float64)
+            continue;
+        World world(scene, device);
+        for (int step = 0; step < 10; ++step)
+            world.step();
+        const StepReport report = measure(world);
+        INFO(selector);
+        CHECK(report.contacts.filtered > 0);
+        hash = hash == 0 ? report.position_hash : hash;
+        filtered = filtered == 0 ? report.contacts.filtered : filtered;
+        if (conformance::bitwise_equal_expected(device->info()))
+        {
+            CHECK(report.position_hash == hash);
+            CHECK(report.contacts.filtered == filtered);
+        }
+    }
+}
+
+TEST_CASE("the guarantee is refused by name where it cannot be given")
+{
+    using Catch::Matchers::Contains;
+    Scene alone = guarded_scene({level_sheet(3, 0.1, {0, 0, 0})});
+    CHECK_THAT(refusal_of(alone), Contains("contact.guarantee") && Contains("no surfaces meet"));
+    alone.bodies[0].contact.self = true;
+    CHECK(refusal_of(alone).empty());
+    Scene torn = alone;
+    torn.bodies[0].material.tear_strain = 0.2;
+    CHECK_THAT(refusal_of(torn), Contains("contact.guarantee") && Contains("tear_strain"));
+    Scene other = alone;
+    other.method.type = "vbd";
+    CHECK_THAT(refusal_of(other), Contains("\"vbd\""));
+    Scene wrong = alone;
+    wrong.contact.guarantee = "never";
+    CHECK_THAT(refusal_of(wrong), Contains("guarantee") && Contains("no_crossing"));
+    Scene thin = alone;
+    thin.bodies[0].transform.translate = {1000, 0, 0};
+    CHECK_THAT(refusal_of(thin), Contains("thickness") && Contains("float needs at least"));
+}
+
+namespace {
+
+/// How the scenes of one seed differ: fast and slow, small and large, near and far, one substep and several.
+test::Throw any_throw(std::uint64_t seed)
+{
+    conformance::Random random(7 * seed + 3);
+    const double scale = std::pow(10.0, random.uniform(-2, 1));
+    return {random.chance(0.7) ? 1 : 2 + random.below(4), scale,
+            random.chance(0.3) ? 0 : scale * random.uniform(0, 30), std::pow(10.0, random.uniform(-1, 2)),
+            false};
+}
+
+} // namespace
+
+TEST_CASE("no scene of many crosses with the guarantee", "[.fuzz]")
+{
+    const char* first = std::getenv("TAUT_FUZZ_FIRST");
+    const char* count = std::getenv("TAUT_FUZZ_COUNT");
+    const std::uint64_t from = first != nullptr ? std::stoull(first) : 1;
+    const std::uint64_t scenes = count != nullptr ? std::stoull(count) : 200;
+    std::size_t crossed = 0, pinches = 0;
+    for (std::uint64_t seed = from; seed < from + scenes; ++seed)
+    {
+        const test::Throw how = any_throw(seed);
+        Scene scene = test::thrown_sheets(seed, how);
+        scene.contact.guarantee = "no_crossing";
+        if (seed % 3 == 0)
+            scene.contact.searches = 1;
+        const Crossed guarded = run_thrown(scene, 20, how.substeps == 1);
+        const bool pinched = guarded.counts.pinched > 0; // then nothing is promised of what is next to it
+        crossed += guarded.met > 0 && !pinched ? 1 : 0;
+        pinches += pinched ? 1 : 0;
+        INFO("seed " << seed << ", " << how.substeps << " substeps, scale " << how.scale << ", origin "
+                     << how.origin << ", speed " << how.speed << ", filtered " << guarded.counts.filtered
+                     << ", held " << guarded.counts.held);
+        CHECK((guarded.met == 0 || pinched));
+    }
+    CHECK(crossed == 0);
+    CHECK(pinches < scenes / 10);
+}
