@@ -4,6 +4,7 @@
 
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/embed.hpp"
+#include "taut/scene/fabric.hpp"
 #include "taut/scene/mesh.hpp"
 
 #include <glm/vec2.hpp>
@@ -25,6 +26,7 @@ struct Material
 {
     double density = 0.2;           ///< kg/m^2, of solids kg/m^3, > 0
     double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
+    Fabric fabric;                  ///< cloth by its yarns; stretch_stiffness must be 0 beside it
     double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
     double stretch_damping = 0;     ///< s, >= 0: a spring of stiffness k has the damper k * stretch_damping
@@ -232,7 +234,8 @@ struct Body
         SpringKind kind = SpringKind::extra; ///< set by resolve() for the springs of a network
     };
     std::vector<Spring> springs;
-    /// Elements of a kind that the program has added (elements/element.hpp), beside those of the material.
+    /// Elements of a kind of Taut's or the program's own (elements/element.hpp), beside those of the material;
+    /// resolve() adds the membrane of a fabric.
     struct Elements
     {
         std::string kind;

@@ -47,8 +47,21 @@ constexpr Key kPlasticLimit =
     key<&Material::plastic_limit>("plastic_limit", "strain that may stay in all").unit("(a strain)").above(0);
 constexpr Key kDensity = key<&Material::density>("density", "mass of an area").above(0);
 
+void begin_fabric(Material& material)
+{
+    material.fabric.used = true;
+    material.stretch_stiffness = 0; // what a file says beside it is read later, and refused
+}
+bool has_fabric(const Material& material) { return material.fabric.used; }
+
 constexpr Key kMaterial[] = {
     kDensity.unit("kg/m^2"),
+    object<&Material::fabric>("fabric",
+                              "woven cloth by the moduli of its yarns, in place of springs along the "
+                              "edges; under xpbd, mass_spring, implicit_euler and vbd",
+                              kFabricTable)
+        .begins<begin_fabric>()
+        .when<has_fabric>(),
     key<&Material::stretch_stiffness>("stretch_stiffness",
                                       "membrane stiffness, Young's modulus times thickness; \"rigid\": no "
                                       "compliance; 0: no stretch effect")
@@ -161,6 +174,7 @@ constexpr Stranger kSolidKeys[] = {{"youngs_modulus", kAsCloth}, {"poissons_rati
 constexpr Stranger kClothKeys[] = {
     {"stretch_stiffness", "a solid is as stiff as \"youngs_modulus\" (Pa) and \"poissons_ratio\" say"},
     {"tear_strain", "solids do not tear"},
+    {"fabric", "a solid is as stiff as \"youngs_modulus\" (Pa) and \"poissons_ratio\" say"},
 };
 
 void begin_solid(Material& material) { material = solid_material(); }
