@@ -92,7 +92,7 @@ public:
           contact_(simulation, frames)
     {
         if (simulation.solvers() > 0)
-            springs_ = scene_springs(simulation.scene());
+            find_elements();
     }
 
     /// Up to the last frame, an interruption, energy from nowhere or a value that is not finite.
@@ -151,15 +151,21 @@ private:
         contact_.after(done_);
     }
 
+    void find_elements()
+    {
+        springs_ = scene_springs(simulation_.scene());
+        elements_ = scene_elements(simulation_.scene());
+    }
+
     /// Of methods that solve linear systems, which neither sleep nor let springs flow.
     void look()
     {
         if (simulation_.solvers() == 0)
             return;
         if (simulation_.torn() != looked_torn_)
-            springs_ = scene_springs(simulation_.scene());
+            find_elements();
         looked_torn_ = simulation_.torn();
-        looks_.add(done_, simulation_.time(), largest_stretch(springs_, simulation_.positions()),
+        looks_.add(done_, simulation_.time(), largest_stretch(springs_, simulation_.positions(), elements_),
                    simulation_.active_share(), simulation_.solver_report());
     }
 
@@ -213,6 +219,7 @@ private:
     TunnelWatch tunnelling_;
     ContactWatch contact_;
     std::vector<StretchElement> springs_; ///< as of `looked_torn_`
+    std::vector<AddedElement> elements_;
     std::uint64_t looked_torn_ = 0;
     bool scene_known_ = false;                  ///< to `meshes_`, as of `torn_`
     std::shared_ptr<const Scene> moment_scene_; ///< as of `torn_`, once a moment was kept

@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/colours.hpp"
 #include "support/element_terms.hpp"
+#include "support/linear_groups.hpp"
 
 #include "taut/kernels/shared/vbd_parts.h"
 
