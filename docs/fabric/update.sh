@@ -11,11 +11,13 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 . docs/put.sh
 
-# mm: by how much the lowest vertex of the last mesh lies below y = 0.
+# sag CELLS ARGUMENTS...: mm, by how much the middle vertex of the last mesh lies below y = 0.
 sag()
 {
+    middle=$(($1 / 2 * ($1 + 2) + 1))
+    shift
     "$program" run "$@" --device cpu --no-picture --every 240 --out "$scratch/run" > /dev/null 2>&1 || [ $? -eq 1 ]
-    awk '$1 == "v" && $3 < low { low = $3 } END { print -1000 * low }' "$(ls "$scratch"/run/*.obj | tail -1)"
+    awk -v middle=$middle '$1 == "v" && ++k == middle { print -1000 * $3 }' "$(ls "$scratch"/run/*.obj | tail -1)"
     rm -r "$scratch/run"
 }
 
@@ -36,7 +38,7 @@ rows()
         for cells in 8 16 32 64; do
             mm=
             [ $method.$cells = vbd.64 ] || # a quarter of an hour
-                mm=$(sag "$scene" --set method.type=$method $own "bodies[0].grid.cells=[$cells,$cells]" "$@")
+                mm=$(sag $cells "$scene" --set method.type=$method $own "bodies[0].grid.cells=[$cells,$cells]" "$@")
             line=$line,$mm
         done
         echo "$line"

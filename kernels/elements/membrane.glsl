@@ -1,5 +1,5 @@
-// Membrane of woven cloth, a triangle of constant strain: E = (C11 u^2 + 2 C12 u v + C22 v^2 + C33 q^2) / 2 with
-// the strains of warp and weft u = |fu| - 1, v = |fv| - 1 and the sine of the shear q = fu . fv / (|fu| |fv|),
+// Membrane of woven cloth, a triangle of constant strain: E = (C11 u^2 + 2 C12 u v + C22 v^2 + C33 q^2) / 2
+// with strains of warp and weft u = |fu| - 1, v = |fv| - 1 and the sine of shear q = fu . fv / (|fu| |fv|),
 // where (fu, fv) = (e1, e2) P are the images of a metre of either yarn.
 // A yarn shorter than 1e-4 of its length has no direction; then there is no shear.
 //
@@ -7,8 +7,8 @@
 //   Baraff, Witkin. Large Steps in Cloth Simulation. SIGGRAPH 1998, 4.2, 4.3: stretch along both yarns and
 //     shear as functions of fu and fv.
 //   Bonet, Wood. Nonlinear Continuum Mechanics for Finite Element Analysis. 2nd ed. 2008, 8.4: the slopes.
-// Departures: strains have their unit (per length, sine of an angle) and a matrix C of the material's moduli times
-//   the area, so that the energy does not depend on the mesh; shear is the sine, not fu . fv.
+// Departures: strains are per length, shear is the sine, not fu . fv, and C is the matrix of the moduli times
+//   the area, so that the energy does not depend on the mesh.
 //   Curvature: Gauss-Newton of the three strains and, of what remains, the turning of pulled yarns alone.
 //! corners 3
 //! methods xpbd mass_spring implicit_euler vbd

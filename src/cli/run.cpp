@@ -92,7 +92,7 @@ public:
           contact_(simulation, frames)
     {
         if (simulation.solvers() > 0)
-            find_elements();
+            stretchable_ = stretchable(simulation.scene());
     }
 
     /// Up to the last frame, an interruption, energy from nowhere or a value that is not finite.
@@ -151,21 +151,17 @@ private:
         contact_.after(done_);
     }
 
-    void find_elements()
-    {
-        springs_ = scene_springs(simulation_.scene());
-        elements_ = scene_elements(simulation_.scene());
-    }
-
     /// Of methods that solve linear systems, which neither sleep nor let springs flow.
     void look()
     {
         if (simulation_.solvers() == 0)
             return;
         if (simulation_.torn() != looked_torn_)
-            find_elements();
+            stretchable_ = stretchable(simulation_.scene());
         looked_torn_ = simulation_.torn();
-        looks_.add(done_, simulation_.time(), largest_stretch(springs_, simulation_.positions(), elements_),
+        const double stretch =
+            largest_stretch(stretchable_.springs, simulation_.positions(), stretchable_.elements);
+        looks_.add(done_, simulation_.time(), stretch,
                    simulation_.active_share(), simulation_.solver_report());
     }
 
@@ -218,8 +214,7 @@ private:
     SoundnessWatch watch_;
     TunnelWatch tunnelling_;
     ContactWatch contact_;
-    std::vector<StretchElement> springs_; ///< as of `looked_torn_`
-    std::vector<AddedElement> elements_;
+    Stretchable stretchable_; ///< where looks are wanted
     std::uint64_t looked_torn_ = 0;
     bool scene_known_ = false;                  ///< to `meshes_`, as of `torn_`
     std::shared_ptr<const Scene> moment_scene_; ///< as of `torn_`, once a moment was kept

@@ -42,6 +42,11 @@ std::vector<StretchElement> scene_springs(const Scene& resolved)
     return out;
 }
 
+Stretchable stretchable(const Scene& resolved)
+{
+    return {scene_springs(resolved), scene_elements(resolved)};
+}
+
 double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x,
                        std::span<const AddedElement> elements)
 {

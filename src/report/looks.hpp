@@ -48,8 +48,16 @@ private:
 /// The springs of all bodies of a resolved scene, vertices scene-wide.
 std::vector<StretchElement> scene_springs(const Scene& resolved);
 
-/// Largest (l - L)/L, signed, of springs and within elements that have stretches; springs without a length are
-/// left out. 0 without any. `x`: m, scene-wide.
+/// What can stretch in a resolved scene.
+struct Stretchable
+{
+    std::vector<StretchElement> springs;
+    std::vector<AddedElement> elements;
+};
+Stretchable stretchable(const Scene& resolved);
+
+/// Largest (l - L)/L, signed, of springs and within elements that have stretches; springs without a length
+/// are left out. 0 without any. `x`: m, scene-wide.
 double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x,
                        std::span<const AddedElement> elements = {});
 

@@ -234,8 +234,8 @@ struct Body
         SpringKind kind = SpringKind::extra; ///< set by resolve() for the springs of a network
     };
     std::vector<Spring> springs;
-    /// Elements of a kind of Taut's or the program's own (elements/element.hpp), beside those of the material;
-    /// resolve() adds the membrane of a fabric.
+    /// Elements of a kind of Taut's or the program's own (elements/element.hpp), beside springs and hinges of
+    /// the material; resolve() adds the membranes of a fabric.
     struct Elements
     {
         std::string kind;

@@ -1,6 +1,9 @@
 // Keys of materials, of cloth and of bodies of tetrahedra.
 
 #include "taut/scene/checker.hpp"
+#include "taut/scene/fabric_presets.hpp"
+#include "taut/scene/field.hpp"
+#include "taut/scene/read_table.hpp"
 #include "taut/scene/tables.hpp"
 
 #include <limits>
@@ -52,6 +55,18 @@ void begin_fabric(Material& material)
     material.fabric.used = true;
     material.stretch_stiffness = 0; // what a file says beside it is read later, and refused
 }
+
+void read_fabric(const Field& material, Material& out)
+{
+    const auto fabric = material.find("fabric");
+    if (!fabric)
+        return;
+    begin_fabric(out);
+    read_table(*fabric, kFabricTable, &out.fabric);
+    if (const auto name = fabric->find("preset"); name && !material.find("density"))
+        if (const FabricPreset* preset = find_fabric_preset(name->text()))
+            out.density = preset->density;
+}
 bool has_fabric(const Material& material) { return material.fabric.used; }
 
 constexpr Key kMaterial[] = {
@@ -60,8 +75,8 @@ constexpr Key kMaterial[] = {
                               "woven cloth by the moduli of its yarns, in place of springs along the "
                               "edges; under xpbd, mass_spring, implicit_euler and vbd",
                               kFabricTable)
-        .begins<begin_fabric>()
-        .when<has_fabric>(),
+        .when<has_fabric>()
+        .reads<read_fabric>(),
     key<&Material::stretch_stiffness>("stretch_stiffness",
                                       "membrane stiffness, Young's modulus times thickness; \"rigid\": no "
                                       "compliance; 0: no stretch effect")

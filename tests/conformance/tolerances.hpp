@@ -87,7 +87,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"xpbd_cubic_spring", 8, "as xpbd_spring, and squares"},
     {"xpbd_held_area", 8, "a cross product, a root, cross products of both, squares, quotients"},
     {"xpbd_membrane", 8, "six products a yarn, roots, quotients; an energy of three squares, its root"},
-    {"mass_spring_membrane", 8, "six products a yarn, roots, quotients; against the stiffness times the size"},
+    {"mass_spring_membrane", 8, "six products a yarn, roots, quotients; against stiffness times size"},
     {"implicit_euler_membrane", 8, "as mass_spring_membrane, and outer products"},
     {"implicit_euler_product_membrane", 8, "as implicit_euler_product_hinge"},
     {"implicit_euler_rise_membrane", 8, "as implicit_trial"},

@@ -3,6 +3,7 @@
 #include "support/catch.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/fabric_presets.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <glm/geometric.hpp>
@@ -100,7 +101,7 @@ TEST_CASE("what a fabric cannot be is refused with the key, its value and what w
     };
     CHECK(refusal(text(fabric(kGood))) == "nothing");
     CHECK(refusal(text(fabric(kGood, R"(, "bending_stiffness": 1e-5)"))) == "nothing");
-    says(text(fabric(R"("weft": 1, "shear": 1)")), "lacks the key \"warp\"");
+    says(text(fabric(R"("weft": 1, "shear": 1)")), "or a preset, which `taut fabrics` lists");
     says(text(fabric(R"("warp": 0, "weft": 1, "shear": 1)")), "material.fabric.warp");
     says(text(fabric(R"("warp": 1, "weft": 1)")), "lacks \"shear\" (N/m), or \"bias\"");
     says(text(fabric(kGood + R"(, "bias": 100)")), "has both \"shear\" and \"bias\"");
@@ -115,4 +116,31 @@ TEST_CASE("what a fabric cannot be is refused with the key, its value and what w
     says(text(fabric(kGood), R"("chain": {"links": 3})"), "a chain, which has no triangles");
     says(text(fabric(kGood), R"("grid": {"cells": [2, 2], "network": {}})"), "beside a network of springs");
     says(text(fabric(kGood), R"("box": {"cells": [1, 1, 1]})"), "fabric");
+}
+
+TEST_CASE("a preset gives a fabric's moduli and density, and keys beside it change them")
+{
+    const Material silk = parse_scene(text(fabric(R"("preset": "clyde_silk_charmeuse")"))).bodies[0].material;
+    CHECK(silk.density == 0.083);
+    CHECK(silk.fabric.used);
+    CHECK(silk.fabric.warp == 327);
+    CHECK(silk.fabric.shear == 51);
+    CHECK(silk.stretch_stiffness == 0);
+    const Material changed =
+        parse_scene(text(fabric(R"("preset": "clyde_silk_charmeuse", "warp": 400, "bias": 150)",
+                                R"(, "density": 0.1)")))
+            .bodies[0]
+            .material;
+    CHECK(changed.density == 0.1);
+    CHECK(changed.fabric.warp == 400);
+    CHECK(changed.fabric.weft == 755);
+    CHECK(changed.fabric.shear == 0);
+    CHECK(changed.fabric.bias == 150);
+    CHECK(refusal(text(fabric(R"("preset": "silk")"))).find("it must be \"penava_cotton\"") !=
+          std::string::npos);
+    for (const FabricPreset& preset : fabric_presets())
+    {
+        CAPTURE(preset.name);
+        CHECK(refusal(text(fabric("\"preset\": \"" + std::string(preset.name) + '"'))) == "nothing");
+    }
 }
