@@ -80,6 +80,10 @@ void check_fabric_body(const Body& body, const Checker& out)
                                      "poissons_ratio say");
     if (body.shape.kind == ShapeKind::grid && body.shape.network.used)
         out.error("material.fabric", "stands beside a network of springs; leave one of the two out");
+    if (body.shape.kind == ShapeKind::grid && body.shape.diagonals == "uniform")
+        out.warning("grid.diagonals",
+                    "is \"uniform\" beside a fabric: triangles that all lean one way cannot shear "
+                    "along the bias as cloth does, and stiffen it; \"alternating\" is right");
 }
 
 } // namespace taut::scene_file

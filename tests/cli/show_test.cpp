@@ -253,8 +253,9 @@ TEST_CASE("fabrics lists what a scene may name, and each name is a sound scene")
     REQUIRE(list.size() > 5);
     for (const auto& fabric : list)
     {
-        const std::string scene = R"({"taut": 1, "bodies": [{"grid": {}, "material": {"fabric": {"preset": ")" +
-                                  fabric["name"].get<std::string>() + "\"}}}]}";
+        const std::string name = fabric["name"].get<std::string>();
+        const std::string scene =
+            R"({"taut": 1, "bodies": [{"grid": {}, "material": {"fabric": {"preset": ")" + name + "\"}}}]}";
         CHECK(folder.taut({"check", folder.file("scene.json", scene)}).status == 0);
         CHECK(!fabric["source"].get<std::string>().empty());
     }

@@ -118,6 +118,18 @@ TEST_CASE("what a fabric cannot be is refused with the key, its value and what w
     says(text(fabric(kGood), R"("box": {"cells": [1, 1, 1]})"), "fabric");
 }
 
+TEST_CASE("a grid whose cells are all cut one way is a warning beside a fabric")
+{
+    const auto found = [](const std::string& diagonals) {
+        const std::string body = R"("grid": {"cells": [2, 2], "diagonals": ")" + diagonals + "\"}";
+        return check(parse_scene(text(fabric(kGood), body)));
+    };
+    CHECK(found("alternating").empty());
+    REQUIRE(found("uniform").size() == 1);
+    CHECK(!found("uniform")[0].error);
+    CHECK(found("uniform")[0].field == "bodies[0].grid.diagonals");
+}
+
 TEST_CASE("a preset gives a fabric's moduli and density, and keys beside it change them")
 {
     const Material silk = parse_scene(text(fabric(R"("preset": "clyde_silk_charmeuse")"))).bodies[0].material;
