@@ -37,7 +37,7 @@ rows()
         line="$name,$method"
         for cells in 8 16 32 64; do
             mm=
-            [ $method.$cells = vbd.64 ] || # a quarter of an hour
+            [ $method.$cells = vbd.64 ] || # too long
                 mm=$(sag $cells "$scene" --set method.type=$method $own "bodies[0].grid.cells=[$cells,$cells]" "$@")
             line=$line,$mm
         done
