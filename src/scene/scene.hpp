@@ -31,8 +31,7 @@ struct Material
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
     double stretch_damping = 0;     ///< s, >= 0: a spring of stiffness k has the damper k * stretch_damping
     double strain_limit = 0;        ///< (l - L)/L that no spring may pass, >= 0; 0 = no strain_limit effect
-    /// Long-range attachments: no vertex further from its pin than (1 + slack) times at rest; < 0 = no
-    /// effect.
+    /// Long-range attachments: no vertex further from its pin than (1 + slack) times at rest; < 0 = none.
     double attachment_slack = -1;
     double tear_strain = 0;   ///< (l - L)/L at which cloth tears, >= 0; 0 = no tearing effect
     double drag = 0;          ///< of a triangle along its normal in the wind, >= 0; 0 = no wind effect
@@ -41,8 +40,7 @@ struct Material
     /// surface_volume effect, inf = rigid. Of solids: springs hold volumes so (which, `volume` says); -1 =
     /// the bulk modulus E / (3 (1 - 2 nu)).
     double volume_stiffness = 0;
-    /// Pa: by how much the gas within a closed surface presses more than the air outside, at the rest volume
-    /// (less than 0: it sucks); 0 = no pressure effect.
+    /// Pa: by how much the gas within presses more than the air outside, at the rest volume; 0 = no effect.
     double pressure = 0;
     /// "constant", or "isothermal": the pressure falls as V0 / V where the body swells.
     std::string pressure_law = "constant";
@@ -234,8 +232,7 @@ struct Body
         SpringKind kind = SpringKind::extra; ///< set by resolve() for the springs of a network
     };
     std::vector<Spring> springs;
-    /// Elements of a kind of Taut's or the program's own (elements/element.hpp), beside springs and hinges of
-    /// the material; resolve() adds the membranes of a fabric.
+    /// Elements of a kind of Taut's or the program's own (elements/element.hpp); resolve() adds membranes.
     struct Elements
     {
         std::string kind;
