@@ -27,10 +27,18 @@ foreach(kernel IN LISTS taut_kernel_files)
     foreach(element IN LISTS elements)
         cmake_path(GET element STEM name)
         taut_compile_kernel(${kernel} ${stem}_${name} ${element})
+        list(APPEND taut_kernels_of_${name} ${stem}_${name})
     endforeach()
     if(NOT DEFINED elements)
         taut_compile_kernel(${kernel} ${stem})
     endif()
+endforeach()
+
+# What an ElementKind of Taut's own is made of: kernels::<element>::all(), as for elements of programs.
+file(MAKE_DIRECTORY ${taut_generated}/elements)
+foreach(file IN LISTS taut_element_files)
+    cmake_path(GET file STEM element)
+    taut_list_kernels(${element} ${taut_generated}/elements/${element}.hpp ${taut_kernels_of_${element}})
 endforeach()
 
 # The registry: find_kernel(name, variant, precision).

@@ -39,6 +39,7 @@ void add_tune(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_judge(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
+void add_fabrics(CLI::App& app, Command& chosen);
 void add_solve(CLI::App& app, Command& chosen);
 void add_tetrahedralise(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);

@@ -39,6 +39,7 @@ cli::Command parse(int argc, char** argv, int& status)
     cli::add_check(app, chosen);
     cli::add_judge(app, chosen);
     cli::add_schema(app, chosen);
+    cli::add_fabrics(app, chosen);
     cli::add_solve(app, chosen);
     cli::add_tetrahedralise(app, chosen);
     cli::add_devices(app, chosen);

@@ -93,7 +93,7 @@ public:
           contact_(simulation, frames)
     {
         if (simulation.solvers() > 0)
-            springs_ = scene_springs(simulation.scene());
+            stretchable_ = stretchable(simulation.scene());
     }
 
     /// Up to the last frame, an interruption, energy from nowhere or a value that is not finite.
@@ -158,9 +158,11 @@ private:
         if (simulation_.solvers() == 0)
             return;
         if (simulation_.torn() != looked_torn_)
-            springs_ = scene_springs(simulation_.scene());
+            stretchable_ = stretchable(simulation_.scene());
         looked_torn_ = simulation_.torn();
-        looks_.add(done_, simulation_.time(), largest_stretch(springs_, simulation_.positions()),
+        const double stretch =
+            largest_stretch(stretchable_.springs, simulation_.positions(), stretchable_.elements);
+        looks_.add(done_, simulation_.time(), stretch,
                    simulation_.active_share(), simulation_.solver_report());
     }
 
@@ -204,7 +206,7 @@ private:
     SoundnessWatch watch_;
     TunnelWatch tunnelling_;
     ContactWatch contact_;
-    std::vector<StretchElement> springs_; ///< as of `looked_torn_`
+    Stretchable stretchable_; ///< where looks are wanted
     std::uint64_t looked_torn_ = 0;
     std::optional<std::uint64_t> meshes_torn_;  ///< torn() of the scene that `meshes_` know
     std::optional<std::uint64_t> moment_torn_;  ///< that of `moment_scene_`

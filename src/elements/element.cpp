@@ -1,5 +1,6 @@
 #include "taut/elements/element.hpp"
 
+#include "taut/elements/membrane.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/registry.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 struct Kinds
 {
     std::mutex mutex;
-    std::deque<ElementKind> list; // what it holds keeps its place
+    std::deque<ElementKind> list{membrane_kind()}; // Taut's own first; what it holds keeps its place
 };
 
 Kinds& kinds()
@@ -106,14 +107,16 @@ bool has_kernel(const ElementKind& kind, std::string_view kernel)
     return false;
 }
 
-std::string added_elements()
+std::string known_elements()
 {
     Kinds& all = kinds();
     const std::lock_guard lock(all.mutex);
     std::string out;
     for (const ElementKind& kind : all.list)
         out += (out.empty() ? "\"" : ", \"") + kind.name + '"';
-    return out.empty() ? "none" : out;
+    return out;
 }
+
+bool is_own(const ElementKind& kind) { return kind.name == "membrane"; }
 
 } // namespace taut

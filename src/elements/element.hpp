@@ -1,11 +1,13 @@
 #pragma once
-// Elements of a program's own: an energy of up to four vertices that Taut does not have, said in one GLSL
-// file (kernels/shared/element.glsl) and one ElementKind. docs/how-to/add-an-element.md walks through it.
+// Elements as an energy of up to four vertices, said in one GLSL file (kernels/shared/element.glsl) and one
+// ElementKind: those of a program's own, that Taut does not have (docs/how-to/add-an-element.md walks through
+// it), and Taut's that stand in Body::elements as well.
 
 #include "taut/runtime/base/kernel_info.hpp"
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -24,23 +26,30 @@ struct ElementKind
     std::vector<std::span<const KernelInfo>> kernels;
     /// J, >= 0, in fp64, of one element with its corners at `x` (m). Reports count it.
     double (*energy)(std::span<const glm::dvec3> x, std::span<const double> values) = nullptr;
+    /// The least and the largest relative change of a length within the element, -1 or more; null if it has
+    /// none. Reports give the largest of all; strain beyond Accept::stretch must be paid for by energy.
+    std::array<double, 2> (*stretches)(std::span<const glm::dvec3> x,
+                                       std::span<const double> values) = nullptr;
 };
 
 /// Bytes of one record: `corners` uints, then the values, as std430 lays them out.
 std::uint32_t record_bytes(const ElementKind& kind, Precision precision);
 
 /// Makes the kind known to scenes of this program (Body::elements), for good. Throws Error{bad_input} for a
-/// name that is taken, for corners, values or kernels that do not fit each other, and without an energy. Safe
-/// from several threads.
+/// name that is taken, by one of Taut's own, too, for corners, values or kernels that do not fit each other,
+/// and without an energy. Safe from several threads.
 void add_element(const ElementKind& kind);
 
-/// Null if nobody has added it. The pointer stays good. Safe from several threads.
+/// Taut's "membrane", or what was added; else null. The pointer stays good. Safe from several threads.
 const ElementKind* find_element(std::string_view name);
 
 /// Whether the kind has `kernel`, a method's kernel by its own stem ("xpbd", "vbd_rise").
 bool has_kernel(const ElementKind& kind, std::string_view kernel);
 
-/// "cubic_spring", "fan"; "none" where nothing was added.
-std::string added_elements();
+/// All names: "membrane", "cubic_spring".
+std::string known_elements();
+
+/// Whether it is one of Taut's own.
+bool is_own(const ElementKind& kind);
 
 } // namespace taut

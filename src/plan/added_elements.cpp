@@ -1,5 +1,5 @@
-// Elements that the program has added: from Body::elements to records, and to passes of XPBD and PBD. Their
-// kernels are those of any element (kernels/methods/).
+// Elements of Body::elements, the program's and those of fabrics: to records, and to passes of XPBD and PBD.
+// Their kernels are those of any element (kernels/methods/).
 
 #include "taut/plan/added_elements.hpp"
 
@@ -17,8 +17,7 @@ namespace taut {
 namespace {
 
 /// Those with a folder of kernels over elements.
-constexpr std::array<std::string_view, 5> kMethods = {"xpbd", "pbd", "mass_spring", "implicit_euler",
-                                                      "vbd"};
+constexpr std::array<std::string_view, 5> kMethods = {"xpbd", "pbd", "mass_spring", "implicit_euler", "vbd"};
 
 /// One element in plan vertices. corners <= 4.
 struct Added
@@ -29,9 +28,12 @@ struct Added
 
 std::string place(const Scene& scene, std::size_t body, std::size_t list)
 {
-    const std::string name = scene.bodies[body].name;
-    return "bodies[" + std::to_string(body) + "].elements[" + std::to_string(list) + "]" +
-           (name.empty() ? "" : " (of \"" + name + "\")");
+    const Body& of = scene.bodies[body];
+    const ElementKind* kind = find_element(of.elements[list].kind);
+    const bool fabric = of.material.fabric.used && kind != nullptr && is_own(*kind);
+    return "bodies[" + std::to_string(body) + "]" +
+           (fabric ? ".material.fabric" : ".elements[" + std::to_string(list) + "]") +
+           (of.name.empty() ? "" : " (of \"" + of.name + "\")");
 }
 
 void check_list(const std::string& where, const Body& body, const Body::Elements& list)
@@ -39,7 +41,7 @@ void check_list(const std::string& where, const Body& body, const Body::Elements
     const auto refuse = [&](const std::string& why) { throw Error(ErrorCode::bad_input, where + why); };
     const ElementKind* kind = find_element(list.kind);
     if (kind == nullptr)
-        return refuse(".kind is \"" + list.kind + "\"; the program has added: " + added_elements());
+        return refuse(".kind is \"" + list.kind + "\"; there are: " + known_elements());
     for (const Effect& effect : effect_table()) // passes, buffers and sets are told apart by it
         if (effect.name == kind->name)
             refuse(".kind is \"" + kind->name + "\", which an effect of Taut is called; rename the element");
@@ -66,22 +68,32 @@ void check_list(const std::string& where, const Body& body, const Body::Elements
     }
 }
 
+/// Methods that have kernels over elements, as far as this kind has them.
+std::string methods_of(const ElementKind& kind)
+{
+    std::vector<std::string_view> out;
+    for (const std::string_view method : kMethods)
+        if (has_kernel(kind, method))
+            out.push_back(method);
+    return scene_file::listing(out);
+}
+
 /// Throws where the scene's method cannot move elements of this kind.
 void check_method(const std::string& where, const Scene& scene, const ElementKind& kind)
 {
     const std::string& method = scene.method.type;
-    if (std::find(std::begin(kMethods), std::end(kMethods), method) == std::end(kMethods))
-        throw Error(ErrorCode::unsupported, where + ": method \"" + method +
-                                                "\" has no kernels for elements that the program adds; use " +
-                                                scene_file::listing(kMethods));
+    const bool can = std::find(std::begin(kMethods), std::end(kMethods), method) != std::end(kMethods);
     if (!has_kernel(kind, method))
-        throw Error(ErrorCode::unsupported, where + ": \"" + kind.name + "\" has no kernels for method \"" +
-                                                method + "\"; name it in the line \"//! methods\" of " +
-                                                kind.name + ".glsl");
+        throw Error(ErrorCode::unsupported,
+                    where + ": method \"" + method + "\" has no kernels for elements \"" + kind.name +
+                        "\"; use " + methods_of(kind) +
+                        (is_own(kind) || !can
+                             ? ""
+                             : ", or name it in the line \"//! methods\" of " + kind.name + ".glsl"));
     if (method_of(scene) == MethodKind::pbd && !pbd_is_coloured(scene))
         throw Error(ErrorCode::unsupported, where + ": method.scheme \"" + scene.method.scheme +
-                                                "\" does not move elements that the program adds; use "
-                                                "\"coloured\"");
+                                                "\" does not move elements \"" + kind.name +
+                                                "\"; use \"coloured\"");
 }
 
 /// Whether the method moves elements by their force, which a rigid one does not have.
@@ -165,8 +177,8 @@ void prepare_kind(PlanBuilder& b, const ElementKind& kind)
     if (flat.empty())
         return;
     with_real(b.plan.precision, [&](auto zero) {
-        set.buffer = b.add_buffer<std::byte>(set.kind, set.kind + " constraints",
-                                             packed<decltype(zero)>(kind, flat));
+        set.buffer =
+            b.add_buffer<std::byte>(set.kind, set.kind + " constraints", packed<decltype(zero)>(kind, flat));
     });
     add_set(b, set, std::move(table), {set.kind, b.method.kind == MethodKind::xpbd});
 }

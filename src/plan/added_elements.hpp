@@ -1,6 +1,6 @@
 #pragma once
-// Internal to src/plan: elements of kinds that the program has added (taut/elements/element.hpp): what scenes
-// say of them, their records, and the sweeps of xpbd and pbd.
+// Internal to src/plan: elements of Body::elements (taut/elements/element.hpp), membranes and kinds that the
+// program has added: what scenes say of them, records, and the sweeps of xpbd and pbd.
 
 #include "taut/elements/element.hpp"
 #include "taut/plan/builder.hpp"

@@ -81,7 +81,7 @@ CompareRow row_of(const Variant& variant, std::uint64_t frames)
     try
     {
         World world(variant.scene, variant.device);
-        row.springs = !scene_springs(world.scene()).empty();
+        row.springs = measure(world).springs;
         run(world, frames, row);
     }
     catch (const Error& error)

@@ -42,15 +42,22 @@ std::vector<StretchElement> scene_springs(const Scene& resolved)
     return out;
 }
 
-double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x)
+Stretchable stretchable(const Scene& resolved)
+{
+    return {scene_springs(resolved), scene_elements(resolved)};
+}
+
+double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x,
+                       std::span<const AddedElement> elements)
 {
     std::optional<double> out;
+    const auto take = [&](double stretch) { out = out ? std::max(*out, stretch) : stretch; };
     for (const StretchElement& e : springs)
         if (e.rest_length > 0)
-        {
-            const double stretch = (glm::distance(x[e.a], x[e.b]) - e.rest_length) / e.rest_length;
-            out = out ? std::max(*out, stretch) : stretch;
-        }
+            take((glm::distance(x[e.a], x[e.b]) - e.rest_length) / e.rest_length);
+    for (const AddedElement& e : elements)
+        if (const auto stretches = e.stretches(x))
+            take((*stretches)[1]);
     return out.value_or(0);
 }
 

@@ -2,6 +2,7 @@
 // What changes over the time of a run, looked at in some of its frames.
 
 #include "taut/plan/material.hpp"
+#include "taut/report/model.hpp"
 #include "taut/report/report.hpp"
 
 #include <optional>
@@ -15,7 +16,7 @@ struct Look
 {
     std::uint64_t frame = 0;
     double time = 0;                                ///< s
-    double max_stretch = 0;                         ///< largest (l - L)/L of all springs, signed
+    double max_stretch = 0;                         ///< largest_stretch()
     std::optional<double> active_share = {};        ///< acad, as World::active_share
     std::optional<std::uint64_t> linear_iterations = {}; ///< of all solves since the look before
     std::optional<double> volume = {};                   ///< VolumeReport::ratio; of scenes with volumes
@@ -47,7 +48,17 @@ private:
 /// The springs of all bodies of a resolved scene, vertices scene-wide.
 std::vector<StretchElement> scene_springs(const Scene& resolved);
 
-/// Largest (l - L)/L, signed; springs without a length are left out. 0 without springs. `x`: m, scene-wide.
-double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x);
+/// What can stretch in a resolved scene.
+struct Stretchable
+{
+    std::vector<StretchElement> springs;
+    std::vector<AddedElement> elements;
+};
+Stretchable stretchable(const Scene& resolved);
+
+/// Largest (l - L)/L, signed, of springs and within elements that have stretches; springs without a length
+/// are left out. 0 without any. `x`: m, scene-wide.
+double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x,
+                       std::span<const AddedElement> elements = {});
 
 } // namespace taut

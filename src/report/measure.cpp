@@ -38,6 +38,16 @@ void measure_stretch(const View& view, StepReport& out)
         sum += std::max(stretch, 0.0) * std::max(stretch, 0.0);
         ++counted;
     }
+    for (const AddedElement& e : view.model.added)
+        if (const auto stretches = e.stretches(view.x))
+        {
+            const double stretch = (*stretches)[1];
+            out.springs = true;
+            out.max_stretch = first ? stretch : std::max(out.max_stretch, stretch);
+            first = false;
+            sum += std::max(stretch, 0.0) * std::max(stretch, 0.0);
+            ++counted;
+        }
     out.rms_stretch = counted > 0 ? std::sqrt(sum / static_cast<double>(counted)) : 0;
 }
 

@@ -42,25 +42,6 @@ void append_vertices(PhysicalModel& model, const Body& body)
     model.flows.resize(model.mass.size(), body.material.plastic_yield > 0);
 }
 
-void append_added(PhysicalModel& model, const Body& body, std::uint32_t first)
-{
-    for (const Body::Elements& list : body.elements)
-    {
-        const ElementKind* kind = find_element(list.kind); // make_plan() has refused what is not known
-        const std::size_t corners = kind->corners, values = kind->values.size();
-        for (std::size_t k = 0; k < list.vertices.size() / corners; ++k)
-        {
-            AddedElement e;
-            e.kind = kind;
-            for (std::size_t c = 0; c < corners; ++c)
-                e.vertex[c] = first + list.vertices[k * corners + c];
-            const auto own = std::span(list.values).subspan(k * values, values);
-            e.values.assign(own.begin(), own.end());
-            model.added.push_back(std::move(e));
-        }
-    }
-}
-
 void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first)
 {
     std::size_t dropped = 0;
@@ -134,25 +115,100 @@ PhysicalModel make_model(const Scene& resolved)
     model.colliders = resolved.colliders;
     model.diameter = rest_diameter(resolved);
     model.springs = scene_springs(resolved);
+    model.added = scene_elements(resolved);
     for (const Body& body : resolved.bodies)
     {
         const auto first = static_cast<std::uint32_t>(model.mass.size());
         model.body_start.push_back(first);
         append_vertices(model, body);
         append_elements(model, body, first);
-        append_added(model, body, first);
         append_pins(model, body, first);
     }
     model.body_start.push_back(static_cast<std::uint32_t>(model.mass.size()));
     return model;
 }
 
+namespace {
+
+using Corners = std::array<glm::dvec3, 4>;
+
+Corners corners_of(const AddedElement& e, std::span<const glm::dvec3> x)
+{
+    Corners out{};
+    for (std::uint32_t c = 0; c < e.kind->corners; ++c)
+        out[c] = x[e.vertex[c]];
+    return out;
+}
+
+double energy_of(const AddedElement& e, const Corners& corner)
+{
+    return e.kind->energy(std::span(corner).first(e.kind->corners), e.values);
+}
+
+void append_added(std::vector<AddedElement>& out, const Body& body, std::uint32_t first)
+{
+    for (const Body::Elements& list : body.elements)
+    {
+        const ElementKind* kind = find_element(list.kind);
+        const std::size_t corners = kind->corners, values = kind->values.size();
+        for (std::size_t k = 0; k < list.vertices.size() / corners; ++k)
+        {
+            AddedElement e;
+            e.kind = kind;
+            for (std::size_t c = 0; c < corners; ++c)
+                e.vertex[c] = first + list.vertices[k * corners + c];
+            const auto own = std::span(list.values).subspan(k * values, values);
+            e.values.assign(own.begin(), own.end());
+            out.push_back(std::move(e));
+        }
+    }
+}
+
+} // namespace
+
+std::vector<AddedElement> scene_elements(const Scene& resolved)
+{
+    std::vector<AddedElement> out;
+    std::uint32_t first = 0;
+    for (const Body& body : resolved.bodies)
+    {
+        append_added(out, body, first);
+        first += static_cast<std::uint32_t>(body.mesh.positions.size());
+    }
+    return out;
+}
+
 double AddedElement::energy(std::span<const glm::dvec3> x) const
 {
-    std::array<glm::dvec3, 4> corner{};
-    for (std::uint32_t c = 0; c < kind->corners; ++c)
-        corner[c] = x[vertex[c]];
-    return kind->energy(std::span(corner).first(kind->corners), values);
+    return energy_of(*this, corners_of(*this, x));
+}
+
+Corners AddedElement::forces(std::span<const glm::dvec3> x) const
+{
+    const Corners here = corners_of(*this, x);
+    double size = 0;
+    for (std::uint32_t c = 1; c < kind->corners; ++c)
+        size = std::max(size, glm::distance(here[c], here[0]));
+    const double step = 1e-5 * size;
+    Corners out{};
+    for (std::uint32_t c = 0; step > 0 && c < kind->corners; ++c)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            Corners ahead = here, behind = here;
+            ahead[c][axis] += step;
+            behind[c][axis] -= step;
+            out[c][axis] =
+                (energy_of(*this, behind) - energy_of(*this, ahead)) / (ahead[c][axis] - behind[c][axis]);
+        }
+    return out;
+}
+
+std::optional<std::array<double, 2>> AddedElement::stretches(std::span<const glm::dvec3> x) const
+{
+    if (kind->stretches == nullptr)
+        return {};
+    const Corners corner = corners_of(*this, x);
+    return kind->stretches(std::span(corner).first(kind->corners), values);
 }
 
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
@@ -248,6 +304,12 @@ void each_force(const PhysicalModel& model, std::span<const glm::dvec3> x, Add a
     {
         const std::array<glm::dvec3, 4> force = solid_forces(e, x);
         for (std::size_t c = 0; c < 4; ++c)
+            add(e.vertex[c], force[c]);
+    }
+    for (const AddedElement& e : model.added)
+    {
+        const Corners force = e.forces(x);
+        for (std::uint32_t c = 0; c < e.kind->corners; ++c)
             add(e.vertex[c], force[c]);
     }
 }

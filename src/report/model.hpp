@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ struct ModelPin
     std::vector<Keyframe> motion; ///< pose() of `start`; empty = held
 };
 
-/// An element of a kind that the program has added: all that is known of it is its energy.
+/// An element of Body::elements: what is known of it is its energy, and its stretch where its kind has one.
 struct AddedElement
 {
     const ElementKind* kind = nullptr;
@@ -33,6 +34,10 @@ struct AddedElement
     std::vector<double> values;
 
     double energy(std::span<const glm::dvec3> x) const; ///< J
+    /// N on its corners, by central differences of the energy over 1e-5 of its size: to about nine digits.
+    std::array<glm::dvec3, 4> forces(std::span<const glm::dvec3> x) const;
+    /// ElementKind::stretches, or nothing at all.
+    std::optional<std::array<double, 2>> stretches(std::span<const glm::dvec3> x) const;
 };
 
 /// Vertices are scene-wide: bodies one after another, as in their meshes.
@@ -50,7 +55,7 @@ struct PhysicalModel
     std::vector<SolidElement> solids;         ///< elastic tetrahedra
     std::vector<SurfaceElement> surfaces;     ///< whose volume within is held
     std::vector<GasElement> gases;            ///< within closed surfaces
-    std::vector<AddedElement> added;          ///< of kinds that the program has added
+    std::vector<AddedElement> added;          ///< of Body::elements: membranes, and what a program added
     std::size_t dropped_hinges = 0;           ///< without an angle at rest
     std::vector<ModelPin> pins;               ///< ascending, one a vertex
     std::vector<Collider> colliders;
@@ -63,6 +68,10 @@ struct PhysicalModel
 };
 
 PhysicalModel make_model(const Scene& resolved);
+
+/// Those of Body::elements of all bodies, vertices scene-wide. All kinds must be known: make_plan() refuses
+/// others.
+std::vector<AddedElement> scene_elements(const Scene& resolved);
 
 /// J. Rigid elements (compliance 0) have no energy: they count as infinite when they are not at rest
 /// length, so only call it on models without them.

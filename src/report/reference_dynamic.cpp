@@ -159,7 +159,7 @@ bool starts_inside(const PhysicalModel& model)
 std::string refusal(const PhysicalModel& model, const DynamicOptions& options, double element_steps)
 {
     if (!model.added.empty())
-        return "the program has added elements of its own: the dynamic reference knows their energy only";
+        return "there are membranes, or elements of its own: the dynamic reference knows their energy only";
     if (const std::size_t rigid = rigid_element_count(model); rigid > 0)
         return std::to_string(rigid) + " elements are rigid (compliance 0): no step is small enough";
     if (options.scheme == Scheme::verlet && !model.colliders.empty())

@@ -315,7 +315,7 @@ std::string refusal(const PhysicalModel& model, const std::vector<glm::dvec3>& s
     if (const std::size_t rigid = rigid_element_count(model); rigid > 0)
         return std::to_string(rigid) + " elements are rigid (compliance 0): they have no energy to minimise";
     if (!model.added.empty())
-        return "the program has added elements of its own: the static reference knows their energy only";
+        return "there are membranes, or elements of its own: the static reference knows their energy only";
     if (!model.surfaces.empty())
         return "the volume within a surface is held: the static reference does not model it";
     if (!model.gases.empty())

@@ -37,8 +37,9 @@ struct StepReport
     std::map<std::string, std::uint64_t> warnings;
     std::uint64_t step = 0;
     double time = 0;
-    bool springs = false;        ///< there are any: else there is no stretch to speak of
-    double max_stretch = 0;      ///< largest (l-L)/L over distance constraints, signed
+    bool springs = false;        ///< there are any, or membranes: else there is no stretch to speak of
+    /// Largest (l-L)/L, signed, over distance constraints, and over the directions within each membrane.
+    double max_stretch = 0;
     double rms_stretch = 0;      ///< root mean square of max(0, (l-L)/L)
     double penetration = 0;      ///< deepest vertex below a collider's surface, m
     double kinetic_energy = 0;

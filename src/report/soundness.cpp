@@ -120,12 +120,21 @@ void add_volumes(const PhysicalModel& model, const RunState& state, Strained& ou
                 out.kept_volume, share * std::abs(enclosed_volume(e.triangles, state.x) / e.rest_volume - 1));
 }
 
+/// Of elements with stretches; those that a spring limit or a projection keeps are none of them.
+void add_elements(const PhysicalModel& model, const RunState& state, double accepted, Strained& out)
+{
+    for (const AddedElement& e : model.added)
+        if (const auto s = e.stretches(state.x); s && std::max(-(*s)[0], (*s)[1]) > accepted)
+            out.energy += e.energy(state.x);
+}
+
 Strained strained(const PhysicalModel& model, const RunState& state)
 {
     const double accepted = state.scene.accept.stretch;
     Strained out;
     add_springs(model, state, accepted, out);
     add_volumes(model, state, out);
+    add_elements(model, state, accepted, out);
     if (method_of(state.scene) != MethodKind::pbd)
         for (const SolidElement& e : model.solids)
         {

@@ -98,6 +98,7 @@ void check_counts(const Body& body, std::size_t vertex_count, const Checker& out
 
 void check_body(const Body& body, const Checker& out)
 {
+    check_fabric_body(body, out);
     const bool own_springs = !body.springs.empty() || body.shape.network.used;
     if (body.material.tear_strain > 0 && (own_springs || body.shape.kind == ShapeKind::chain))
         out.error("material.tear_strain",

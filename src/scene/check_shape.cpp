@@ -36,6 +36,7 @@ void check_ball(const Shape& shape, const Checker& out)
 /// Torn cloth encloses nothing and is planned anew.
 void check_cloth(const Material& material, const Checker& out)
 {
+    check_fabric_beside(material, out);
     if (!(material.tear_strain > 0))
         return;
     const std::string beside = " beside tear_strain " + shown(material.tear_strain);

@@ -84,6 +84,9 @@ void check_grid(const Shape& shape, const Checker& out);
 void check_box(const Shape& shape, const Checker& out);
 void check_ball(const Shape& shape, const Checker& out);
 void check_cloth(const Material& material, const Checker& out);
+void check_fabric(const Fabric& fabric, const Checker& out);
+void check_fabric_beside(const Material& material, const Checker& out);
+void check_fabric_body(const Body& body, const Checker& out);
 void check_solid(const Material& material, const Checker& out);
 void check_kinematic(const Kinematic& kinematic, const Checker& out);
 /// Keys of a body that mean nothing beside `kinematic`.

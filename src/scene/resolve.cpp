@@ -4,6 +4,7 @@
 #include "taut/scene/checker.hpp"
 #include "taut/scene/embedding.hpp"
 #include "taut/scene/kinematic.hpp"
+#include "taut/scene/membrane.hpp"
 #include "taut/scene/pose.hpp"
 #include "taut/scene/settings.hpp"
 
@@ -275,6 +276,8 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
         embed_surface(body, directory, out);
     if (body.shape.kind == ShapeKind::grid && body.shape.network.used)
         add_network(body);
+    if (body.material.fabric.used)
+        scene_file::add_membrane(body, out.at("material.fabric"));
     if (body.shape.kind != ShapeKind::grid && body.shape.kind != ShapeKind::chain)
         scene_file::check_counts(body, body.mesh.positions.size(), out);
 }

@@ -4,6 +4,7 @@
 
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/embed.hpp"
+#include "taut/scene/fabric.hpp"
 #include "taut/scene/mesh.hpp"
 
 #include <glm/vec2.hpp>
@@ -25,12 +26,12 @@ struct Material
 {
     double density = 0.2;           ///< kg/m^2, of solids kg/m^3, > 0
     double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
+    Fabric fabric;                  ///< cloth by its yarns; stretch_stiffness must be 0 beside it
     double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
     double stretch_damping = 0;     ///< s, >= 0: a spring of stiffness k has the damper k * stretch_damping
     double strain_limit = 0;        ///< (l - L)/L that no spring may pass, >= 0; 0 = no strain_limit effect
-    /// Long-range attachments: no vertex further from its pin than (1 + slack) times at rest; < 0 = no
-    /// effect.
+    /// Long-range attachments: no vertex further from its pin than (1 + slack) times at rest; < 0 = none.
     double attachment_slack = -1;
     double tear_strain = 0;   ///< (l - L)/L at which cloth tears, >= 0; 0 = no tearing effect
     double drag = 0;          ///< of a triangle along its normal in the wind, >= 0; 0 = no wind effect
@@ -39,8 +40,7 @@ struct Material
     /// surface_volume effect, inf = rigid. Of solids: springs hold volumes so (which, `volume` says); -1 =
     /// the bulk modulus E / (3 (1 - 2 nu)).
     double volume_stiffness = 0;
-    /// Pa: by how much the gas within a closed surface presses more than the air outside, at the rest volume
-    /// (less than 0: it sucks); 0 = no pressure effect.
+    /// Pa: by how much the gas within presses more than the air outside, at the rest volume; 0 = no effect.
     double pressure = 0;
     /// "constant", or "isothermal": the pressure falls as V0 / V where the body swells.
     std::string pressure_law = "constant";
@@ -232,7 +232,7 @@ struct Body
         SpringKind kind = SpringKind::extra; ///< set by resolve() for the springs of a network
     };
     std::vector<Spring> springs;
-    /// Elements of a kind that the program has added (elements/element.hpp), beside those of the material.
+    /// Elements of a kind of Taut's or the program's own (elements/element.hpp); resolve() adds membranes.
     struct Elements
     {
         std::string kind;

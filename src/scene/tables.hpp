@@ -19,6 +19,7 @@ extern const TableOf<Shape> kChainTable;
 extern const TableOf<Shape> kSolidBoxTable;
 extern const TableOf<Shape> kBallTable;
 extern const TableOf<Material> kMaterialTable;
+extern const TableOf<Fabric> kFabricTable;
 extern const TableOf<Material> kSolidMaterialTable;
 extern const TableOf<Transform> kTransformTable;
 extern const TableOf<Transform> kRotateTable;

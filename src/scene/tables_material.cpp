@@ -1,6 +1,9 @@
 // Keys of materials, of cloth and of bodies of tetrahedra.
 
 #include "taut/scene/checker.hpp"
+#include "taut/scene/fabric_presets.hpp"
+#include "taut/scene/field.hpp"
+#include "taut/scene/read_table.hpp"
 #include "taut/scene/tables.hpp"
 
 #include <limits>
@@ -47,8 +50,33 @@ constexpr Key kPlasticLimit =
     key<&Material::plastic_limit>("plastic_limit", "strain that may stay in all").unit("(a strain)").above(0);
 constexpr Key kDensity = key<&Material::density>("density", "mass of an area").above(0);
 
+void begin_fabric(Material& material)
+{
+    material.fabric.used = true;
+    material.stretch_stiffness = 0; // what a file says beside it is read later, and refused
+}
+
+void read_fabric(const Field& material, Material& out)
+{
+    const auto fabric = material.find("fabric");
+    if (!fabric)
+        return;
+    begin_fabric(out);
+    read_table(*fabric, kFabricTable, &out.fabric);
+    if (const auto name = fabric->find("preset"); name && !material.find("density"))
+        if (const FabricPreset* preset = find_fabric_preset(name->text()))
+            out.density = preset->density;
+}
+bool has_fabric(const Material& material) { return material.fabric.used; }
+
 constexpr Key kMaterial[] = {
     kDensity.unit("kg/m^2"),
+    object<&Material::fabric>("fabric",
+                              "woven cloth by the moduli of its yarns, in place of springs along the "
+                              "edges; under xpbd, mass_spring, implicit_euler and vbd",
+                              kFabricTable)
+        .when<has_fabric>()
+        .reads<read_fabric>(),
     key<&Material::stretch_stiffness>("stretch_stiffness",
                                       "membrane stiffness, Young's modulus times thickness; \"rigid\": no "
                                       "compliance; 0: no stretch effect")
@@ -161,6 +189,7 @@ constexpr Stranger kSolidKeys[] = {{"youngs_modulus", kAsCloth}, {"poissons_rati
 constexpr Stranger kClothKeys[] = {
     {"stretch_stiffness", "a solid is as stiff as \"youngs_modulus\" (Pa) and \"poissons_ratio\" say"},
     {"tear_strain", "solids do not tear"},
+    {"fabric", "a solid is as stiff as \"youngs_modulus\" (Pa) and \"poissons_ratio\" say"},
 };
 
 void begin_solid(Material& material) { material = solid_material(); }

@@ -72,10 +72,10 @@ constexpr Key kScene[] = {
 };
 
 constexpr Key kAccept[] = {
-    key<&Accept::stretch>("stretch",
-                          "strain that may be the solver's own: springs and tetrahedra strained by "
-                          "more must have the energy for it; what a method keeps at its length may "
-                          "be off by no more")
+    key<&Accept::stretch>(
+        "stretch", "strain that may be the solver's own: springs, membranes and tetrahedra strained by "
+                   "more must have the energy for it; what a method keeps at its length may "
+                   "be off by no more")
         .unit("(a strain)")
         .above(0),
     key<&Accept::residual>("residual",
@@ -158,7 +158,8 @@ std::span<const Table* const> all_tables()
         &kSceneTable,    &kAcceptTable,    &kMethodTable,         &kWindTable,
         &kWindKeyTable,  &kContactTable,   &kBodyContactTable,    &kBodyTable,
         &kGridTable,     &kNetworkTable,   &kChainTable,          &kSolidBoxTable,
-        &kBallTable,     &kMaterialTable,  &kSolidMaterialTable,  &kTransformTable,
+        &kBallTable,     &kMaterialTable,  &kFabricTable,         &kSolidMaterialTable,
+        &kTransformTable,
         &kRotateTable,   &kKinematicTable, &kMeshSequenceTable,   &kPinTable,
         &kPinBoxTable,   &kKeyframeTable,  &kKeyframeRotateTable, &kSpringTable,
         &kColliderTable,

@@ -35,8 +35,11 @@ double milliseconds_since(Clockwork::time_point start)
 
 std::uint64_t work_of(const Body& body)
 {
-    return body.mesh.positions.size() + stretch_elements(body).size() + 2 * bend_elements(body).size() +
-           2 * body.mesh.tetrahedra.size();
+    std::uint64_t work = body.mesh.positions.size() + stretch_elements(body).size() +
+                         2 * bend_elements(body).size() + 2 * body.mesh.tetrahedra.size();
+    for (const Body::Elements& list : body.elements)
+        work += list.vertices.size();
+    return work;
 }
 
 Events less(Events all, const Events& part)

@@ -245,6 +245,22 @@ TEST_CASE("schema prints a JSON Schema, and the tables of the pages")
     CHECK(tables.out.find("| `timestep` | time between two frames | s | 1/60 |") != std::string::npos);
 }
 
+TEST_CASE("fabrics lists what a scene may name, and each name is a sound scene")
+{
+    const Folder folder;
+    CHECK(folder.taut({"fabrics"}).out.find("\npenava_cotton") != std::string::npos);
+    const auto list = program::parse(folder.taut({"fabrics", "--json"}).out)["fabrics"];
+    REQUIRE(list.size() > 5);
+    for (const auto& fabric : list)
+    {
+        const std::string name = fabric["name"].get<std::string>();
+        const std::string scene =
+            R"({"taut": 1, "bodies": [{"grid": {}, "material": {"fabric": {"preset": ")" + name + "\"}}}]}";
+        CHECK(folder.taut({"check", folder.file("scene.json", scene)}).status == 0);
+        CHECK(!fabric["source"].get<std::string>().empty());
+    }
+}
+
 TEST_CASE("check names the box whose tetrahedra have no volume, and a timestep that is too short")
 {
     const Folder folder;

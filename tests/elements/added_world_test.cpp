@@ -165,7 +165,7 @@ TEST_CASE("what a scene says wrong of added elements is refused with the place a
     CHECK(says(refusal(scene), ".values[1] (compliance) is not finite"));
     list.values = {1, 1e-3};
     scene.method.type = "acad";
-    CHECK(says(refusal(scene), "method \"acad\" has no kernels for elements that the program adds"));
+    CHECK(says(refusal(scene), "method \"acad\" has no kernels for elements \"cubic_spring\"; use \"xpbd\""));
     scene.method.type = "mass_spring";
     scene.method.stability = "ignore";
     CHECK(refusal(scene) == "nothing");

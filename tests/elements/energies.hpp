@@ -1,8 +1,8 @@
 #pragma once
 // The elements of tests/elements as everybody else would write them: an energy in fp64, and nothing of
-// their kernels. Tests differentiate it by dual numbers.
+// their kernels; and their records.
 
-#include "support/dual.hpp"
+#include "support/element_terms.hpp"
 
 #include "taut/elements/element.hpp"
 
@@ -11,22 +11,6 @@
 #include <span>
 
 namespace taut::elements_test {
-
-template <typename T>
-using Point = std::array<T, 3>;
-
-template <typename T>
-Point<T> minus(const Point<T>& a, const Point<T>& b)
-{
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-template <typename T>
-T length_of(const Point<T>& a)
-{
-    using std::sqrt;
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
 
 /// values: rest length m, compliance m^4/J.
 struct CubicSpringEnergy
@@ -72,6 +56,42 @@ struct ThinRodEnergy
         }
         return squares * T(0.5 * values[0]);
     }
+};
+
+template <typename Real>
+struct CubicSpring
+{
+    using Energy = CubicSpringEnergy;
+    std::uint32_t a, b;
+    Real rest, compliance;
+    static CubicSpring random(Random& r)
+    {
+        return {0, 0, r.uniform<Real>(0.2, 2), static_cast<Real>(std::pow(10, r.uniform(-4, 0)))};
+    }
+    std::array<double, 2> values() const { return {double(rest), double(compliance)}; }
+};
+
+template <typename Real>
+struct HeldArea
+{
+    using Energy = HeldAreaEnergy;
+    std::uint32_t a, b, c;
+    Real rest, compliance;
+    static HeldArea random(Random& r)
+    {
+        return {0, 0, 0, r.uniform<Real>(0.2, 2), static_cast<Real>(std::pow(10, r.uniform(-4, 0)))};
+    }
+    std::array<double, 2> values() const { return {double(rest), double(compliance)}; }
+};
+
+template <typename Real>
+struct ThinRod
+{
+    using Energy = ThinRodEnergy;
+    std::uint32_t a, b, c;
+    Real stiffness;
+    static ThinRod random(Random& r) { return {0, 0, 0, static_cast<Real>(std::pow(10, r.uniform(0, 4)))}; }
+    std::array<double, 1> values() const { return {double(stiffness)}; }
 };
 
 /// As ElementKind::energy wants it.

@@ -96,6 +96,22 @@ inline Scene damped_explicit()
     return scene;
 }
 
+/// A cloth of a fabric, which bends as before.
+inline Scene woven(const std::string& method)
+{
+    Scene scene = swing(method);
+    Material& material = scene.bodies[0].material;
+    material.stretch_stiffness = 0;
+    material.stretch_damping = 0;
+    material.fabric.used = true;
+    material.fabric.warp = 512;
+    material.fabric.weft = 256;
+    material.fabric.shear = 8;
+    material.fabric.poissons_ratio = 0.25;
+    material.fabric.grain = {1, 2, 0};
+    return scene;
+}
+
 /// Every method that is not xpbd, in its forms.
 inline std::map<std::string, Scene> method_scenes()
 {
@@ -142,6 +158,12 @@ inline std::map<std::string, Scene> method_scenes()
                                   })},
         {"pbd_constraint_centric", with(swing("pbd"), [](Settings& m) { m.scheme = "constraint_centric"; })},
         {"pbd_jelly", jelly("pbd", "tetrahedra")},
+        {"woven", woven("xpbd")},
+        {"woven_mass_spring", woven("mass_spring")},
+        {"woven_implicit_euler", woven("implicit_euler")},
+        {"woven_matrix_free",
+         with(woven("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
+        {"woven_vbd", woven("vbd")},
         {"vbd", with(swing("vbd"), [](Settings& m) { m.iterations = 4; })},
         {"vbd_accelerated", with(swing("vbd"),
                                  [](Settings& m) {

@@ -1,8 +1,11 @@
 #pragma once
-// The elements of tests/elements as the tests of their kernels need them: their records, random nets of them,
-// and slopes and curvature from the energy alone, by dual numbers.
+// What tests know of an element: an energy in fp64, and nothing of its kernels. Slopes and curvature follow
+// by dual numbers; random nets of records, and what rounds in them. An Energy has `corners`, `quadratic`, and
+// operator()(corners, values) for numbers and duals; it may have curvature(corners, values), the blocks that
+// its kernels take; else they are Gauss-Newton's of C = sqrt(2 E). A Record has Energy, corners first,
+// random(Random&) and values().
 
-#include "elements/energies.hpp"
+#include "support/dual.hpp"
 #include "support/random.hpp"
 
 #include <glm/geometric.hpp>
@@ -10,48 +13,31 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
+#include <span>
 
 namespace taut::elements_test {
 
 using conformance::Dual;
 using conformance::Random;
 
-template <typename Real>
-struct CubicSpring
-{
-    using Energy = CubicSpringEnergy;
-    std::uint32_t a, b;
-    Real rest, compliance;
-    static CubicSpring random(Random& r)
-    {
-        return {0, 0, r.uniform<Real>(0.2, 2), static_cast<Real>(std::pow(10, r.uniform(-4, 0)))};
-    }
-    std::array<double, 2> values() const { return {double(rest), double(compliance)}; }
-};
+template <typename T>
+using Point = std::array<T, 3>;
 
-template <typename Real>
-struct HeldArea
+template <typename T>
+Point<T> minus(const Point<T>& a, const Point<T>& b)
 {
-    using Energy = HeldAreaEnergy;
-    std::uint32_t a, b, c;
-    Real rest, compliance;
-    static HeldArea random(Random& r)
-    {
-        return {0, 0, 0, r.uniform<Real>(0.2, 2), static_cast<Real>(std::pow(10, r.uniform(-4, 0)))};
-    }
-    std::array<double, 2> values() const { return {double(rest), double(compliance)}; }
-};
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
-template <typename Real>
-struct ThinRod
+template <typename T>
+T length_of(const Point<T>& a)
 {
-    using Energy = ThinRodEnergy;
-    std::uint32_t a, b, c;
-    Real stiffness;
-    static ThinRod random(Random& r) { return {0, 0, 0, static_cast<Real>(std::pow(10, r.uniform(0, 4)))}; }
-    std::array<double, 1> values() const { return {double(stiffness)}; }
-};
+    using std::sqrt;
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
 
 template <typename Record>
 std::array<std::uint32_t, Record::Energy::corners> corners_of(const Record& record)
@@ -66,7 +52,7 @@ template <std::size_t n>
 struct Terms
 {
     double energy = 0;
-    std::array<glm::dvec3, n> slope{};                   ///< N
+    std::array<glm::dvec3, n> slope{};                    ///< N
     std::array<std::array<glm::dmat3, n>, n> curvature{}; ///< as kernels take it, N/m
     double stiff = 0; ///< N/m: how much a slope changes at most with a corner
 };
@@ -88,6 +74,7 @@ Terms<Energy::corners> terms_of(const std::array<glm::dvec3, Energy::corners>& x
                                 std::span<const double> values)
 {
     constexpr std::size_t n = Energy::corners;
+    constexpr bool own = requires { Energy::curvature(x, values); };
     const double step = Energy::quadratic ? 1 : 1e-6;
     Terms<n> out;
     const auto here = energy_at<Energy>(x, values);
@@ -105,11 +92,13 @@ Terms<Energy::corners> terms_of(const std::array<glm::dvec3, Energy::corners>& x
             out.stiff = std::max(out.stiff, std::abs(change));
             double& entry = out.curvature[j / 3][k / 3][static_cast<int>(k % 3)][static_cast<int>(j % 3)];
             // Without a curvature of its own Gauss-Newton's: C = sqrt(2 E), grad C grad C^T.
-            entry = Energy::quadratic       ? change
-                    : here.value > 0 ? here.slope[j] * here.slope[k] / (2 * here.value)
-                                     : 0;
+            entry = Energy::quadratic ? change
+                    : here.value > 0  ? here.slope[j] * here.slope[k] / (2 * here.value)
+                                      : 0;
         }
     }
+    if constexpr (own)
+        out.curvature = Energy::curvature(x, values);
     return out;
 }
 
@@ -171,9 +160,9 @@ double block_size(const Record& record, std::array<glm::dvec3, Record::Energy::c
         for (std::size_t i = 0; i < x.size(); ++i)
             for (std::size_t j = 0; j < x.size(); ++j)
                 for (int c = 0; c < 3; ++c)
-                    most = std::max({most, glm::length(here.curvature[i][j][c]),
-                                     glm::length(there.curvature[i][j][c] - here.curvature[i][j][c]) *
-                                         (size / 1e-6)});
+                    most = std::max(
+                        {most, glm::length(here.curvature[i][j][c]),
+                         glm::length(there.curvature[i][j][c] - here.curvature[i][j][c]) * (size / 1e-6)});
     }
     return most;
 }

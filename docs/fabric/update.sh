@@ -1,0 +1,72 @@
+#!/bin/sh
+# Writes the table of docs/fabric.md anew: how far the middle of one sheet sags on four meshes.
+#
+#   docs/fabric/update.sh build/release/taut
+set -eu
+[ $# -eq 1 ] || { echo "usage: $0 PROGRAM (the built taut)" >&2; exit 2; }
+program=$(realpath "$1")
+cd "$(dirname "$0")/../.."
+page=docs/fabric.md
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+. docs/put.sh
+
+# sag CELLS ARGUMENTS...: mm, by how much the middle vertex of the last mesh lies below y = 0.
+sag()
+{
+    middle=$(($1 / 2 * ($1 + 2) + 1))
+    shift
+    "$program" run "$@" --device cpu --no-picture --every 240 --out "$scratch/run" > /dev/null 2>&1 || [ $? -eq 1 ]
+    awk -v middle=$middle '$1 == "v" && ++k == middle { print -1000 * $3 }' "$(ls "$scratch"/run/*.obj | tail -1)"
+    rm -r "$scratch/run"
+}
+
+# rows NAME SCENE SETTING...: a line of the CSV for each method, with the sag on each mesh.
+rows()
+{
+    name=$1
+    scene=$2
+    shift 2
+    for method in implicit_euler mass_spring vbd xpbd; do
+        case $method in
+            implicit_euler) own="method.substeps=4 method.linear_iterations=300" ;;
+            mass_spring) own="method.substeps=20 method.stability=substep" ;;
+            vbd) own="method.substeps=20 method.iterations=10" ;;
+            xpbd) own="method.substeps=400" ;;
+        esac
+        line="$name,$method"
+        for cells in 8 16 32 64; do
+            mm=
+            [ $method.$cells = vbd.64 ] || # too long
+                mm=$(sag $cells "$scene" --set method.type=$method $own "bodies[0].grid.cells=[$cells,$cells]" "$@")
+            line=$line,$mm
+        done
+        echo "$line"
+    done
+}
+
+{
+    echo sheet,method,8,16,32,64
+    rows "fabric along the warp" examples/scenes/fabric/sheet.json
+    rows "fabric along the bias" examples/scenes/fabric/sheet.json \
+        "bodies[0].material.fabric.grain=[1,1,0]"
+    rows "springs" examples/scenes/fabric/springs.json
+} > docs/fabric/sag.csv
+awk -F, '
+    NR == 1 { next }
+    $2 == "implicit_euler" { # the limit by Richardson, from the order that the last three meshes show
+        ratio = ($4 - $3) / ($5 - $4); last = ($5 - $4) / ($6 - $5); order = log(last) / log(2)
+        limit = $6 + ($6 - $5) / (last - 1)
+    }
+    { printf "| %s | %s |", $1, $2
+      for (k = 3; k <= 6; ++k)
+          if ($k == "") printf " |"
+          else printf " %.2f (%+.2f %%) |", $k, 100 * ($k / limit - 1)
+      if ($2 == "implicit_euler") printf " %.2f, order %.1f |\n", limit, order; else print " |" }
+' docs/fabric/sag.csv > "$scratch/rows"
+{
+    echo "| sheet | method | 8² | 16² | 32² | 64² | limit |"
+    echo "|---|---|---:|---:|---:|---:|---:|"
+    cat "$scratch/rows"
+} > "$scratch/sag.md"
+put "$page" sag "$scratch/sag.md"

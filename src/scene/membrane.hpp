@@ -1,0 +1,24 @@
+#pragma once
+// Internal to src/scene: the membrane of a fabric, a triangle of constant strain for each of a body's.
+
+#include "taut/scene/checker.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <array>
+
+namespace taut::scene_file {
+
+/// Name of the element, the stem of kernels/elements/membrane.glsl.
+inline constexpr const char* kMembrane = "membrane";
+
+/// What the element has of one triangle (m, at rest) for a warp along `grain`: P by rows, 1/m, then C times
+/// the area, J. P is the inverse of the matrix whose columns are the edges from corner 0 in coordinates along
+/// warp and weft. Not finite for triangles without area and where the grain stands on the triangle.
+std::array<double, 8> membrane_values(const std::array<glm::dvec3, 3>& x, const glm::dvec3& grain,
+                                      const FabricMatrix& matrix);
+
+/// Adds the elements of a body whose material has a fabric. The mesh is in world space; `grain` is turned as
+/// the body is. An error names the first triangle that the grain stands on (within a degree).
+void add_membrane(Body& body, const Checker& out);
+
+} // namespace taut::scene_file
