@@ -7,7 +7,6 @@
 #include "taut/scene/pose.hpp"
 #include "taut/scene/weld.hpp"
 
-#include <cmath>
 #include <numeric>
 
 namespace taut::scene_file {
@@ -64,17 +63,11 @@ OpenSequence open_sequence(const Body& body, const std::filesystem::path& direct
     return out;
 }
 
-void check_frame(const std::vector<glm::dvec3>& frame, std::size_t vertices, const std::string& name)
+void require_vertices(std::size_t count, std::size_t wanted, const std::string& name)
 {
-    if (frame.size() != vertices)
-        throw Error(ErrorCode::bad_input, name + " has " + std::to_string(frame.size()) +
-                                              " vertices; the body's mesh has " + std::to_string(vertices));
-    for (std::size_t v = 0; v < frame.size(); ++v)
-        for (int c = 0; c < 3; ++c)
-            if (!(std::abs(frame[v][c]) <= kMaxValue))
-                throw Error(ErrorCode::bad_input, name + ": vertex " + std::to_string(v) + " is " +
-                                                      shown(frame[v]) +
-                                                      "; coordinates must be at most 1e30 in magnitude");
+    if (count != wanted)
+        throw Error(ErrorCode::bad_input, name + " has " + std::to_string(count) +
+                                              " vertices; the body's mesh has " + std::to_string(wanted));
 }
 
 std::shared_ptr<const SequencePlaces> read_sequence(const Body& body, const std::filesystem::path& directory)
@@ -86,12 +79,13 @@ std::shared_ptr<const SequencePlaces> read_sequence(const Body& body, const std:
     for (std::size_t f = 0; f < from.frames->frames(); ++f)
     {
         const std::vector<glm::dvec3> frame = from.frames->positions(f);
-        check_frame(frame, from.vertices, from.frames->name(f));
+        require_vertices(frame.size(), from.vertices, from.frames->name(f));
         std::vector<glm::dvec3>& places = out->frames.emplace_back();
         places.reserve(from.kept.size());
         for (const std::uint32_t v : from.kept)
             places.push_back(frame[v]);
         apply(body.transform, places);
+        check_coordinates(places, from.frames->name(f) + ", by the body's transform");
     }
     return out;
 }
@@ -126,6 +120,7 @@ void resolve_kinematic(Body& body, const std::filesystem::path& directory)
     body.pins = {std::move(pin)};
     body.material = led_material(body);
     body.mesh.tetrahedra.clear();
+    body.elements.clear(); // those of its fabric
 }
 
 void check_kinematic(const Kinematic& kinematic, const Checker& out)
@@ -146,6 +141,7 @@ void check_kinematic_body(const Body& body, const Checker& out)
     };
     refuse(!body.pins.empty(), "pins", "leads all vertices");
     refuse(!body.springs.empty(), "springs", "nothing pulls at");
+    refuse(!body.elements.empty(), "elements", "nothing pulls at");
     refuse(!body.start_positions.empty(), "start_positions", "says where the vertices start");
     refuse(!body.vertex_masses.empty(), "vertex_masses", "nothing moves");
     refuse(body.velocity != glm::dvec3(0), "velocity", "says how the vertices move");

@@ -33,6 +33,10 @@ RawMesh read_stl(std::string_view text, const std::string& file);
 /// coordinate is beyond 1e30.
 RawMesh read_raw_mesh(const std::filesystem::path& file);
 
+/// Squares and cubes of coordinates must stay finite: throws Error{bad_input} naming `file` and the first
+/// vertex with a coordinate that is not finite or beyond 1e30.
+void check_coordinates(std::span<const glm::dvec3> positions, const std::string& file);
+
 /// Cuts a face into triangles at its first corner.
 void add_face(RawMesh& mesh, std::span<const std::uint32_t> corners);
 

@@ -34,21 +34,10 @@ Reader reader_of(std::string extension, const std::string& file)
                                           "\" is not read; it must be .obj, .ply, .off or .stl");
 }
 
-/// Squares and cubes of coordinates must stay finite.
-void check_size(const RawMesh& raw, const std::string& file)
-{
-    for (std::size_t v = 0; v < raw.positions.size(); ++v)
-        for (int c = 0; c < 3; ++c)
-            if (!(std::abs(raw.positions[v][c]) <= kMaxValue))
-                throw Error(ErrorCode::bad_input, file + ": vertex " + std::to_string(v) + " is " +
-                                                      shown(raw.positions[v]) +
-                                                      "; coordinates must be at most 1e30 in magnitude");
-}
-
 RawMesh parse_raw(std::string_view text, std::string extension, const std::string& file)
 {
     RawMesh raw = reader_of(std::move(extension), file)(text, file);
-    check_size(raw, file);
+    check_coordinates(raw.positions, file);
     return raw;
 }
 
@@ -56,6 +45,16 @@ RawMesh parse_raw(std::string_view text, std::string extension, const std::strin
 constexpr std::uintmax_t kMaxMeshBytes = std::uintmax_t(1) << 32;
 
 } // namespace
+
+void check_coordinates(std::span<const glm::dvec3> positions, const std::string& file)
+{
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        for (int c = 0; c < 3; ++c)
+            if (!(std::abs(positions[v][c]) <= kMaxValue))
+                throw Error(ErrorCode::bad_input, file + ": vertex " + std::to_string(v) + " is " +
+                                                      shown(positions[v]) +
+                                                      "; coordinates must be at most 1e30 in magnitude");
+}
 
 RawMesh read_raw_mesh(const std::filesystem::path& file)
 {

@@ -1,7 +1,9 @@
 #include "taut/scene/frame_source.hpp"
 
+#include "point_cache.hpp"
 #include "support/catch.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "temporary.hpp"
 
 #include <cstring>
 #include <filesystem>
@@ -13,44 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An empty folder of its own, removed at the end.
-struct Folder
-{
-    fs::path path = fs::temp_directory_path() / "taut_frame_source_test";
-    Folder()
-    {
-        fs::remove_all(path);
-        fs::create_directories(path);
-    }
-    ~Folder() { fs::remove_all(path); }
-
-    fs::path write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(path / name, std::ios::binary) << text;
-        return path / name;
-    }
-};
-
 std::string obj(double z, const std::string& face = "f 1 2 3")
 {
     return "v 0 0 " + std::to_string(z) + "\nv 1 0 0\nv 0 1 0\n" + face + "\n";
-}
-
-std::string cache(std::uint32_t points, std::uint32_t samples, const std::vector<float>& values,
-                  std::uint32_t version = 1)
-{
-    std::string text("POINTCACHE2\0", 12);
-    const auto add = [&](const auto& value) {
-        text.append(reinterpret_cast<const char*>(&value), sizeof value);
-    };
-    add(version);
-    add(points);
-    add(0.0f);
-    add(1.0f);
-    add(samples);
-    for (const float value : values)
-        add(value);
-    return text;
 }
 
 std::string refusal(const auto& act)
@@ -70,7 +37,7 @@ std::string refusal(const auto& act)
 
 TEST_CASE("a folder gives its frames in the order of their numbers")
 {
-    const Folder folder;
+    const Temporary folder;
     for (const int k : {10, 2, 1})
         folder.write("mesh_" + std::to_string(k) + ".obj", obj(k));
     folder.write("notes.txt", "no frame");
@@ -86,30 +53,30 @@ TEST_CASE("a folder gives its frames in the order of their numbers")
 
 TEST_CASE("a folder that is missing or has no frames is refused by name")
 {
-    const Folder folder;
+    const Temporary folder;
     CHECK_THAT(refusal([&] { open_frame_folder(folder.path); }), Contains("has no file that ends in .obj"));
     CHECK_THAT(refusal([&] { open_frame_folder(folder.path / "gone"); }), Contains("gone cannot be read"));
 }
 
 TEST_CASE("a point cache gives the frames of its mesh")
 {
-    const Folder folder;
+    const Temporary folder;
     const fs::path mesh = folder.write("mesh.obj", obj(0));
     std::vector<float> values;
     for (int k = 0; k < 18; ++k)
         values.push_back(0.5f * static_cast<float>(k));
-    const auto frames = open_point_cache(folder.write("a.pc2", cache(3, 2, values)), mesh);
+    const auto frames = open_point_cache(folder.write("a.pc2", point_cache(3, 2, values)), mesh);
     REQUIRE(frames->frames() == 2);
     CHECK(frames->positions(1)[0] == glm::dvec3(4.5, 5, 5.5));
     CHECK(frames->positions(0)[2] == glm::dvec3(3, 3.5, 4));
     const auto refused = [&](const std::string& bytes) {
         return refusal([&] { open_point_cache(folder.write("b.pc2", bytes), mesh); });
     };
-    CHECK_THAT(refused(cache(4, 1, values)), Contains("moves 4 vertices; ") && Contains("has 3"));
-    CHECK_THAT(refused(cache(3, 3, values)), Contains("has 104 bytes; 3 frames take 140"));
-    CHECK_THAT(refused(cache(3, 2, values, 2)), Contains("is no point cache"));
+    CHECK_THAT(refused(point_cache(4, 1, values)), Contains("moves 4 vertices; ") && Contains("has 3"));
+    CHECK_THAT(refused(point_cache(3, 3, values)), Contains("has 104 bytes; 3 frames take 140"));
+    CHECK_THAT(refused(point_cache(3, 2, values, 2)), Contains("is no point cache"));
     CHECK_THAT(refused("POINT"), Contains("is no point cache"));
-    CHECK_THAT(refused(cache(3, 0, {})), Contains("there must be one"));
+    CHECK_THAT(refused(point_cache(3, 0, {})), Contains("there must be one"));
     CHECK_THAT(refusal([&] { open_point_cache(folder.path / "none.pc2", mesh); }),
                Contains("cannot be read"));
 }

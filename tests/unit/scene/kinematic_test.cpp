@@ -1,12 +1,11 @@
 // Bodies that are led: what a scene file says, what becomes of it, and what it refuses.
 
+#include "point_cache.hpp"
 #include "support/catch.hpp"
 #include "temporary.hpp"
 
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/scene.hpp"
-
-#include <cstring>
 
 using namespace taut;
 
@@ -38,14 +37,13 @@ std::string refusal(const std::string& body, const std::filesystem::path& direct
     return "nothing refused";
 }
 
-std::string point_cache(std::uint32_t points, std::uint32_t samples)
+/// Coordinates count up from 0.
+std::string counting_cache(std::uint32_t points, std::uint32_t samples)
 {
-    std::string out("POINTCACHE2", 12);
-    const auto put = [&](auto value) { out.append(reinterpret_cast<const char*>(&value), sizeof value); };
-    put(std::uint32_t{1}), put(points), put(0.0f), put(1.0f), put(samples);
+    std::vector<float> values;
     for (std::uint32_t k = 0; k < 3 * points * samples; ++k)
-        put(static_cast<float>(k));
-    return out;
+        values.push_back(static_cast<float>(k));
+    return point_cache(points, samples, values);
 }
 
 } // namespace
@@ -62,6 +60,16 @@ TEST_CASE("a kinematic body becomes one pin of all its vertices, and nothing str
     CHECK(body.material.stretch_stiffness == 0);
     CHECK(body.material.bending_stiffness == 0);
     CHECK(body.material.thickness == 0.004);
+}
+
+TEST_CASE("a kinematic body has no elements of its fabric")
+{
+    const std::string cloth =
+        R"("grid": {"cells": [2, 3]}, "material": {"fabric": {"preset": "clyde_cotton"}})";
+    REQUIRE(resolve(parsed(cloth)).bodies[0].elements.size() == 1);
+    const Scene scene = resolve(parsed(cloth + R"(, "kinematic": {})"));
+    CHECK(scene.bodies[0].elements.empty());
+    CHECK(!scene.bodies[0].material.fabric.used);
 }
 
 TEST_CASE("a kinematic solid keeps its surface alone")
@@ -99,7 +107,7 @@ TEST_CASE("a sequence of files moves the vertices that welding has left, by the 
 TEST_CASE("a point cache moves a generated shape")
 {
     const Temporary folder;
-    folder.write("walk.pc2", point_cache(4, 3));
+    folder.write("walk.pc2", counting_cache(4, 3));
     const Scene scene = resolve(
         parsed(R"("grid": {"cells": [1, 1]}, "kinematic": {"sequence": {"file": "walk.pc2", "rate": 1}})",
                folder.path));
@@ -107,6 +115,18 @@ TEST_CASE("a point cache moves a generated shape")
     REQUIRE(places.frames.size() == 3);
     CHECK(place_at(places, 1, 2) == glm::dvec3(18, 19, 20));
     CHECK(place_at(places, 1.5, 2) == glm::dvec3(24, 25, 26));
+}
+
+TEST_CASE("a sequence that its transform takes out of range is refused")
+{
+    const Temporary folder;
+    std::vector<float> values(12, 1);
+    values[10] = 1e25f;
+    folder.write("walk.pc2", point_cache(4, 1, values));
+    CHECK_THAT(refusal(R"("grid": {"cells": [1, 1]}, "transform": {"scale": 1e6},
+                          "kinematic": {"sequence": {"file": "walk.pc2", "rate": 1}})",
+                       folder.path),
+               Contains("by the body's transform: vertex 3 is") && Contains("at most 1e30"));
 }
 
 TEST_CASE("what cannot stand beside kinematic is refused by name")
@@ -130,7 +150,7 @@ TEST_CASE("what cannot stand beside kinematic is refused by name")
 TEST_CASE("a sequence of another mesh, or none, is refused by its file")
 {
     const Temporary folder;
-    folder.write("walk.pc2", point_cache(5, 3));
+    folder.write("walk.pc2", counting_cache(5, 3));
     folder.write("walk.txt", "");
     folder.write("rest.obj", obj(0));
     std::filesystem::create_directories(folder.path / "frames");
