@@ -8,6 +8,7 @@
 #include "taut/plan/pbd.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +107,7 @@ bool needs_force(const Scene& scene)
 void check_force(const std::string& where, const Body& body, const Body::Elements& list)
 {
     const ElementKind& kind = *find_element(list.kind);
-    const auto& x = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+    const auto& x = start_of(body);
     for (std::size_t k = 0; k < list.vertices.size() / kind.corners; ++k)
         if (!std::isfinite(energy_of(kind, list, k, x)))
             throw Error(ErrorCode::unsupported,

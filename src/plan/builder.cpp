@@ -3,6 +3,7 @@
 #include "taut/plan/material.hpp"
 #include "taut/plan/topology.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -101,7 +102,7 @@ PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOption
         const Body& body = s.bodies[b];
         const std::vector<double> masses = vertex_masses(body);
         const std::vector<bool> held = held_vertices(body);
-        const auto& from = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+        const auto& from = start_of(body);
         for (const std::uint32_t v : body_order(body))
         {
             plan_index[plan.body_start[b] + v] = static_cast<std::uint32_t>(plan.original.size());

@@ -3,6 +3,7 @@
 #include "taut/plan/methods.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ void check_radius(const Scene& scene, std::size_t k)
 {
     const Body& body = scene.bodies[k];
     double far = 0;
-    for (const glm::dvec3& x : body.start_positions.empty() ? body.mesh.positions : body.start_positions)
+    for (const glm::dvec3& x : start_of(body))
         far = std::max({far, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
     const double radius = radius_of(scene, body), least = kThinnest * far;
     if (!(radius > 0))

@@ -4,6 +4,7 @@
 #include "taut/report/element_rates.hpp"
 #include "taut/report/hinge.hpp"
 #include "taut/report/looks.hpp"
+#include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -32,7 +33,7 @@ void append_vertices(PhysicalModel& model, const Body& body)
 {
     const std::vector<glm::dvec3>& rest = body.mesh.positions;
     const std::vector<double> mass = vertex_masses(body);
-    const std::vector<glm::dvec3>& start = body.start_positions.empty() ? rest : body.start_positions;
+    const std::vector<glm::dvec3>& start = start_of(body);
     assert(start.size() == rest.size());
     model.mass.insert(model.mass.end(), mass.begin(), mass.end());
     model.start.insert(model.start.end(), start.begin(), start.end());

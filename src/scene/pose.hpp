@@ -8,6 +8,12 @@ namespace taut {
 /// Takes places of a rest shape into world space.
 void apply(const Transform& transform, std::vector<glm::dvec3>& places);
 
+/// m, world: where the vertices of a body with a mesh start.
+inline const std::vector<glm::dvec3>& start_of(const Body& body)
+{
+    return body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+}
+
 /// Whether a pin can be elsewhere than where it starts.
 bool is_led(const Pin& pin);
 

@@ -157,7 +157,7 @@ void resolve_pin(const Body& body, Pin& pin, std::vector<bool>& held, const Chec
         add_edge(edge, body.mesh, vertices);
     for (const std::string& face : pin.faces)
         add_face(face, body.shape.box_cells, vertices);
-    const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+    const auto& start = start_of(body);
     if (pin.use_box && add_box(pin, start, vertices) == 0)
         out.warning("box", "from " + scene_file::shown(pin.box_min) + " to " +
                                scene_file::shown(pin.box_max) +

@@ -3,11 +3,12 @@
 #include "taut/judge/crossings.hpp"
 #include "taut/judge/scene_triangles.hpp"
 #include "taut/plan/contact_scene.hpp"
+#include "taut/scene/pose.hpp"
 
 namespace taut {
 namespace {
 
-/// "bodies[1] ("cloth") triangle 12"
+/// "triangle 12 of bodies[1] ("cloth")"
 std::string name_of(const Scene& scene, std::uint32_t body, std::uint32_t triangle)
 {
     for (std::uint32_t b = 0; b < body; ++b)
@@ -17,14 +18,11 @@ std::string name_of(const Scene& scene, std::uint32_t body, std::uint32_t triang
            (name.empty() ? "" : " (\"" + name + "\")");
 }
 
-std::vector<glm::dvec3> start_of(const Scene& scene)
+std::vector<glm::dvec3> places_at_start(const Scene& scene)
 {
     std::vector<glm::dvec3> out;
     for (const Body& body : scene.bodies)
-    {
-        const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
-        out.insert(out.end(), start.begin(), start.end());
-    }
+        out.insert(out.end(), start_of(body).begin(), start_of(body).end());
     return out;
 }
 
@@ -40,7 +38,7 @@ std::string crossed_at_start(const Scene& resolved)
         judging::make_surface(body.size(), std::move(all.triangles), std::move(all.led));
     std::size_t count = 0;
     std::string first;
-    for (const auto& [s, t] : judging::intersecting_triangles(surface, start_of(resolved)))
+    for (const auto& [s, t] : judging::intersecting_triangles(surface, places_at_start(resolved)))
     {
         const std::uint32_t a = body[surface.triangles[s][0]], b = body[surface.triangles[t][0]];
         if (!surfaces_meet(resolved, a, b))

@@ -40,7 +40,7 @@ std::vector<PinMove> pins_at_rest(const Scene& scene)
     for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
     {
         const Body& body = scene.bodies[b];
-        const auto& start = body.start_positions.empty() ? body.mesh.positions : body.start_positions;
+        const auto& start = start_of(body);
         for (std::uint32_t p = 0; p < body.pins.size(); ++p)
         {
             if (!body.pins[p].moved_by_program)
