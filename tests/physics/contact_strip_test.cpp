@@ -3,7 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"
-#include "support/nearest.hpp"
+#include "support/sheets.hpp"
 
 #include "taut/world/world.hpp"
 
@@ -56,14 +56,7 @@ Scene strip_on_itself()
 std::size_t crossed_in(const Scene& scene, int steps)
 {
     World world(scene, test_device("cpu:serial"));
-    const auto triangles = test::all_triangles(world.scene());
-    std::size_t crossed = 0;
-    for (int step = 0; step < steps; ++step)
-    {
-        world.step();
-        crossed += test::intersections(triangles, world.positions());
-    }
-    return crossed;
+    return test::crossed_in(world, steps);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 #include "support/expect.hpp"
+#include "support/sheets.hpp"
 #include "support/thrown_sheets.hpp"
 
 #include "taut/judge/judge.hpp"
@@ -116,18 +117,9 @@ TEST_CASE("thrown sheets never cross with the guarantee, and do without")
 
 namespace {
 
-/// A square of cloth that lies level.
 Body level_sheet(std::uint32_t cells, double size, const glm::dvec3& centre)
 {
-    Body body;
-    body.shape.cells = {cells, cells};
-    body.shape.size = {size, size};
-    body.material.stretch_stiffness = 1000;
-    body.material.thickness = 0.001;
-    body.transform.rotate_axis = {1, 0, 0};
-    body.transform.rotate_degrees = -90;
-    body.transform.translate = centre;
-    return body;
+    return test::level_sheet(cells, size, centre, 0.001);
 }
 
 void hold_all(Body& body, const std::vector<Keyframe>& motion)

@@ -2,7 +2,7 @@
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"
-#include "support/nearest.hpp"
+#include "support/sheets.hpp"
 
 #include "taut/report/report.hpp"
 #include "taut/report/soundness.hpp"
@@ -19,19 +19,6 @@ namespace {
 
 constexpr double kRadius = 0.002, kGap = 2 * kRadius;
 
-Body sheet(std::uint32_t cells, double size, double height)
-{
-    Body body;
-    body.shape.cells = {cells, cells};
-    body.shape.size = {size, size};
-    body.material.stretch_stiffness = 1000;
-    body.material.thickness = kRadius;
-    body.transform.rotate_axis = {1, 0, 0};
-    body.transform.rotate_degrees = -90;
-    body.transform.translate = {0, height, 0};
-    return body;
-}
-
 /// A box whose upper side is at height 0, with cloth just above it.
 Scene cloth_on_box()
 {
@@ -44,7 +31,7 @@ Scene cloth_on_box()
     box.material = solid_material();
     box.material.thickness = kRadius;
     box.kinematic.used = true;
-    scene.bodies = {box, sheet(6, 0.2, 1.2 * kGap)};
+    scene.bodies = {box, test::level_sheet(6, 0.2, {0, 1.2 * kGap, 0}, kRadius)};
     scene.contact.between = true;
     scene.contact.friction = 0.5;
     scene.method.substeps = 15;
@@ -57,26 +44,13 @@ std::vector<glm::dvec3> cloth_of(const World& world)
     return {x.begin() + world.plan().body_start[1], x.end()};
 }
 
-/// Runs a scene and counts what crosses on the way.
-std::size_t run(World& world, int steps)
-{
-    const auto triangles = test::all_triangles(world.scene());
-    std::size_t crossed = 0;
-    for (int step = 0; step < steps; ++step)
-    {
-        world.step();
-        crossed += test::intersections(triangles, world.positions());
-    }
-    return crossed;
-}
-
 } // namespace
 
 TEST_CASE("cloth rests a gap above a kinematic solid, which does not move")
 {
     World world(cloth_on_box(), test_device("cpu:serial"));
     const auto start = world.positions();
-    CHECK(run(world, 60) == 0);
+    CHECK(test::crossed_in(world, 60) == 0);
     for (const glm::dvec3& p : cloth_of(world))
         CHECK(std::abs(p.y - kGap) < 0.05 * kGap);
     const auto end = world.positions();
@@ -90,7 +64,7 @@ TEST_CASE("a kinematic body that rises carries cloth")
     Scene scene = cloth_on_box();
     scene.bodies[0].kinematic.motion = {{0.5}, {2.5, {0, 1, 0}}};
     World world(scene, test_device("cpu:serial"));
-    CHECK(run(world, 90) == 0);
+    CHECK(test::crossed_in(world, 90) == 0);
     for (const glm::dvec3& p : cloth_of(world))
         CHECK(std::abs(p.y - (0.5 + kGap)) < 0.1 * kGap);
     CHECK(measure(world).status == Status::completed);
@@ -104,7 +78,7 @@ TEST_CASE("cloth turns with a kinematic body that turns, by friction alone")
         scene.contact.friction = friction;
         World world(scene, test_device("cpu:serial"));
         const glm::dvec3 before = cloth_of(world).front();
-        CHECK(run(world, 90) == 0);
+        CHECK(test::crossed_in(world, 90) == 0);
         const glm::dvec3 after = cloth_of(world).front();
         return std::remainder(std::atan2(before.z, before.x) - std::atan2(after.z, after.x),
                               glm::two_pi<double>());

@@ -1,0 +1,37 @@
+#pragma once
+// Sheets that meet, and what crosses while they do.
+
+#include "support/nearest.hpp"
+
+#include "taut/world/world.hpp"
+
+namespace taut::test {
+
+/// A square of cloth that lies level; `radius`: its thickness, m.
+inline Body level_sheet(std::uint32_t cells, double size, const glm::dvec3& centre, double radius)
+{
+    Body body;
+    body.shape.cells = {cells, cells};
+    body.shape.size = {size, size};
+    body.material.stretch_stiffness = 1000;
+    body.material.thickness = radius;
+    body.transform.rotate_axis = {1, 0, 0};
+    body.transform.rotate_degrees = -90;
+    body.transform.translate = centre;
+    return body;
+}
+
+/// Pairs of triangles that intersect after each of so many steps, added up.
+inline std::size_t crossed_in(World& world, int steps)
+{
+    const auto triangles = all_triangles(world.scene());
+    std::size_t crossed = 0;
+    for (int step = 0; step < steps; ++step)
+    {
+        world.step();
+        crossed += intersections(triangles, world.positions());
+    }
+    return crossed;
+}
+
+} // namespace taut::test
