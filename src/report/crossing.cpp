@@ -48,6 +48,14 @@ double square_apart(const glm::dvec3& low, const glm::dvec3& high, const glm::dv
     return glm::dot(gap, gap);
 }
 
+/// Whether a hole wider than `width` may be there: the smallest ball round a triangle has at most 1 / sqrt(3)
+/// of its longest edge.
+bool hole_may_pass(const TriangleCorners& t, double width)
+{
+    const glm::dvec3 a = t[1] - t[0], b = t[2] - t[1], c = t[0] - t[2];
+    return std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)}) > 2.999 * width * width;
+}
+
 /// The furthest that any point moved.
 double furthest(std::span<const glm::dvec3> before, std::span<const glm::dvec3> after)
 {
@@ -127,46 +135,51 @@ double CrossingWatch::Bounds::distance(const glm::dvec3& point) const
     return glm::length(glm::max(glm::max(low - point, point - high), glm::dvec3(0)));
 }
 
-CrossingWatch::Bounds CrossingWatch::bounds_of(const Part& part, std::span<const glm::dvec3> x) const
+CrossingWatch::Motion CrossingWatch::motion_of(const Part& part, const Moment& now) const
 {
-    Bounds out{x[part.first], x[part.first]};
-    for (const glm::dvec3& p : x.subspan(part.first, part.count))
+    Motion out;
+    Bounds& bounds = out.bounds;
+    bounds.low = bounds.high = now.x[part.first];
+    double speed = 0, way = 0; // squares
+    for (std::size_t i = part.first; i < part.first + part.count; ++i)
     {
-        out.low = glm::min(out.low, p);
-        out.high = glm::max(out.high, p);
-        out.finite = out.finite && finite(p);
+        const glm::dvec3 &x = now.x[i], &v = now.v[i];
+        bounds.low = glm::min(bounds.low, x);
+        bounds.high = glm::max(bounds.high, x);
+        bounds.finite = bounds.finite && finite(x);
+        speed = std::max(speed, glm::dot(v, v));
+        out.mean += v;
+        if (last_time_)
+            way = std::max(way, glm::dot(x - last_[i], x - last_[i]));
     }
+    out.mean /= static_cast<double>(part.count);
+    out.speed = std::sqrt(speed);
+    out.way = std::sqrt(way);
     return out;
 }
 
-/// The fastest that a vertex and the collider move towards or past each other.
-double CrossingWatch::speed_of(const Part& part, const Obstacle& obstacle, const Moment& now) const
+/// How fast each vertex and the collider move towards or past each other.
+void CrossingWatch::speeds_of(const Part& part, const Obstacle& obstacle, const Moment& now)
 {
     const double step = now.substep;
     const glm::dvec3 collider =
         (frame_at(obstacle.collider, now.time + step).centre - frame_at(obstacle.collider, now.time).centre) /
         step;
-    double square = 0;
-    for (std::size_t i = part.first; i < part.first + part.count; ++i)
-    {
-        const glm::dvec3 relative = now.v[i] - collider;
-        square = std::max(square, glm::dot(relative, relative));
-    }
-    return std::sqrt(square);
+    speeds_.resize(part.count);
+    for (std::size_t i = 0; i < part.count; ++i)
+        speeds_[i] = glm::length(now.v[part.first + i] - collider);
 }
 
 /// Half of how wide the collider is to a body that comes as its mean motion says.
-double CrossingWatch::width_of(const Part& part, const Obstacle& obstacle, const Moment& now) const
+double CrossingWatch::width_of(const Part& part, const Motion& motion, const Obstacle& obstacle,
+                               const Moment& now) const
 {
     const ColliderFrame frame = frame_at(obstacle.collider, now.time);
-    glm::dvec3 way(0);
-    for (std::size_t i = part.first; i < part.first + part.count; ++i)
-        way += now.v[i];
-    way = way / static_cast<double>(part.count) * now.substep;
+    glm::dvec3 way = motion.mean * now.substep;
     way -= frame_at(obstacle.collider, now.time + now.substep).centre - frame.centre;
     const double length = glm::length(way);
-    return width_across(obstacle.shape,
-                        length > 0 ? frame.inside(frame.centre + way) / length : glm::dvec3(0));
+    const glm::dvec3 along = length > 0 ? frame.inside(frame.centre + way) / length : glm::dvec3(0);
+    return width_across(obstacle.shape, along) + part.gap;
 }
 
 void CrossingWatch::note(std::vector<Crossing>& list, bool& noted, const Part& part, const Obstacle& obstacle,
@@ -186,101 +199,130 @@ void CrossingWatch::look(std::uint64_t frame, double time, double substep,
     clear_ = std::numeric_limits<double>::infinity();
     elements_ = 0;
     for (std::size_t p = 0; p < parts_.size(); ++p)
-        for (std::size_t o = 0; o < obstacles_.size(); ++o)
-            if (!parts_[p].elements.empty())
-                look_at(parts_[p], obstacles_[o], pairs_[p * obstacles_.size() + o], now);
+    {
+        Part& part = parts_[p];
+        if (part.elements.empty())
+            continue;
+        const Motion motion = motion_of(part, now);
+        for (std::size_t o = 0; o < obstacles_.size() && motion.bounds.finite; ++o)
+            look_at(part, motion, obstacles_[o], pairs_[p * obstacles_.size() + o], now);
+        part.last = motion.bounds;
+    }
     found_.elements = std::max(found_.elements, elements_);
     last_.assign(positions.begin(), positions.end());
     last_time_ = time;
     first_ = false;
 }
 
-void CrossingWatch::look_at(const Part& part, const Obstacle& obstacle, Pair& pair, const Moment& now)
+void CrossingWatch::look_at(const Part& part, const Motion& motion, const Obstacle& obstacle, Pair& pair,
+                            const Moment& now)
 {
-    const Bounds bounds = bounds_of(part, now.x);
-    if (!bounds.finite)
-        return;
-    const double speed = speed_of(part, obstacle, now);
+    const Bounds& bounds = motion.bounds;
     const glm::dvec3 centre = frame_at(obstacle.collider, now.time).centre;
     double distance = bounds.distance(centre) - obstacle.shape.reach;
     const double away = distance;
     if (last_time_)
     {
         // What swept past in between lies within the bounds of both moments, as the collider sees them.
-        const Bounds before = bounds_of(part, last_);
         const glm::dvec3 was = frame_at(obstacle.collider, *last_time_).centre;
-        const Bounds both{glm::min(bounds.low - centre, before.low - was),
-                          glm::max(bounds.high - centre, before.high - was)};
+        const Bounds both{glm::min(bounds.low - centre, part.last.low - was),
+                          glm::max(bounds.high - centre, part.last.high - was)};
         distance = std::min(distance, both.distance(glm::dvec3(0)) - obstacle.shape.reach);
     }
-    if (distance <= speed * timestep_)
-        look_closely(part, obstacle, pair, now, speed);
-    else
+    double speed = motion.speed;
+    if (!obstacle.collider.motion.empty())
     {
-        pair.inside = false;
-        clear_ = std::min(clear_, time_over(away, speed + part.led_speed + obstacle.led_speed, gravity_));
+        speeds_of(part, obstacle, now);
+        speed = *std::max_element(speeds_.begin(), speeds_.end());
     }
+    if (distance <= speed * timestep_)
+        return look_closely(part, motion, obstacle, pair, now);
+    pair.inside = false;
+    clear_ = std::min(clear_, time_over(away, speed + part.led_speed + obstacle.led_speed, gravity_));
 }
 
-void CrossingWatch::look_closely(const Part& part, const Obstacle& obstacle, Pair& pair, const Moment& now,
-                                 double speed)
+void CrossingWatch::look_closely(const Part& part, const Motion& motion, const Obstacle& obstacle, Pair& pair,
+                                 const Moment& now)
 {
-    const SolidShape& shape = obstacle.shape;
-    const auto into_frame = [&](std::span<const glm::dvec3> x, double time, std::vector<glm::dvec3>& out) {
-        const ColliderFrame frame = frame_at(obstacle.collider, time);
-        out.resize(part.count);
-        for (std::size_t i = 0; i < part.count; ++i)
-            out[i] = frame.inside(x[part.first + i]);
-    };
-    into_frame(now.x, now.time, after_);
-    if (last_time_)
-        into_frame(last_, *last_time_, before_);
-
-    const glm::dvec3 middle = shape.radius > 0 ? shape.half : shape.half - shape.size;
-    // Squares of distances: most elements are far from everything, and need no root.
-    double nearest = std::numeric_limits<double>::infinity(); // of a surface to the middle, at least
-    std::uint64_t deep = 0;
-    bool fits = false;
-    const double width = kTunnelHole * (width_of(part, obstacle, now) + part.gap);
-    const double reach = shape.radius + speed * timestep_; // of what may arrive within a frame
-    for (const auto& e : part.elements)
-    {
-        const TriangleCorners now_at{after_[e[0] - part.first], after_[e[1] - part.first],
-                                     after_[e[2] - part.first]};
-        const glm::dvec3 low = glm::min(glm::min(now_at[0], now_at[1]), now_at[2]);
-        const glm::dvec3 high = glm::max(glm::max(now_at[0], now_at[1]), now_at[2]);
-        nearest = std::min(nearest, square_apart(low, high, middle));
-        const double distance = square_apart(low, high, shape.half);
-        if (distance > reach * reach)
-            continue;
-        fits = fits || hole_of(now_at) > width;
-        if (distance <= 0.25 * shape.radius * shape.radius && lies_deep(shape, now_at, part.edge))
-        {
-            ++deep;
-            if (!pair.inside && !first_)
-                found_.depth = std::max(found_.depth, depth_of(shape, now_at));
-        }
-    }
-    nearest = std::sqrt(nearest);
-    pair.inside = deep > 0 && (pair.inside || first_);
-    const bool through = last_time_ && !pair.inside &&
-                         nearest <= furthest(before_, after_) + 0.5 * shape.size &&
-                         went_through(part, obstacle);
-    if (deep > 0 && !pair.inside)
-        elements_ += deep;
+    speeds_of(part, obstacle, now);
+    const double speed = *std::max_element(speeds_.begin(), speeds_.end());
+    into_frame(part, obstacle, now.x, now.time, after_);
+    const Scan seen = scan(part, obstacle, pair, speed, kTunnelHole * width_of(part, motion, obstacle, now));
+    pair.inside = seen.deep > 0 && (pair.inside || first_);
+    const bool through = last_time_ && !pair.inside && went_through(part, motion, obstacle, seen.nearest);
+    if (!pair.inside)
+        elements_ += seen.deep;
     found_.passed += through;
-    if (through || (deep > 0 && !pair.inside))
+    if (through || (seen.deep > 0 && !pair.inside))
         note(found_.seen, pair.seen, part, obstacle, now, through);
-    if (fits || speed * now.substep > kTunnelTravel * shape.size)
+    if (seen.fits || speed * now.substep > kTunnelTravel * obstacle.shape.size)
     {
         ++found_.may_tunnel;
         note(found_.likely, pair.likely, part, obstacle, now, false);
     }
-    clear_ = std::min(clear_, time_over(nearest, speed + part.led_speed + obstacle.led_speed, gravity_));
+    clear_ = std::min(clear_, seen.clear);
 }
 
-bool CrossingWatch::went_through(const Part& part, const Obstacle& obstacle) const
+void CrossingWatch::into_frame(const Part& part, const Obstacle& obstacle, std::span<const glm::dvec3> x,
+                               double time, std::vector<glm::dvec3>& out)
 {
+    const ColliderFrame frame = frame_at(obstacle.collider, time);
+    out.resize(part.count);
+    for (std::size_t i = 0; i < part.count; ++i)
+        out[i] = frame.inside(x[part.first + i]);
+}
+
+/// Squares of distances throughout: most elements are far from everything, and need no root.
+CrossingWatch::Scan CrossingWatch::scan(const Part& part, const Obstacle& obstacle, const Pair& pair,
+                                        double speed, double width)
+{
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const SolidShape& shape = obstacle.shape;
+    const glm::dvec3 middle = shape.radius > 0 ? shape.half : shape.half - shape.size;
+    const double led = part.led_speed + obstacle.led_speed;
+    const double reach = shape.radius + speed * timestep_; // of what may arrive within a frame
+    // Beyond it of the middle an element is beyond `reach` of the box.
+    const double far = reach + glm::length(shape.half - middle);
+    Scan out{infinite, infinite};
+    for (const auto& e : part.elements)
+    {
+        const std::size_t k[] = {e[0] - part.first, e[1] - part.first, e[2] - part.first};
+        const TriangleCorners at{after_[k[0]], after_[k[1]], after_[k[2]]};
+        const glm::dvec3 low = glm::min(glm::min(at[0], at[1]), at[2]);
+        const glm::dvec3 high = glm::max(glm::max(at[0], at[1]), at[2]);
+        const double apart = square_apart(low, high, middle);
+        out.nearest = std::min(out.nearest, apart);
+        // Neighbours pull: a quarter of the body's speed at least.
+        const double own = std::max({0.25 * speed, speeds_[k[0]], speeds_[k[1]], speeds_[k[2]]}) + led;
+        const double way = 2 * (own + 0.5 * gravity_ * out.clear) * out.clear;
+        if (apart < way * way || out.clear == infinite)
+            out.clear = std::min(out.clear, time_over(std::sqrt(apart), own, gravity_));
+        if (apart > far * far)
+            continue;
+        const double distance = square_apart(low, high, shape.half);
+        if (distance > reach * reach)
+            continue;
+        out.fits = out.fits || (hole_may_pass(at, width) && hole_of(at) > width);
+        if (distance > 0.25 * shape.radius * shape.radius || !lies_deep(shape, at, part.edge))
+            continue;
+        ++out.deep;
+        if (!pair.inside && !first_)
+            found_.depth = std::max(found_.depth, depth_of(shape, at));
+    }
+    out.nearest = std::sqrt(out.nearest);
+    return out;
+}
+
+bool CrossingWatch::went_through(const Part& part, const Motion& motion, const Obstacle& obstacle,
+                                 double nearest)
+{
+    const double size = 0.5 * obstacle.shape.size;
+    // A collider that stands sees the ways as they are, so most looks end here.
+    if (obstacle.collider.motion.empty() && nearest > motion.way + size)
+        return false;
+    into_frame(part, obstacle, last_, *last_time_, before_);
+    if (nearest > furthest(before_, after_) + size)
+        return false;
     const std::vector<glm::dvec3> middle = middle_points(obstacle.shape, part.edge);
     glm::dvec3 low = middle.front(), high = low;
     for (const glm::dvec3& p : middle)
@@ -288,7 +330,7 @@ bool CrossingWatch::went_through(const Part& part, const Obstacle& obstacle) con
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    const glm::dvec3 disc(0.5 * obstacle.shape.size); // what links find where the middle is a point
+    const glm::dvec3 disc(size); // what links find where the middle is a point
     for (const auto& e : part.elements)
     {
         const bool link = e[1] == e[2];

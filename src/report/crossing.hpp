@@ -55,9 +55,9 @@ public:
     void look(std::uint64_t frame, double time, double substep, std::span<const glm::dvec3> positions,
               std::span<const glm::dvec3> velocities);
 
-    /// s from the last look, until which no surface reaches the middle of a collider if it does not speed up
-    /// to more than twice what its speed, gravity and led vertices make: when to look again. Infinite
-    /// without colliders.
+    /// s from the last look, until which no element reaches the middle of a collider if it does not speed up
+    /// to more than twice what its speed (a quarter of its body's at least), gravity and led vertices make:
+    /// when to look again. Infinite without colliders.
     double clear_for() const { return clear_; }
 
     /// Whether there is anything to look at.
@@ -66,14 +66,28 @@ public:
     const Crossings& found() const { return found_; }
 
 private:
+    struct Bounds
+    {
+        glm::dvec3 low{0}, high{0};
+        bool finite = true;
+        double distance(const glm::dvec3& point) const;
+    };
     struct Part /// a body
     {
         std::string name;
-        std::size_t first = 0, count = 0;   ///< vertices, scene-wide
+        std::size_t first = 0, count = 0;                   ///< vertices, scene-wide
         std::vector<std::array<std::uint32_t, 3>> elements; ///< scene-wide; links have a corner twice
-        double edge = 0;                    ///< m, longest at rest
-        double gap = 0;                     ///< m
-        double led_speed = 0;               ///< m/s, the most of its pins
+        double edge = 0;                                    ///< m, longest at rest
+        double gap = 0;                                     ///< m
+        double led_speed = 0;                               ///< m/s, the most of its pins
+        Bounds last;                                        ///< at the last look
+    };
+    struct Motion /// of a body at a look
+    {
+        Bounds bounds;
+        double speed = 0;   ///< m/s, the fastest vertex
+        glm::dvec3 mean{0}; ///< m/s
+        double way = 0;     ///< m, the furthest that a vertex moved since the last look
     };
     struct Obstacle /// a collider that has an inside
     {
@@ -84,14 +98,15 @@ private:
     };
     struct Pair
     {
-        bool inside = false;  ///< since the start of the run
+        bool inside = false; ///< since the start of the run
         bool seen = false, likely = false;
     };
-    struct Bounds
+    struct Scan /// what one sweep over the elements of a body finds
     {
-        glm::dvec3 low{0}, high{0};
-        bool finite = true;
-        double distance(const glm::dvec3& point) const;
+        double nearest = 0; ///< m, of an element to the middle, at least
+        double clear = 0;   ///< s, as clear_for()
+        std::uint64_t deep = 0;
+        bool fits = false; ///< the collider through a hole near it
     };
     struct Moment
     {
@@ -100,13 +115,18 @@ private:
         std::span<const glm::dvec3> x, v;
     };
 
-    Bounds bounds_of(const Part& part, std::span<const glm::dvec3> x) const;
-    void look_at(const Part& part, const Obstacle& obstacle, Pair& pair, const Moment& now);
-    void look_closely(const Part& part, const Obstacle& obstacle, Pair& pair, const Moment& now,
-                      double speed);
-    bool went_through(const Part& part, const Obstacle& obstacle) const;
-    double speed_of(const Part& part, const Obstacle& obstacle, const Moment& now) const;
-    double width_of(const Part& part, const Obstacle& obstacle, const Moment& now) const;
+    Motion motion_of(const Part& part, const Moment& now) const;
+    void look_at(const Part& part, const Motion& motion, const Obstacle& obstacle, Pair& pair,
+                 const Moment& now);
+    void look_closely(const Part& part, const Motion& motion, const Obstacle& obstacle, Pair& pair,
+                      const Moment& now);
+    Scan scan(const Part& part, const Obstacle& obstacle, const Pair& pair, double speed, double width);
+    bool went_through(const Part& part, const Motion& motion, const Obstacle& obstacle, double nearest);
+    static void into_frame(const Part& part, const Obstacle& obstacle, std::span<const glm::dvec3> x,
+                           double time, std::vector<glm::dvec3>& out);
+    void speeds_of(const Part& part, const Obstacle& obstacle, const Moment& now);
+    double width_of(const Part& part, const Motion& motion, const Obstacle& obstacle,
+                    const Moment& now) const;
     void note(std::vector<Crossing>& list, bool& noted, const Part& part, const Obstacle& obstacle,
               const Moment& now, bool through) const;
 
@@ -116,8 +136,9 @@ private:
     double gravity_ = 0, timestep_ = 0;
     std::vector<glm::dvec3> last_; ///< positions at the last look
     std::optional<double> last_time_;
-    bool first_ = true; ///< no look so far
+    bool first_ = true;                      ///< no look so far
     std::vector<glm::dvec3> before_, after_; ///< of one body in the frame of a collider
+    std::vector<double> speeds_;             ///< m/s, of its vertices relative to the collider
     double clear_ = 0;
     std::uint64_t elements_ = 0; ///< deep at this look
     Crossings found_;
