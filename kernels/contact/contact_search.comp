@@ -16,7 +16,8 @@
 // Based on: Curtis, Tamstorf, Manocha. Fast Collision Detection for Deformable Models using Representative-
 //   Triangles. I3D 2008 (every vertex and edge belongs to one triangle); Smits. Efficiency Issues for Ray
 //   Tracing. Journal of Graphics Tools 3(2), 1998 (a tree walked without a stack).
-// Departures: in the full binary tree the next node to visit is in the number of the last one.
+// Departures: in the full binary tree the next node to visit is in the number of the last one. FILL walks no
+//   further than the pairs that were counted: not at all where there are none.
 // Bytes per triangle: 20 + 32 a node visited, 20 + 96 a triangle compared; FILL 20 a pair written (float).
 //! variant fill FILL=1
 //! variant guarded GUARD=1
@@ -46,7 +47,7 @@ READ(2, rvec4, delta);
 READ(3, rvec4, node); // two a node: least and greatest coordinates, m
 READ(4, ContactBody, body);
 #if FILL
-READ(5, uint, start); // pairs found before those of each triangle
+READ(5, uint, start); // pairs found before those of each triangle, and of all
 WRITE(6, ContactPair, pair);
 #else
 WRITE(5, uint, found);    // pairs of each triangle
@@ -238,15 +239,17 @@ KERNEL(count)
     rvec4 most = node[2u * (leaves + i) + 1u] + margin;
 #if FILL
     uint first = start[i];
+    uint last = start[i + 1u];
 #else
     uint first = 0u;
+    uint last = 0xffffffffu; // as many as there are
 #endif
     uint at = first;
     uint tests = 0u;
     uint trips = 0u;
     uint k = 1u;
     bool more = true;
-    while (more && trips < TAUT_CONTACT_TRIPS)
+    while (more && at < last && trips < TAUT_CONTACT_TRIPS)
     {
         rvec4 l = node[2u * k];
         rvec4 h = node[2u * k + 1u];

@@ -188,7 +188,7 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     count.found = {c.found};
     count.compared = {c.compared};
     count.lost = {c.lost, 0};
-    fill.start = {c.start};
+    fill.start = {c.start, 2};
     fill.pair = {c.pair};
     const kernels::contact_search::Bindings<Use>::Params how = {
         n, c.leaves, bodies_meet(b.scene), c.every, c.skin, c.reach, c.capacity};
