@@ -117,12 +117,8 @@ void check_contact(const Scene& scene)
                         methods_with(&Method::contact));
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     {
-        if (!takes_part(scene, scene.bodies[k]))
-            continue;
-        if (!scene.bodies[k].mesh.tetrahedra.empty())
-            throw Error(ErrorCode::unsupported, asked_by(scene) + ", but " + at_body(k) +
-                                                    " is a solid, and only cloth can meet cloth so far");
-        check_radius(scene, k);
+        if (takes_part(scene, scene.bodies[k]))
+            check_radius(scene, k);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "taut/kernels/momentum_turn.hpp"
 #include "taut/kernels/vbd_mark.hpp"
 #include "taut/plan/body_parts.hpp"
+#include "taut/plan/contact_scene.hpp"
 
 #include "taut/kernels/shared/body_parts.h"
 
@@ -26,11 +27,13 @@ struct MomentumBuffers
 namespace {
 
 /// Cloth is left out: a sweep over its springs costs less than the sums, and little of it flies freely. Among
-/// colliders, so are bodies that start in shape: docs/effects/momentum.md, "Scenes with colliders".
+/// colliders, so are bodies that start in shape: docs/effects/momentum.md, "Scenes with colliders". What
+/// meets other bodies is turned by them.
 bool turns_freely(const Scene& scene, const Body& body)
 {
     const bool among_colliders = method_of(scene) == MethodKind::xpbd && !body.start_positions.empty();
     return !body.mesh.tetrahedra.empty() && (scene.colliders.empty() || among_colliders) &&
+           !takes_part(scene, body) &&
            std::all_of(body.pins.begin(), body.pins.end(), [](const Pin& p) { return p.vertices.empty(); });
 }
 

@@ -102,6 +102,27 @@ inline Scene guarded()
     return scene;
 }
 
+/// A block that is thrown onto a held bar and a cloth beneath both.
+inline Scene solids_meet()
+{
+    Scene scene = bar();
+    Body block = bar().bodies[0], below = cloth("below", 6);
+    block.name = "block";
+    block.pins.clear();
+    block.shape.box_cells = {2, 2, 2};
+    block.shape.box_size = {0.25, 0.25, 0.25};
+    block.transform.translate = {0.25, 0.375, 0.0625};
+    block.velocity = {0.5, -4, 0};
+    below.transform.translate = {0, -0.25, 0};
+    scene.bodies.insert(scene.bodies.end(), {block, below});
+    for (Body& body : scene.bodies)
+        body.material.thickness = 0.01;
+    scene.contact.between = true;
+    scene.contact.friction = 0.25;
+    scene.method.substeps = 8;
+    return scene;
+}
+
 /// A weak cloth, held at its top, tears under a heavy row at its end.
 inline Scene tear()
 {
@@ -133,6 +154,7 @@ inline std::map<std::string, Scene> scenes()
                                            {"tear", tear()},
                                            {"contact", contact()},
                                            {"guarded", guarded()},
+                                           {"solids_meet", solids_meet()},
                                            {"jelly", jelly("xpbd", "tetrahedra")},
                                            {"hanging", hanging()},
                                            {"drape", drape()},
