@@ -1,5 +1,6 @@
-// The last word on where a vertex goes in a substep: where it is asked to, its way is cut so that it keeps
-// the room that each of its pairs left it, and stays near its forecast. One invocation per vertex.
+// The last word on where a vertex goes in a substep: where it is asked to, or would leave its bound, its way
+// is cut so that it keeps the room that each of its pairs left it, and stays near its forecast. One
+// invocation per vertex.
 //
 //   slide: d += s n (need - s n . d) where s n . d < need, three rounds in the order of the pairs;
 //   scale: d *= min (-need / (-s n . d));   then within the bound about its forecast, by halving;
@@ -123,12 +124,14 @@ KERNEL(count)
     rvec3 from = rvec3(about);
     rvec3 whole = rvec3(wanted) - rest;
     rvec3 way = whole;
+    // As guarantee_begin asks: a vertex of no pair is in no round that would pass that on.
+    bool leaves = !(about.w >= real(0) && beyond_forecast(from + whole, forecast) <= about.w);
     if (about.w < real(-1.5))
     {
         bool strays = !(beyond_forecast(from + whole, forecast) <= (real(-2) - about.w) * REAL(1.0001));
         COUNT_EVENT_IF(strays, lost, TAUT_CONTACT_PINCHED);
     }
-    else if (asked[i] > 0u || asked[count] > 0u)
+    else if (asked[i] > 0u || asked[count] > 0u || leaves)
     {
         uint first = start[i];
         bool parted = about.w >= real(0);

@@ -1,6 +1,5 @@
 #include "taut/plan/contact_scene.hpp"
 
-#include "taut/plan/methods.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/scene/pose.hpp"
@@ -17,17 +16,6 @@ constexpr double kThinnest = 64 * 0x1p-24;
 bool has_surface(const Body& body) { return !body.mesh.triangles.empty(); }
 
 std::string at_body(std::size_t k) { return "bodies[" + std::to_string(k) + "]"; }
-
-/// The key that asks for contact.
-std::string asked_by(const Scene& scene)
-{
-    if (bodies_meet(scene))
-        return "contact.between is true";
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-        if (scene.bodies[k].contact.self)
-            return at_body(k) + ".contact.self is true";
-    return {};
-}
 
 void check_guarantee(const Scene& scene)
 {
@@ -108,18 +96,9 @@ bool wants_guarantee(const Scene& scene)
 void check_contact(const Scene& scene)
 {
     check_guarantee(scene);
-    if (!wants_contact(scene))
-        return;
-    if (!find_method(method_of(scene)).contact)
-        throw Error(ErrorCode::unsupported,
-                    asked_by(scene) + ", but under method \"" + scene.method.type +
-                        "\" surfaces do not meet; leave it out, or take a method of " +
-                        methods_with(&Method::contact));
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    {
         if (takes_part(scene, scene.bodies[k]))
             check_radius(scene, k);
-    }
 }
 
 } // namespace taut

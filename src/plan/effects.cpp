@@ -168,6 +168,9 @@ constexpr Effect kEffectsBefore[] = {
      prepare_force_kick, record_force_kick, kMassSpring | kConstraints | kAcad},
     {"motion", Stage::predict, has_bodies, prepare_motion, record_predict},
     {"pin_motion", Stage::hold, wants_pin_motion, prepare_pin_motion, record_pin_motion},
+    // Both go by the inertial guess, which a method's own start takes back.
+    {"contact", Stage::start, wants_contact, prepare_contact, record_contact_search},
+    {"guarantee", Stage::start, wants_guarantee, prepare_guarantee, record_guarantee_anchor},
     {"vbd_start", Stage::start, any_blocks, prepare_vbd, record_vbd_start, kVbd},
     {"vbd_solve", Stage::solve, any_blocks, nullptr, record_vbd_solve, kVbd},
     {"momentum", Stage::solve, wants_momentum, prepare_momentum, record_momentum_start, kSweeps},
@@ -207,16 +210,13 @@ constexpr Effect kEffectsBefore[] = {
     {"attachment", Stage::contact, wants_attachment, prepare_attachment, record_attachment},
     {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
     {"momentum", Stage::contact, wants_momentum, prepare_momentum, record_momentum_end, kDescents},
-    {"contact", Stage::start, wants_contact, prepare_contact, record_contact_search, only(MethodKind::xpbd)},
-    {"guarantee", Stage::start, wants_guarantee, prepare_guarantee, record_guarantee_anchor,
-     only(MethodKind::xpbd)},
-    {"contact", Stage::contact, wants_contact, nullptr, record_contact, only(MethodKind::xpbd)},
+    {"contact", Stage::contact, wants_contact, nullptr, record_contact},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
 };
 
 /// After the colliders.
 constexpr Effect kEffectsAfter[] = {
-    {"guarantee", Stage::finish, wants_guarantee, nullptr, record_guarantee, only(MethodKind::xpbd)},
+    {"guarantee", Stage::finish, wants_guarantee, nullptr, record_guarantee},
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
     {"plasticity", Stage::after, wants_plasticity, prepare_plasticity, record_plasticity,
      kMassSpring | only(MethodKind::xpbd) | only(MethodKind::implicit_euler) | kVbd},

@@ -38,8 +38,7 @@ constexpr Method kMethods[] = {
     {.kind = MethodKind::xpbd,
      .contact_each_iteration = true,
      .volumes = true,
-     .elastic = true,
-     .contact = true},
+     .elastic = true},
     {.kind = MethodKind::vbd, .keeps_guess = true, .check = check_vbd, .volumes = true, .elastic = true},
 };
 

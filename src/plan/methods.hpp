@@ -34,7 +34,6 @@ struct Method
     bool volumes = false;        ///< can hold volumes of tetrahedra
     bool elastic = false;        ///< can move neo-Hookean tetrahedra
     bool surface_volume = false; ///< can hold the volume within a closed surface
-    bool contact = false;        ///< surfaces can meet (contact.hpp)
     /// Substeps that the method takes; null: as the scene says. Throws Error{unstable_timestep}.
     Substeps (*substeps)(const Scene& resolved) = nullptr;
 };

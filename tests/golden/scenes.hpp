@@ -102,6 +102,15 @@ inline Scene guarded()
     return scene;
 }
 
+/// The same under another method.
+inline Scene guarded_by(const std::string& method)
+{
+    Scene scene = guarded();
+    scene.method.type = method;
+    scene.method.stability = "substep";
+    return scene;
+}
+
 /// A block that is thrown onto a held bar and a cloth beneath both.
 inline Scene solids_meet()
 {
@@ -154,6 +163,12 @@ inline std::map<std::string, Scene> scenes()
                                            {"tear", tear()},
                                            {"contact", contact()},
                                            {"guarded", guarded()},
+                                           {"guarded_pbd", guarded_by("pbd")},
+                                           {"guarded_vbd", guarded_by("vbd")},
+                                           {"guarded_implicit_euler", guarded_by("implicit_euler")},
+                                           {"guarded_mass_spring", guarded_by("mass_spring")},
+                                           {"guarded_implicit_constraints",
+                                            guarded_by("implicit_constraints")},
                                            {"solids_meet", solids_meet()},
                                            {"jelly", jelly("xpbd", "tetrahedra")},
                                            {"hanging", hanging()},
