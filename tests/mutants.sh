@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Breaks one kernel or one decision of the host at a time and writes down which tests notice.
 #   tests/mutants.sh [--kernels GLOB] [--kinds LIST] [--suites LIST] [--sample N] [--budget SECONDS]
-#                    [--limit SECONDS] [--out FILE] [--again] [--survivors] [--report]
+#                    [--first TESTS] [--limit SECONDS] [--out FILE] [--again] [--survivors] [--report]
 # --kernels: 'vbd_*'. --kinds: of nothing,sign,drop,host (all). --suites: of
 # conformance,unit,physics,golden,hard (all), in this order. --sample: every Nth mutant only. --budget: no new
 # mutant after so long. --limit: of one run of one suite, 1,800 s; a suite that takes longer has noticed.
@@ -20,12 +20,13 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build=${TAUT_BUILD:-$root/build/release}
 kernels='*' kinds=nothing,sign,drop,host suites=conformance,unit,physics,golden,hard
-sample=1 budget=1000000 limit=1800 out=$root/tests/mutants.csv again="" survivors="" report=""
+sample=1 budget=1000000 limit=1800 first="" out=$root/tests/mutants.csv again="" survivors="" report=""
 while [ $# -gt 0 ]; do
     case $1 in
     --again | --survivors | --report) declare "${1#--}=1" && shift ;;
-    --kernels | --kinds | --suites | --sample | --budget | --limit | --out) declare "${1#--}=$2" && shift 2 ;;
-    *) sed -n '2,17p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
+    --kernels | --kinds | --suites | --sample | --budget | --first | --limit | --out)
+        declare "${1#--}=$2" && shift 2 ;;
+    *) sed -n '2,18p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
     esac
 done
 [ -z "$again" ] || [ -z "$survivors" ] || {
@@ -40,7 +41,7 @@ head=mutant,kind,what,conformance,unit,physics,golden,hard
 # program_of SUITE: the test programs of a suite.
 programs_of() {
     case $1 in
-    unit) echo test_base test_runtime test_scene test_plan test_linear test_world test_report ;;
+    unit) echo test_base test_runtime test_scene test_plan test_linear test_judge test_world test_report ;;
     hard) echo test_linear_hard test_hard ;;
     *) echo "test_$1" ;;
     esac
@@ -179,14 +180,17 @@ make_host() {
     pairs=("$object" "$work/host.o")
 }
 
-# passes SUITE PROGRAM: with what it prints in a log. Status 77 is "passed, and left something out".
+# passes SUITE PROGRAM [TESTS]: with what it prints in a log. Status 77 is "passed, and left something out".
 passes() {
     local log=$work/${2##*/}.log status=0
     [ "$1" != hard ] || local -x TAUT_HARD_SHORT=1 TAUT_MAP_FIRST=1
     TAUT_TEST_DEVICES=cpu:serial TAUT_PIPELINE_CACHE=off TAUT_DEVICE_COSTS=off timeout "$limit" nice \
-        "$2" --abort > "$log" 2>&1 || status=$?
+        "$2" --abort --filenames-as-tags "${@:3}" > "$log" 2>&1 || status=$?
     [ $status -eq 0 ] || [ $status -eq 77 ]
 }
+
+# has_tests PROGRAM TESTS: of a name that nothing has Catch2 makes a failure.
+has_tests() { "$1" --filenames-as-tags --list-tests --verbosity quiet "$2" 2> /dev/null | grep -q .; }
 
 # run_suite SUITE: "killed" or "lives".
 run_suite() {
@@ -195,6 +199,9 @@ run_suite() {
         linked=0
         link "$program" "$work/$program" "${pairs[@]}" || linked=$?
         [ $linked -ne 3 ] || continue
+        if [ -n "$first" ] && has_tests "$work/$program" "$first"; then
+            passes "$1" "$work/$program" "$first" || { echo killed; return; }
+        fi
         passes "$1" "$work/$program" || { echo killed; return; }
     done
     echo lives
