@@ -91,7 +91,7 @@ Rows rows_of(SolidTetrahedron t, Deformation f, rvec3 c0, rvec3 c1, rvec3 c2)
     return o;
 }
 
-void project(ELEMENT k)
+INLINE void project(ELEMENT k)
 {
     SolidTetrahedron t = constraint[k];
     rvec4 p0 = position[t.a];

@@ -26,7 +26,7 @@ READ(3, uint, table);          // as in xpbd.comp
 UPDATE(2, rvec4, delta);
 #endif
 
-void project(ELEMENT k)
+INLINE void project(ELEMENT k)
 {
     DistanceConstraint c = constraint[k];
     rvec4 xa = position[c.a];

@@ -1,7 +1,7 @@
 #pragma once
 // Buffers as a kernel with lanes sees them: loads gather, stores scatter.
 
-#include "taut/runtime/cpu/lanes.hpp"
+#include "taut/runtime/cpu/lane_forms.hpp"
 
 #include <type_traits>
 #include <utility>
@@ -14,13 +14,36 @@ struct Index
 {
     uint first;
     uint count = kLanes;
+    Form form = Form::any;      ///< of what the elements index with; others than `any` for whole blocks only
+    Lookout* lookout = nullptr; ///< if there is one, nothing is stored: it sees what would be indexed with
+
+    // Copied member by member: GCC leaves copies of whole structures in memory.
+    Index() = default;
+    TAUT_LANE explicit Index(uint f, uint n = kLanes, Form form_of_indices = Form::any, Lookout* l = nullptr)
+        : first(f),
+          count(n),
+          form(form_of_indices),
+          lookout(l)
+    {}
+    TAUT_LANE Index(const Index& other) : Index(other.first, other.count, other.form, other.lookout) {}
 
     /// How many records lie between the first element's and this one's.
     TAUT_LANE std::size_t behind(uint element) const { return element < count ? element : count - 1; }
 };
 
-TAUT_LANE Index operator+(uint a, Index b) { return {a + b.first, b.count}; }
-TAUT_LANE Index operator+(Index a, uint b) { return b + a; }
+/// What kernels know as ELEMENT: an Index whose form is part of its type, so that every function that takes
+/// one is compiled for that form alone.
+template <Form form, bool looks = false>
+struct Element
+{
+    uint first;
+    uint count = kLanes;
+    Lookout* lookout = nullptr;
+
+    TAUT_LANE operator Index() const { return Index(first, count, form, looks ? lookout : nullptr); }
+    TAUT_LANE friend Element operator+(uint a, Element b) { return {a + b.first, b.count, b.lookout}; }
+    TAUT_LANE friend Element operator+(Element a, uint b) { return b + a; }
+};
 
 /// factor * element + offset for the elements of a block: one of several places that each element has.
 struct Steps
@@ -30,7 +53,11 @@ struct Steps
     uint offset = 0;
 };
 
-TAUT_LANE Steps operator*(uint factor, Index where) { return {where, factor}; }
+template <Form form, bool looks>
+TAUT_LANE Steps operator*(uint factor, Element<form, looks> where)
+{
+    return {where, factor};
+}
 TAUT_LANE Steps operator+(Steps a, uint b) { return {a.where, a.factor, a.offset + b}; }
 
 /// A number per element that a read-only buffer holds, to index with. It stays where it is until it is
@@ -40,6 +67,16 @@ struct Uint
     const std::byte* first; ///< of the block's first element
     std::size_t stride;
     Index where;
+    Real bits; ///< the numbers themselves, for those who want all at once
+
+    Uint() = default;
+    TAUT_LANE Uint(const std::byte* f, std::size_t s, Index w, Real b)
+        : first(f),
+          stride(s),
+          where(w),
+          bits(b)
+    {}
+    TAUT_LANE Uint(const Uint& other) : Uint(other.first, other.stride, other.where, other.bits) {}
 
     TAUT_LANE uint operator[](uint element) const
     {
@@ -71,17 +108,35 @@ struct Neighbours
 
 struct Scattered
 {
-    std::byte* base;
+    std::byte* base; ///< of element 0's record, where the block has a form
     std::size_t stride;
     Uint where;
 
-    TAUT_LANE Scattered(const std::byte* b, Uint index, std::size_t bytes)
-        : base(const_cast<std::byte*>(b)),
+    TAUT_LANE Scattered(const std::byte* b, const Uint& index, std::size_t bytes)
+        : base(const_cast<std::byte*>(b) + (index.where.form == Form::any ? 0 : index[0] * bytes)),
           stride(bytes),
           where(index)
     {}
-    TAUT_LANE std::byte* operator[](uint element) const { return base + where[element] * stride; }
+    TAUT_LANE std::byte* operator[](uint element) const
+    {
+        const Form form = where.where.form;
+        return base + (form == Form::any ? where[element] : behind_first(form, element)) * stride;
+    }
 };
+
+/// Whether elements 2r and 2r + 1 of a block reach neighbours: true of all forms.
+TAUT_LANE bool in_pairs(const Uint& where) { return where.where.form != Form::any; }
+
+/// Tells the block's lookout, if it has one. True: nothing may be stored.
+TAUT_LANE bool only_looks(const Uint& where)
+{
+    if (!where.where.lookout)
+        return false;
+    where.where.lookout->see(_mm256_castps_si256(where.bits.v), where.first);
+    return true;
+}
+TAUT_LANE bool only_looks(Index where) { return where.lookout != nullptr; }
+TAUT_LANE bool only_looks(const Steps& where) { return only_looks(where.where); }
 
 /// Base of the records of a kernel (LAYOUT_STRUCT): what `uint` is inside of them.
 struct RecordTypes
@@ -130,15 +185,25 @@ TAUT_LANE void store_real(const Records& at, Real value)
 
 TAUT_LANE Rows rows_at(const std::byte* base, const Uint& where)
 {
-    return load_rows(Scattered(base, where, 16));
+    only_looks(where);
+    const Scattered at(base, where, 16);
+    if (!in_pairs(where))
+        return load_rows(at);
+    return {{_mm256_loadu_ps(floats(at[0])), _mm256_loadu_ps(floats(at[2])), _mm256_loadu_ps(floats(at[4])),
+             _mm256_loadu_ps(floats(at[6]))}};
 }
 TAUT_LANE Real real_at(const std::byte* base, const Uint& where)
 {
+    only_looks(where);
     return load_real(Scattered(base, where, 4));
 }
 TAUT_LANE void store(std::byte* base, const Uint& where, const Vec4& value)
 {
-    store_rows(Scattered(base, where, 16), value.rows);
+    const Scattered at(base, where, 16);
+    if (!in_pairs(where))
+        return store_rows(at, value.rows);
+    for (uint r = 0; r < 4; ++r)
+        _mm256_storeu_ps(floats(at[2 * r]), value.rows.pair[r]);
 }
 TAUT_LANE void store(std::byte* base, const Uint& where, Real value)
 {

@@ -22,20 +22,62 @@ TAUT_LANE void count_events(uint& counter, Bool happened, uint lanes)
         __atomic_fetch_add(&counter, static_cast<uint>(__builtin_popcount(which)), __ATOMIC_RELAXED);
 }
 
-/// As taut::native::run_lean: with `report` a constant 0 there is no counting in the loop.
+/// As taut::native::run_lean: with `report` a constant 0 there is no counting in the loop. `run` is told
+/// whether this is the loop that most passes take, as a type.
 template <typename Kernel, typename Run>
 TAUT_LANE void run_lean(Kernel& kernel, Run run)
 {
-    if constexpr (requires { kernel.report; })
+    constexpr bool reports = requires { kernel.report; };
+    if constexpr (reports)
     {
         if (kernel.report == 0)
         {
             kernel.report = 0;
-            run(kernel);
+            run(kernel, std::true_type{});
             return;
         }
     }
-    run(kernel);
+    run(kernel, std::bool_constant<!reports>{});
+}
+
+/// Whether what a block's elements would index with is of a form.
+template <typename Kernel>
+TAUT_LANE bool is_of(Form form, Kernel& kernel, uint first)
+{
+    Lookout lookout(form);
+    kernel.taut_active = 0; // no events
+    kernel.element(Element<Form::any, true>{first, kLanes, &lookout});
+    kernel.taut_active = active_lanes(kLanes);
+    return lookout.agrees();
+}
+
+/// The form of a block; that of the block before is tried first.
+template <typename Kernel>
+TAUT_LANE Form form_of(Kernel& kernel, uint first, Patience& patience)
+{
+    if (!patience.wants_look())
+        return Form::any;
+    Form form = patience.likely();
+    if (!is_of(form, kernel, first))
+    {
+        form = other_than(form);
+        if (!is_of(form, kernel, first))
+            form = Form::any;
+    }
+    patience.found(form);
+    return form;
+}
+
+/// Elements first .. first + 7, with code of its own for every form.
+template <typename Kernel>
+TAUT_LANE void run_block(Kernel& kernel, uint first, Form form)
+{
+    switch (form)
+    {
+    case Form::run: return kernel.element(Element<Form::run>{first});
+    case Form::pairs: return kernel.element(Element<Form::pairs>{first});
+    case Form::any: return kernel.element(Element<Form::any>{first});
+    }
 }
 
 /// Runs the elements of a KERNEL in whole blocks. Gives the first element back that is left.
@@ -50,9 +92,14 @@ template <typename Kernel>
     if (end < begin + kLanes || end < begin)
         return begin;
     const uint blocks = (end - begin) / kLanes;
-    run_lean(kernel, [=](Kernel& k) __attribute__((always_inline)) {
+    run_lean(kernel, [=](Kernel& k, auto lean) __attribute__((always_inline)) {
+        Patience patience;
         for (uint block = 0; block < blocks; ++block)
-            k.element(Index{begin + block * kLanes});
+        {
+            const uint first = begin + block * kLanes;
+            const Form form = lean ? form_of(k, first, patience) : Form::any;
+            run_block(k, first, form);
+        }
     });
     return begin + blocks * kLanes;
 }
@@ -62,7 +109,7 @@ template <typename Kernel>
 {
     Kernel kernel;
     kernel.bind(params, buffers);
-    run_lean(kernel, [=](Kernel& k) __attribute__((always_inline)) {
+    run_lean(kernel, [=](Kernel& k, auto) __attribute__((always_inline)) {
         for (uint group = begin; group < end; ++group)
             k.body(group);
     });
@@ -77,11 +124,11 @@ TAUT_LANE void each(uint& active, uint first, uint end, Body body)
     active = active_lanes(kLanes);
     uint i = first;
     for (; end - i >= kLanes; i += kLanes)
-        body(Index{i});
+        body(Element<Form::any>{i});
     if (i == end)
         return;
     active = active_lanes(end - i);
-    body(Index{i, end - i});
+    body(Element<Form::any>{i, end - i});
 }
 
 } // namespace taut::lanes
@@ -91,7 +138,7 @@ TAUT_LANE void each(uint& active, uint first, uint end, Body body)
 #define INLINE TAUT_LANE
 #define LAYOUT_STRUCT(name) struct name : taut::lanes::RecordTypes
 #define REAL(x) real(x)
-#define ELEMENT taut::lanes::Index
+#define ELEMENT auto
 #define SELECT(condition, a, b) taut::lanes::select(condition, a, b)
 #define ANY(condition) (taut::lanes::bits(condition) != 0)
 

@@ -55,16 +55,18 @@ template <std::size_t words, std::size_t k>
 TAUT_LANE Word load_word(const std::byte* base, Index where)
 {
     const Neighbours at(base, where, 4 * words);
-    const Uint index{at.first + 4 * k, 4 * words, where};
+    const auto word = [&](Real value) __attribute__((always_inline)) {
+        return Word{value, Uint{at.first + 4 * k, 4 * words, where, value}};
+    };
     if constexpr (words < 4)
-        return {load_real(Neighbours(base + 4 * k, where, 4 * words)), index};
+        return word(load_real(Neighbours(base + 4 * k, where, 4 * words)));
     else if constexpr (words == 4)
-        return {Real(columns_of(rows_at(base, where)).at[k]), index};
+        return word(Real(columns_of(rows_at(base, where)).at[k]));
     else
     {
         constexpr std::size_t first = k / 4 * 4 + 4 <= words ? k / 4 * 4 : words - 4;
         const Rows rows = load_rows(Neighbours(base + 4 * first, where, 4 * words));
-        return {Real(columns_of(rows).at[k - first]), index};
+        return word(Real(columns_of(rows).at[k - first]));
     }
 }
 
@@ -73,7 +75,7 @@ TAUT_LANE Word spread_word(const std::byte* record, std::size_t k)
 {
     float value;
     std::memcpy(&value, record + 4 * k, 4);
-    return {Real(value), Uint{record + 4 * k, 0, Index{0}}};
+    return {Real(value), Uint{record + 4 * k, 0, Index(0), Real(value)}};
 }
 
 template <typename T, std::size_t... k>
@@ -93,7 +95,7 @@ template <typename T, typename Where>
 TAUT_LANE auto load(const std::byte* base, const Where& where)
 {
     if constexpr (std::is_same_v<T, uint>)
-        return Uint{Neighbours(base, where, 4).first, 4, where};
+        return Uint{Neighbours(base, where, 4).first, 4, where, real_at(base, where)};
     else if constexpr (std::is_same_v<T, Real>)
         return real_at(base, where);
     else if constexpr (std::is_same_v<T, Vec4>)
@@ -136,7 +138,8 @@ struct Ref
     TAUT_LANE operator T() const { return load<T>(base, where); }
     TAUT_LANE const Ref& operator=(const T& value) const
     {
-        store(base, where, value);
+        if (!only_looks(where))
+            store(base, where, value);
         return *this;
     }
 };

@@ -161,9 +161,10 @@ try
     std::printf("| kernel | elements | one at a time | lanes |\n|---|---|---|---|\n");
     using enum ColliderKind;
     measure(cloth("xpbd", plane, sphere),
-            {"xpbd_spring", "xpbd_hinge", "predict", "finish", "damping", "strain_limit", "plane", "sphere"});
-    measure(cloth("xpbd", capsule, cuboid), {"capsule", "cuboid"});
-    measure(cloth("pbd", plane, sphere), {"pbd_stretch", "pbd_bend"});
+            {"xpbd_spring", "xpbd_hinge", "predict", "finish", "damping", "strain_limit", "collide_plane",
+             "collide_sphere"});
+    measure(cloth("xpbd", capsule, cuboid), {"collide_capsule", "collide_cuboid"});
+    measure(cloth("pbd", plane, sphere), {"pbd_spring", "pbd_hinge"});
     measure(solid("xpbd", "springs"), {"xpbd_volume"});
     measure(solid("xpbd", "neo_hookean"), {"neo_hookean"});
     measure(solid("pbd", "springs"), {"pbd_volume"});

@@ -27,7 +27,7 @@ READ(2, rvec4, low);      // m, what position lost to rounding
 WRITE(3, rvec4, slot);    // N: slot[first + corners * element + corner]
 COUNTERS(4, events);
 
-void pull(ELEMENT k)
+INLINE void pull(ELEMENT k)
 {
     OF_ELEMENT(record) c = constraint[k];
     rvec4 x0 = position[OF_ELEMENT(v0)(c)];

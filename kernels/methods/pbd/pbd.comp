@@ -38,7 +38,7 @@ WRITE(4, rvec4, correction); // displacement per inverse mass, kg m: correction[
 UPDATE(2, rvec4, delta);
 #endif
 
-void project(ELEMENT k)
+INLINE void project(ELEMENT k)
 {
     OF_ELEMENT(record) c = constraint[k];
     rvec4 x0 = position[OF_ELEMENT(v0)(c)];

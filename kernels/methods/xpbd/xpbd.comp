@@ -64,7 +64,7 @@ READ(5, real, damping_time);
 #endif
 #endif
 
-void project(ELEMENT k)
+INLINE void project(ELEMENT k)
 {
     OF_ELEMENT(record) c = constraint[k];
     rvec4 x0 = position[OF_ELEMENT(v0)(c)];
