@@ -25,9 +25,8 @@ bool wants_contact(const Scene& resolved);
 /// Whether surfaces that meet must never cross.
 bool wants_guarantee(const Scene& resolved);
 
-/// Throws Error{unsupported} naming the key where the scene's method, or a body in it, cannot meet others,
-/// or where it asks for a guarantee that cannot be given; Error{bad_input} for a surface too thin for
-/// where it is, and for a guarantee where nothing meets.
+/// Throws Error{unsupported} naming the key where a guarantee is asked for that cannot be given;
+/// Error{bad_input} for a surface too thin for where it is, and for a guarantee where nothing meets.
 void check_contact(const Scene& resolved);
 
 } // namespace taut

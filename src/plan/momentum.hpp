@@ -6,8 +6,8 @@
 
 namespace taut {
 
-/// Whether a solid of the scene can turn freely: nothing of it is held, and there are no colliders (xpbd: or
-/// it starts out of shape).
+/// Whether a solid of the scene can turn freely: nothing of it is held, it meets neither others nor itself,
+/// and there are no colliders (xpbd: or it starts out of shape).
 bool wants_momentum(const Scene& scene);
 void prepare_momentum(PlanBuilder& builder);
 /// Before the sweeps of an iteration, where contacts follow each: what they begin from is kept.

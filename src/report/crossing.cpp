@@ -158,19 +158,24 @@ CrossingWatch::Motion CrossingWatch::motion_of(const Part& part, const Moment& n
     return out;
 }
 
-/// How fast each vertex and the collider move towards or past each other.
-void CrossingWatch::speeds_of(const Part& part, const Obstacle& obstacle, const Moment& now)
+/// How fast each vertex and the collider move towards or past each other; gives the fastest.
+double CrossingWatch::speeds_of(const Part& part, const Obstacle& obstacle, const Moment& now)
 {
     const double step = now.substep;
     const glm::dvec3 collider =
         (frame_at(obstacle.collider, now.time + step).centre - frame_at(obstacle.collider, now.time).centre) /
         step;
     speeds_.resize(part.count);
+    double most = 0;
     for (std::size_t i = 0; i < part.count; ++i)
+    {
         speeds_[i] = glm::length(now.v[part.first + i] - collider);
+        most = std::max(most, speeds_[i]); // of what is not finite nothing
+    }
+    return most;
 }
 
-/// Half of how wide the collider is to a body that comes as its mean motion says.
+/// Half of how wide the collider is to a body that comes as its mean motion says, and the body's gap.
 double CrossingWatch::width_of(const Part& part, const Motion& motion, const Obstacle& obstacle,
                                const Moment& now) const
 {
@@ -229,12 +234,8 @@ void CrossingWatch::look_at(const Part& part, const Motion& motion, const Obstac
                           glm::max(bounds.high - centre, part.last.high - was)};
         distance = std::min(distance, both.distance(glm::dvec3(0)) - obstacle.shape.reach);
     }
-    double speed = motion.speed;
-    if (!obstacle.collider.motion.empty())
-    {
-        speeds_of(part, obstacle, now);
-        speed = *std::max_element(speeds_.begin(), speeds_.end());
-    }
+    const double speed =
+        obstacle.collider.motion.empty() ? motion.speed : speeds_of(part, obstacle, now);
     if (distance <= speed * timestep_)
         return look_closely(part, motion, obstacle, pair, now);
     pair.inside = false;
@@ -244,8 +245,7 @@ void CrossingWatch::look_at(const Part& part, const Motion& motion, const Obstac
 void CrossingWatch::look_closely(const Part& part, const Motion& motion, const Obstacle& obstacle, Pair& pair,
                                  const Moment& now)
 {
-    speeds_of(part, obstacle, now);
-    const double speed = *std::max_element(speeds_.begin(), speeds_.end());
+    const double speed = speeds_of(part, obstacle, now);
     into_frame(part, obstacle, now.x, now.time, after_);
     const Scan seen = scan(part, obstacle, pair, speed, kTunnelHole * width_of(part, motion, obstacle, now));
     pair.inside = seen.deep > 0 && (pair.inside || first_);

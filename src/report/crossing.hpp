@@ -124,7 +124,7 @@ private:
     bool went_through(const Part& part, const Motion& motion, const Obstacle& obstacle, double nearest);
     static void into_frame(const Part& part, const Obstacle& obstacle, std::span<const glm::dvec3> x,
                            double time, std::vector<glm::dvec3>& out);
-    void speeds_of(const Part& part, const Obstacle& obstacle, const Moment& now);
+    double speeds_of(const Part& part, const Obstacle& obstacle, const Moment& now);
     double width_of(const Part& part, const Motion& motion, const Obstacle& obstacle,
                     const Moment& now) const;
     void note(std::vector<Crossing>& list, bool& noted, const Part& part, const Obstacle& obstacle,

@@ -345,9 +345,6 @@ TEST_CASE("the guarantee is refused by name where it cannot be given")
     Scene torn = alone;
     torn.bodies[0].material.tear_strain = 0.2;
     CHECK_THAT(refusal_of(torn), Contains("contact.guarantee") && Contains("tear_strain"));
-    Scene other = alone;
-    other.method.type = "vbd";
-    CHECK_THAT(refusal_of(other), Contains("\"vbd\""));
     Scene wrong = alone;
     wrong.contact.guarantee = "never";
     CHECK_THAT(refusal_of(wrong), Contains("guarantee") && Contains("no_crossing"));

@@ -298,6 +298,31 @@ TEST_CASE("may_tunnel: wide holes or long ways, and only near the collider")
     CHECK(likely(0.5, 0.6, 9, 200) == 0); // not within this frame
 }
 
+TEST_CASE("each element's own distance and speed tell when to look again")
+{
+    const std::size_t slow = GENERATE(0u, 1u); // which of two triangles is near and slow
+    Watched run(flat(3, 1), ball(0.5));
+    Mesh& mesh = run.scene.bodies[0].mesh;
+    std::vector<glm::dvec3> v(6, glm::dvec3(0));
+    const std::vector<glm::dvec3> corners{{1, 0, 0}, {-0.5, 0, 0.8}, {-0.5, 0, -0.8}};
+    mesh.positions.clear();
+    for (std::size_t k = 0; k < 6; ++k)
+        mesh.positions.push_back(corners[k % 3] + glm::dvec3(0, k / 3 == slow ? 0.6 : 2, 0));
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    run.scene.gravity = glm::dvec3(0);
+    const auto clear_for = [&](double near, double far) {
+        for (std::size_t k = 0; k < 6; ++k)
+            v[k] = {0, -(k / 3 == slow ? near : far), 0};
+        CrossingWatch watch(run.scene);
+        watch.look(0, 0, 1e-3, mesh.positions, v);
+        return watch.clear_for();
+    };
+    CHECK(clear_for(6, 12) == Approx(0.6 / 12));    // the near one, at its own speed
+    CHECK(clear_for(1, 12) == Approx(2.0 / 24));    // the far one: the near one could only be drawn along
+    CHECK(clear_for(0, 80) == Approx(2.0 / 160));
+    CHECK(clear_for(4, 8) == Approx(0.6 / 8));
+}
+
 TEST_CASE("a watch says until when nothing can have reached the middle")
 {
     Watched run(flat(3, 1), ball(0.5));
