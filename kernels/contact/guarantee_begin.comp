@@ -33,7 +33,7 @@ KERNEL(count)
     rvec4 from = anchor[2u * i];
     rvec3 end = rvec3(from) + (sound ? rvec3(wanted) - rvec3(rest) : rvec3(real(0)));
     bool held = from.w < real(-1.5);
-    bool inside = from.w >= real(0) && beyond_forecast(end, rvec3(anchor[2u * i + 1u])) <= from.w;
+    bool inside = keeps_to(end, rvec3(anchor[2u * i + 1u]), from.w);
     asked[i] = held || inside ? 0u : 1u;
     next[i] = 0u;
     if (i == 0u)

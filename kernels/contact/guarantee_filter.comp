@@ -125,7 +125,7 @@ KERNEL(count)
     rvec3 whole = rvec3(wanted) - rest;
     rvec3 way = whole;
     // As guarantee_begin asks: a vertex of no pair is in no round that would pass that on.
-    bool leaves = !(about.w >= real(0) && beyond_forecast(from + whole, forecast) <= about.w);
+    bool leaves = !keeps_to(from + whole, forecast, about.w);
     if (about.w < real(-1.5))
     {
         bool strays = !(beyond_forecast(from + whole, forecast) <= (real(-2) - about.w) * REAL(1.0001));

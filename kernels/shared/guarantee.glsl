@@ -45,6 +45,12 @@ real beyond_forecast(rvec3 p, rvec3 forecast)
     return length(p - forecast * share);
 }
 
+/// Whether a way that ends at p keeps to the bound of guarantee_anchor; below 0 there is none to keep to.
+bool keeps_to(rvec3 p, rvec3 forecast, real bound)
+{
+    return bound >= real(0) && beyond_forecast(p, forecast) <= bound;
+}
+
 real greatest_of(rvec3 v)
 {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
