@@ -63,16 +63,27 @@ public:
             const std::uint32_t elements = pass.elements();
             if (elements == 0)
                 continue;
-            shares_.push_back({&pass, elements, elements, 0, pass.cost.wants_sample()});
+            shares_.push_back({&pass, elements, elements, 0});
             work += elements * pass.cost.nanoseconds();
         }
         return work;
     }
 
+    /// Costs are sampled here alone: an element whose vertices another thread has moved costs more.
     void run_alone()
     {
         for (const Share& share : shares_)
-            run_range(share, 0, share.elements, true);
+        {
+            if (!share.pass->cost.wants_sample())
+            {
+                share.pass->run(0, share.elements);
+                continue;
+            }
+            const Clock::time_point start = Clock::now();
+            share.pass->run(0, share.elements);
+            share.pass->cost.sample(std::chrono::duration<double, std::nano>(Clock::now() - start).count(),
+                                    share.elements);
+        }
     }
 
     /// Cuts everything into chunks; returns how many. Too many passes for the ticket: 0.
@@ -90,7 +101,7 @@ public:
         return static_cast<std::uint32_t>(chunks);
     }
 
-    void run_chunk(std::uint32_t chunk, bool own) override
+    void run_chunk(std::uint32_t chunk) override
     {
         const auto after =
             std::upper_bound(shares_.begin(), shares_.end(), chunk,
@@ -98,7 +109,7 @@ public:
         const Share& share = *(after - 1);
         const std::uint32_t begin = (chunk - share.first_chunk) * share.chunk;
         const std::uint32_t end = share.elements - begin > share.chunk ? begin + share.chunk : share.elements;
-        run_range(share, begin, end, own);
+        share.pass->run(begin, end);
     }
 
 private:
@@ -108,7 +119,6 @@ private:
         std::uint32_t elements;
         std::uint32_t chunk; ///< elements of one
         std::uint32_t first_chunk;
-        bool sample;
     };
 
     /// Into how many chunks: one a thread, or several where they are long enough for the quick to help
@@ -134,17 +144,6 @@ private:
         return static_cast<std::uint32_t>(std::min<std::uint64_t>(size, share.elements));
     }
 
-    /// Samples are taken on the caller's thread only, so that they need no lock.
-    static void run_range(const Share& share, std::uint32_t begin, std::uint32_t end, bool own)
-    {
-        if (!own || !share.sample)
-            return share.pass->run(begin, end);
-        const Clock::time_point start = Clock::now();
-        share.pass->run(begin, end);
-        share.pass->cost.sample(std::chrono::duration<double, std::nano>(Clock::now() - start).count(),
-                                end - begin);
-    }
-
     std::vector<Share> shares_;
 };
 
@@ -153,10 +152,10 @@ class ParallelRunner final : public Runner
 public:
     explicit ParallelRunner(unsigned threads) : pool_(threads - 1) {}
 
-    void run(std::span<Pass> passes) override
+    void run(std::span<Pass> passes, Way way) override
     {
         const double work = shares_.measure(passes);
-        if (work < kWorthSharing || pool_.workers() == 0 || !ledger_.may_share(work))
+        if (way == Way::alone || work < kWorthSharing || pool_.workers() == 0 || !ledger_.may_share(work))
             return shares_.run_alone();
         const std::uint32_t chunks = shares_.cut(pool_.workers() + 1);
         if (chunks < 2)

@@ -20,8 +20,8 @@ public:
 
     double nanoseconds() const { return nanoseconds_; }
 
-    /// Whether this run should be timed: the first few, then one in 64, since clocks cost time too.
-    bool wants_sample() { return runs_++ < 4 || runs_ % 64 == 0; }
+    /// Whether this run should be timed: the first few, then one in 16, since clocks cost time too.
+    bool wants_sample() { return runs_++ < 4 || runs_ % 16 == 0; }
 
     /// A thread that lost its core makes a sample far too long; so growth is limited, and the next
     /// honest sample takes it back.

@@ -105,11 +105,11 @@ std::optional<std::uint32_t> Pool::claim(bool from_front)
     return std::nullopt;
 }
 
-void Pool::run_chunk(std::uint32_t chunk, bool own)
+void Pool::run_chunk(std::uint32_t chunk)
 {
     try
     {
-        job_->run_chunk(chunk, own);
+        job_->run_chunk(chunk);
     }
     catch (...)
     {
@@ -128,7 +128,7 @@ void Pool::work()
     {
         while (const auto chunk = claim(false))
         {
-            run_chunk(*chunk, false);
+            run_chunk(*chunk);
             finished_.fetch_add(1, std::memory_order_release);
             finished_.notify_one(); // a system call only if the caller sleeps
         }
@@ -197,13 +197,13 @@ Pool::Outcome Pool::run(Job& job, std::uint32_t chunks)
         return {};
     publish(job, chunks);
     double lost = wake(chunks - 1);
-    run_chunk(0, true);
+    run_chunk(0);
     std::uint32_t own = 1;
     for (auto chunk = claim(true); chunk; chunk = claim(true), ++own)
     {
         if (own == 1)
             lost += wake(back_of(ticket_.load(std::memory_order_relaxed)) - *chunk - 1);
-        run_chunk(*chunk, true);
+        run_chunk(*chunk);
     }
     lost += await_workers(chunks - own);
     if (error_)

@@ -27,8 +27,7 @@ namespace taut::cpu {
 class Job
 {
 public:
-    /// `own`: on the thread that called Pool::run.
-    virtual void run_chunk(std::uint32_t chunk, bool own) = 0;
+    virtual void run_chunk(std::uint32_t chunk) = 0;
 
 protected:
     ~Job() = default;
@@ -62,7 +61,7 @@ private:
     bool await_work(); ///< false: the pool ends
     bool has_work() const;
     std::optional<std::uint32_t> claim(bool from_front);
-    void run_chunk(std::uint32_t chunk, bool own);
+    void run_chunk(std::uint32_t chunk);
     void publish(Job& job, std::uint32_t chunks);
     double wake(std::uint32_t useful);           ///< ns that it took
     double await_workers(std::uint32_t claimed); ///< ns

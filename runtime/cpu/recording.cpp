@@ -9,6 +9,13 @@
 namespace taut::cpu {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
 void check_owner(const BufferPtr& buffer, std::size_t index, const Stats* owner)
 {
     const auto* mine = dynamic_cast<const CpuBuffer*>(buffer.get());
@@ -76,17 +83,18 @@ void CpuRecording::replay()
     const std::lock_guard lock(engine_->mutex);
     const FlushDenormals flushed;
     count_submission();
+    const Clock::time_point start = Clock::now();
     std::size_t begin = 0;
     for (const std::size_t end : section_ends_)
     {
-        engine_->runner->run(std::span(passes_).subspan(begin, end - begin));
+        engine_->runner->run(std::span(passes_).subspan(begin, end - begin), sharing_.next());
         begin = end;
     }
+    sharing_.took(nanoseconds_since(start));
 }
 
 std::vector<DispatchTime> CpuRecording::replay_timed()
 {
-    using Clock = std::chrono::steady_clock;
     const std::lock_guard lock(engine_->mutex);
     const FlushDenormals flushed;
     count_submission();
@@ -95,8 +103,8 @@ std::vector<DispatchTime> CpuRecording::replay_timed()
     for (std::size_t i = 0; i < passes_.size(); ++i)
     {
         const Clock::time_point start = Clock::now();
-        engine_->runner->run(std::span(passes_).subspan(i, 1)); // nothing overlaps: each has its own time
-        times.push_back({i, std::chrono::duration<double, std::nano>(Clock::now() - start).count()});
+        engine_->runner->run(std::span(passes_).subspan(i, 1), sharing_.best()); // nothing overlaps
+        times.push_back({i, nanoseconds_since(start)});
     }
     return times;
 }

@@ -3,6 +3,7 @@
 
 #include "taut/runtime/cpu/memory.hpp"
 #include "taut/runtime/cpu/runner.hpp"
+#include "taut/runtime/cpu/sharing.hpp"
 
 #include <mutex>
 #include <vector>
@@ -36,6 +37,7 @@ private:
     std::vector<BufferPtr> buffers_;
     std::vector<Pass> passes_;
     std::vector<std::size_t> section_ends_; ///< in passes_: a barrier or the end of the list
+    Sharing sharing_;
 };
 
 } // namespace taut::cpu

@@ -3,6 +3,7 @@
 
 #include "taut/runtime/cpu/cpu_device.hpp"
 #include "taut/runtime/cpu/pass.hpp"
+#include "taut/runtime/cpu/sharing.hpp"
 
 #include <memory>
 #include <span>
@@ -14,8 +15,9 @@ class Runner
 public:
     virtual ~Runner() = default;
 
-    /// Runs passes that have no barrier between them, and returns when all are done.
-    virtual void run(std::span<Pass> passes) = 0;
+    /// Runs passes that have no barrier between them, and returns when all are done. `way` is what a
+    /// runner with several threads may do; others have but one.
+    virtual void run(std::span<Pass> passes, Way way) = 0;
 };
 
 std::unique_ptr<Runner> make_serial_runner();

@@ -6,7 +6,7 @@ namespace {
 class SerialRunner final : public Runner
 {
 public:
-    void run(std::span<Pass> passes) override
+    void run(std::span<Pass> passes, Way) override
     {
         for (const Pass& pass : passes)
             if (const std::uint32_t elements = pass.elements())

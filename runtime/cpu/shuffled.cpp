@@ -36,7 +36,7 @@ class ShuffledRunner final : public Runner
 public:
     explicit ShuffledRunner(std::uint64_t seed) : random_(seed) {}
 
-    void run(std::span<Pass> passes) override
+    void run(std::span<Pass> passes, Way) override
     {
         shuffle(pass_order_, static_cast<std::uint32_t>(passes.size()));
         for (const std::uint32_t index : pass_order_)

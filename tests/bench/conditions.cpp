@@ -3,14 +3,50 @@
 #include "taut/runtime/device.hpp"
 #include "taut/version.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <charconv>
+#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace bench {
 
 std::string processor() { return taut::Device::open("cpu:serial")->info().name; }
+
+double line_round_trip()
+{
+    constexpr int kTrips = 2000, kTurns = 9;
+    std::atomic<int> line = 0;
+    // The other thread answers an odd number with the even one behind it.
+    std::thread other([&line] {
+        for (int answer = 2; answer <= 2 * kTrips * kTurns; answer += 2)
+        {
+            while (line.load(std::memory_order_acquire) != answer - 1)
+                ;
+            line.store(answer, std::memory_order_release);
+        }
+    });
+    double best = 1e30;
+    for (int turn = 0, number = 0; turn < kTurns; ++turn)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        for (int trip = 0; trip < kTrips; ++trip)
+        {
+            line.store(++number, std::memory_order_release);
+            while (line.load(std::memory_order_acquire) != number + 1)
+                ;
+            ++number;
+        }
+        const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - start;
+        best = std::min(best, took.count() / kTrips);
+    }
+    other.join();
+    return best;
+}
 
 std::string conditions(const std::string& program, int argc, char** argv)
 {
@@ -23,7 +59,10 @@ std::string conditions(const std::string& program, int argc, char** argv)
 #else
     text += " compiler: g++ " __VERSION__;
 #endif
-    text += "; CPU: " + processor() + "; command: " + program; // not the folder that it lies in
+    text += "; CPU: " + processor() + "; a cache line to another core and back: ";
+    text += std::thread::hardware_concurrency() > 1 ? std::to_string(std::lround(line_round_trip())) + " ns"
+                                                    : "-";
+    text += "; command: " + program; // not the folder that it lies in
     for (int i = 1; i < argc; ++i)
         text += std::string(" ") + argv[i];
     return text;

@@ -14,7 +14,7 @@ TEST_CASE("a pool runs every chunk of every job once, whatever the number of wor
     struct Tally final : cpu::Job
     {
         std::vector<std::atomic<int>> runs = std::vector<std::atomic<int>>(200);
-        void run_chunk(std::uint32_t chunk, bool) override { ++runs[chunk]; }
+        void run_chunk(std::uint32_t chunk) override { ++runs[chunk]; }
     };
     for (const unsigned workers : {0u, 1u, 2u, 9u})
     {
@@ -30,16 +30,15 @@ TEST_CASE("a pool runs every chunk of every job once, whatever the number of wor
     }
 }
 
-TEST_CASE("the first chunk of a job is the caller's, and `own` says on which thread a chunk runs")
+TEST_CASE("the first chunk of a job is the caller's")
 {
     struct Watcher final : cpu::Job
     {
         std::thread::id caller = std::this_thread::get_id();
         std::atomic<int> wrong = 0;
-        void run_chunk(std::uint32_t chunk, bool own) override
+        void run_chunk(std::uint32_t chunk) override
         {
-            const bool here = std::this_thread::get_id() == caller;
-            wrong += own != here || (chunk == 0 && !here);
+            wrong += chunk == 0 && std::this_thread::get_id() != caller;
         }
     };
     cpu::Pool pool(2);
@@ -54,7 +53,7 @@ TEST_CASE("what a chunk throws reaches the caller after all chunks stopped, and 
     struct Thrower final : cpu::Job
     {
         std::atomic<int> running = 0;
-        void run_chunk(std::uint32_t chunk, bool) override
+        void run_chunk(std::uint32_t chunk) override
         {
             ++running;
             if (chunk % 3 == 0)
