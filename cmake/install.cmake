@@ -1,5 +1,5 @@
 # `cmake --install`: the program, the library, its headers in the layout of the include root
-# (taut/<room>/x.hpp), and what find_package(taut) and pkg-config need.
+# (taut/<module>/x.hpp), and what find_package(taut) and pkg-config need.
 
 include(CMakePackageConfigHelpers)
 set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
@@ -21,16 +21,16 @@ set(taut_public_headers
     report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp
     report/gas.hpp report/energy_budget.hpp report/soundness.hpp)
 foreach(header IN LISTS taut_public_headers)
-    cmake_path(GET header PARENT_PATH room)
-    install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/${room})
+    cmake_path(GET header PARENT_PATH module)
+    install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/${module})
 endforeach()
 install(FILES src/taut/taut.hpp ${PROJECT_BINARY_DIR}/generated/taut/version.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut)
 install(FILES runtime/device.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime)
-# Of the graphics rooms only what an engine needs to bring its own device, and what pictures are described by.
+# Of the graphics modules only what an engine needs to bring its own device, and what pictures are described by.
 foreach(header compiler/compiler.hpp vulkan/vulkan_device.hpp vulkan/interop.hpp vulkan/draw.hpp)
-    cmake_path(GET header PARENT_PATH room)
-    install(FILES runtime/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime/${room})
+    cmake_path(GET header PARENT_PATH module)
+    install(FILES runtime/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime/${module})
 endforeach()
 install(DIRECTORY runtime/base/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/runtime/base
         FILES_MATCHING PATTERN "*.hpp")

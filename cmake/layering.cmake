@@ -1,6 +1,6 @@
-# The arrows of the house (docs/design.md): which room may include which. The configuration stops on
-# an include that must not exist, and runs again when a file that it read has changed, so a wrong arrow
-# never reaches a compiler. tests/rules/arrows.cmake plants some.
+# Dependencies between modules (docs/design.md): which may include which. The configuration stops on
+# an include that must not exist, and runs again when a file that it read has changed, so a wrong one
+# never reaches a compiler. tests/rules/layering.cmake plants some.
 
 function(taut_forbid folder pattern)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.hpp
@@ -9,7 +9,7 @@ function(taut_forbid folder pattern)
     foreach(file IN LISTS files)
         file(STRINGS ${file} hits REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"](${pattern})")
         if(hits)
-            message(FATAL_ERROR "${file} may not include: ${hits}\n(see cmake/arrows.cmake for the arrows)")
+            message(FATAL_ERROR "${file} may not include: ${hits}\n(see docs/design.md)")
         endif()
     endforeach()
 endfunction()

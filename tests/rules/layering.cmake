@@ -1,28 +1,28 @@
 # A forbidden include stops the configuration, also one that comes with an edit after it.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 
-# arrow(FILE INCLUDE): planted in a clean tree, it must stop the configuration.
-function(arrow file included)
-    tree("include(${SOURCE}/cmake/arrows.cmake)")
+# dependency(FILE INCLUDE): planted in a clean tree, it must stop the configuration.
+function(dependency file included)
+    tree("include(${SOURCE}/cmake/layering.cmake)")
     plant(${file} "#include ${included}")
     must_stop("${included} in ${file}" "may not include")
 endfunction()
 
-arrow(src/plan/a.cpp "\"taut/world/world.hpp\"")
-arrow(src/scene/deep/a.hpp "\"taut/runtime/device.hpp\"")
-arrow(src/scene/a.cpp "\"taut/taut.hpp\"")
-arrow(src/world/a.cpp "<vulkan/vulkan.h>")
-arrow(runtime/base/a.hpp "\"taut/runtime/device.hpp\"")
-arrow(runtime/cpu/a.cpp "\"taut/runtime/vulkan/instance.hpp\"")
-arrow(runtime/device.cpp "\"taut/scene/scene.hpp\"")
-arrow(src/plan/a.cpp "\"../world/world.hpp\"")
-arrow(src/plan/a.cpp "\"./../world/world.hpp\"")
-arrow(runtime/cpu/a.cpp "\"taut/runtime/cpu/../vulkan/instance.hpp\"")
+dependency(src/plan/a.cpp "\"taut/world/world.hpp\"")
+dependency(src/scene/deep/a.hpp "\"taut/runtime/device.hpp\"")
+dependency(src/scene/a.cpp "\"taut/taut.hpp\"")
+dependency(src/world/a.cpp "<vulkan/vulkan.h>")
+dependency(runtime/base/a.hpp "\"taut/runtime/device.hpp\"")
+dependency(runtime/cpu/a.cpp "\"taut/runtime/vulkan/instance.hpp\"")
+dependency(runtime/device.cpp "\"taut/scene/scene.hpp\"")
+dependency(src/plan/a.cpp "\"../world/world.hpp\"")
+dependency(src/plan/a.cpp "\"./../world/world.hpp\"")
+dependency(runtime/cpu/a.cpp "\"taut/runtime/cpu/../vulkan/instance.hpp\"")
 
-tree("include(${SOURCE}/cmake/arrows.cmake)\nadd_custom_target(all_done ALL)")
+tree("include(${SOURCE}/cmake/layering.cmake)\nadd_custom_target(all_done ALL)")
 plant(src/world/a.cpp "#include \"taut/plan/plan.hpp\"")
 plant(src/plan/a.cpp "#include \"taut/scene/scene.hpp\"")
-must_pass("allowed arrows")
+must_pass("allowed dependencies")
 execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 1.1) # Make compares whole seconds on some file systems
 plant(src/plan/a.cpp "#include \"taut/world/world.hpp\"")
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK}/out RESULT_VARIABLE status OUTPUT_VARIABLE text
