@@ -14,6 +14,7 @@
 
 #include "taut/plan/implicit_euler.hpp"
 
+#include "taut/linear/partition.hpp"
 #include "taut/plan/added_elements.hpp"
 #include "taut/plan/implicit_product.hpp"
 #include "taut/plan/implicit_system.hpp"
@@ -185,6 +186,17 @@ void add_tables(PlanBuilder& b, ImplicitEuler& m, const AllCorners& corners,
         m.solid_table = add(tables.size() - 1, kName, "tetrahedra");
 }
 
+/// Twenty vertices each, as long as the coarse system stays small beside a product with the matrix.
+std::vector<std::uint32_t> aggregates_of(const linear::SparseMatrix& pattern, const std::vector<bool>& solved)
+{
+    const auto count = static_cast<std::uint32_t>(std::count(solved.begin(), solved.end(), true));
+    std::vector<bool> left_out(solved.size());
+    for (std::size_t v = 0; v < solved.size(); ++v)
+        left_out[v] = !solved[v];
+    const std::uint32_t parts = std::clamp(count / 20, 1u, linear::TwoLevel::kMostAggregates);
+    return linear::partition(pattern, parts, left_out);
+}
+
 /// Matrix (stored, or of its diagonal blocks alone), tables, preconditioner, solver.
 void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, const std::vector<bool>& solved)
 {
@@ -196,13 +208,25 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
     add_tables(b, m, elements.corners, implicit_tables(solved, elements.corners, pattern, slots));
     m.values = b.adopt(kName, matrix->values());
     add_marks(b, m, solved);
-    const auto kind = linear::Preconditioner::block_jacobi;
-    const auto inverse =
-        std::make_shared<linear::DeviceInverse>(b.paper(), matrix, pattern, kind, b.on_paper(m.marks));
+    const auto inverse = std::make_shared<linear::DeviceInverse>(
+        b.paper(), matrix, pattern, linear::Preconditioner::block_jacobi, b.on_paper(m.marks));
     std::shared_ptr<const linear::Operator> system = matrix;
     if (!assembled)
         system = std::make_shared<ImplicitProduct>(product_buffers(b, m));
-    m.solve.emplace(b, kName, system, linear::Preconditioning{kind, inverse->inverse(), nullptr}, inverse);
+    if (b.scene.method.preconditioner != "two_level")
+    {
+        m.solve.emplace(b, kName, system,
+                        linear::Preconditioning{inverse->kind(), inverse->inverse(), nullptr},
+                        PlanSolve::Inverses{inverse});
+        return;
+    }
+    m.coarse = std::make_shared<linear::TwoLevel>(b.paper(), matrix, pattern, inverse->inverse(),
+                                                  aggregates_of(pattern, solved));
+    const auto mask = std::make_shared<linear::DeviceInverse>(
+        b.paper(), matrix, pattern, linear::Preconditioner::jacobi, b.on_paper(m.marks));
+    m.solve.emplace(b, kName, system,
+                    linear::Preconditioning{linear::Preconditioner::multigrid, mask->inverse(), m.coarse},
+                    PlanSolve::Inverses{inverse, mask});
 }
 
 void add_vectors(PlanBuilder& b, ImplicitEuler& m)

@@ -238,6 +238,10 @@ void record_implicit_step(PlanBuilder& b, const Moment& moment)
     record_matrix(b, m, moment);
     if (moment.iteration == 0)
         record_guess(b, m);
+    if (m.coarse && moment.substep == 0 && moment.iteration == 0) // once a step: it may lag behind the matrix
+        b.record(kName, [&](Recorder& recorder) {
+            m.coarse->form(recorder, {m.solve->groups(), nullptr, 0});
+        });
     m.solve->record(b);
     record_momentum(b, m);
     record_update(b, m);

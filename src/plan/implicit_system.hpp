@@ -2,6 +2,7 @@
 // What implicit Euler prepares (implicit_euler.cpp) and its passes bind (implicit_step.cpp). Internal to
 // src/plan.
 
+#include "taut/linear/two_level.hpp"
 #include "taut/plan/builder.hpp"
 #include "taut/plan/solve.hpp"
 
@@ -31,8 +32,9 @@ struct ImplicitEuler
     float scale = 1; ///< of mass: power of two
     float lift = 1;  ///< of displacements: power of two
     std::optional<PlanSolve> solve;
-    BufferPtr product, products, curvatures; ///< of the inertial guess
-    BufferPtr trials;                        ///< partial sums of the line search
+    std::shared_ptr<const linear::TwoLevel> coarse; ///< null: block Jacobi alone
+    BufferPtr product, products, curvatures;        ///< of the inertial guess
+    BufferPtr trials;                               ///< partial sums of the line search
     std::uint32_t parts() const
     {
         return 1u + (spring_count > 0 ? 1u : 0u) + static_cast<std::uint32_t>(kinds.size()) +

@@ -9,7 +9,7 @@ namespace taut {
 
 PlanSolve::PlanSolve(PlanBuilder& builder, std::string_view effect,
                      std::shared_ptr<const linear::Operator> system, linear::Preconditioning preconditioning,
-                     std::shared_ptr<const linear::DeviceInverse> formed)
+                     Inverses formed)
     : effect_(effect),
       operator_(std::move(system)),
       formed_(std::move(formed)),
@@ -43,8 +43,8 @@ void PlanSolve::use_part(PlanBuilder& builder, std::uint32_t control, std::uint6
 void PlanSolve::record(PlanBuilder& builder)
 {
     builder.record(effect_, [this](Recorder& recorder) {
-        if (formed_)
-            formed_->record(recorder, {groups_, nullptr, 0});
+        for (const auto& inverse : formed_)
+            inverse->record(recorder, {groups_, nullptr, 0});
         cg_.record_begin(recorder);
         cg_.record_iterations(recorder, iterations_);
         cg_.record_end(recorder);

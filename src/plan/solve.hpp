@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace taut {
 
@@ -15,11 +16,13 @@ namespace taut {
 class PlanSolve
 {
 public:
-    /// Operator and inverse live on builder.paper(). Where `formed` is given its inverse is formed anew
-    /// before each solve; otherwise passes of the caller fill preconditioning.inverse, and an inverse of 0
+    using Inverses = std::vector<std::shared_ptr<const linear::DeviceInverse>>;
+
+    /// Operator and inverse live on builder.paper(). The inverses of `formed` are formed anew
+    /// before each solve; without any passes of the caller fill preconditioning.inverse, and an inverse of 0
     /// holds a row. Throws what ConjugateGradient throws.
     PlanSolve(PlanBuilder& builder, std::string_view effect, std::shared_ptr<const linear::Operator>,
-              linear::Preconditioning, std::shared_ptr<const linear::DeviceInverse> formed = nullptr);
+              linear::Preconditioning, Inverses formed = {});
 
     // Numbers of plan buffers, in reals: right-hand side, and solution (start value before, result after;
     // held rows keep theirs).
@@ -50,7 +53,7 @@ public:
 private:
     std::string effect_;
     std::shared_ptr<const linear::Operator> operator_;
-    std::shared_ptr<const linear::DeviceInverse> formed_;
+    Inverses formed_;
     linear::ConjugateGradient cg_;
     std::uint32_t groups_ = 1, iterations_ = 0;
     std::uint32_t part_ = kNoBuffer; ///< where group counts lie, kNoBuffer: the whole system is in use

@@ -16,11 +16,20 @@ void check_scheme(const MethodSettings& method, const Checker& out)
                   "is \"" + method.scheme + "\"; mass_spring has \"node_centric\" and \"spring_centric\"");
 }
 
+void check_preconditioner(const MethodSettings& method, const Checker& out)
+{
+    if (method.type == "implicit_euler" && method.preconditioner == "two_level" &&
+        method.linear_operator == "matrix_free")
+        out.error("preconditioner", "is \"two_level\", which is made of the matrix; take linear_operator "
+                                    "\"assembled\", or the preconditioner \"block_jacobi\"");
+}
+
 } // namespace
 
 void check_method(const MethodSettings& method, const Checker& out)
 {
     check_scheme(method, out);
+    check_preconditioner(method, out);
     if (method.compress && method.activate_strain >= 1)
         out.error("activate_strain",
                   "is " + shown(method.activate_strain) +

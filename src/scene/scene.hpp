@@ -283,8 +283,7 @@ inline constexpr std::array<std::string_view, 7> kMethodNames = {
 struct MethodSettings
 {
     std::string type = "xpbd";
-    /// Per time step, 1..1000; 0: automatic_substeps(), put in by resolve().
-    std::uint32_t substeps = 0;
+    std::uint32_t substeps = 0; ///< per time step, 1..1000; 0: automatic_substeps(), put in by resolve()
     /// Per substep, 1..1000: sweeps (pbd, xpbd, vbd), Newton steps (implicit_euler), linear solves, each at
     /// the places that the one before led to (implicit_constraints, acad).
     std::uint32_t iterations = 1;
@@ -303,7 +302,8 @@ struct MethodSettings
 
     std::uint32_t linear_iterations = 100; ///< implicit_*, acad: of conjugate gradients a solve, 1..100000
     double linear_tolerance = 1e-5;        ///< of |residual| / |right-hand side|, (0, 1)
-    std::string linear_operator = "assembled"; ///< or "matrix_free"
+    std::string linear_operator = "assembled";   ///< or "matrix_free"
+    std::string preconditioner = "block_jacobi"; ///< implicit_euler: or "two_level" (of what is assembled)
     /// implicit_euler: so often a Newton step may be halved that would raise the incremental potential.
     std::uint32_t line_search = 2;
 

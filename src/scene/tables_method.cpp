@@ -19,6 +19,7 @@ constexpr std::string_view kStabilities[] = {"refuse", "substep", "ignore"};
 constexpr std::string_view kSchemes[] = {"automatic", "node_centric", "spring_centric", "coloured",
                                          "constraint_centric"};
 constexpr std::string_view kOperators[] = {"assembled", "matrix_free"};
+constexpr std::string_view kPreconditioners[] = {"block_jacobi", "two_level"};
 constexpr std::string_view kConstrained[] = {"all", "structural"};
 constexpr std::string_view kReleases[] = {"multiplier", "strain"};
 constexpr std::string_view kTargets[] = {"threshold", "rest"};
@@ -87,6 +88,12 @@ constexpr Key kMethod[] = {
                                           "the matrix is assembled, or its product formed from the springs")
         .words(kOperators)
         .read_by(kEuler | only(MethodKind::implicit_constraints)),
+    key<&MethodSettings::preconditioner>(
+        "preconditioner",
+        "implicit_euler: of conjugate gradients: blocks of single vertices, or these and the "
+        "translations of aggregates of vertices, which stiff and large bodies want")
+        .words(kPreconditioners)
+        .read_by(kEuler),
     key<&MethodSettings::line_search>(
         "line_search", "implicit_euler: so often a Newton step is halved that would raise the incremental "
                        "potential; 0: it is taken as it is")

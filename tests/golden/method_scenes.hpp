@@ -86,6 +86,15 @@ inline Scene light_vertex()
     return scene;
 }
 
+/// Five aggregates of vertices.
+inline Scene two_levels()
+{
+    Scene scene = swing("implicit_euler");
+    scene.bodies[0].shape.cells = {16, 16};
+    scene.method.preconditioner = "two_level";
+    return scene;
+}
+
 /// Explicit Euler needs dampers, and steps that are short for them.
 inline Scene damped_explicit()
 {
@@ -127,6 +136,7 @@ inline std::map<std::string, Scene> method_scenes()
         {"mass_spring_jelly", jelly("mass_spring", "surface")},
         {"implicit_euler", swing("implicit_euler")},
         {"implicit_euler_light", light_vertex()},
+        {"implicit_euler_two_level", two_levels()},
         {"implicit_euler_matrix_free",
          with(swing("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
         {"implicit_constraints", swing("implicit_constraints")},

@@ -258,6 +258,25 @@ TEST_CASE("a spring that is to become a constraint when it is pressed has a leng
     CHECK_THAT(issues[0].text, Contains("is 1.5; with compress it must be below 1"));
 }
 
+TEST_CASE("a preconditioner that is made of the matrix takes one that is assembled")
+{
+    Scene scene = good_scene();
+    scene.method.type = "implicit_euler";
+    scene.method.preconditioner = "two_level";
+    const auto errors = [&scene] {
+        std::vector<SceneIssue> out = check(scene);
+        std::erase_if(out, [](const SceneIssue& issue) { return issue.field != "method.preconditioner"; });
+        return out;
+    };
+    CHECK(errors().empty());
+    scene.method.linear_operator = "matrix_free";
+    REQUIRE(errors().size() == 1);
+    CHECK_THAT(errors()[0].text, Contains("take linear_operator \"assembled\""));
+    scene.method.preconditioner = "jacobi";
+    REQUIRE(errors().size() == 1);
+    CHECK_THAT(errors()[0].text, Contains("\"block_jacobi\""));
+}
+
 TEST_CASE("a wind that nothing catches is a warning")
 {
     Scene scene = good_scene();
