@@ -2,7 +2,7 @@
 // they rub; and how many corners of pairs each vertex is. One invocation per pair.
 //
 //   normal = (x_A - x_B) / |x_A - x_B|, rest gap = r_A + r_B, of one body at most the distance at rest,
-//   friction = the mean of both.
+//   friction = (m + n) / 2, min(m, n), max(m, n), m n or sqrt(m n), m and n those of both.
 //
 // Based on: Mueller. Ten Minute Physics 15, 2022 (a surface thicker than its edges are long does not swell).
 // Departures: the distance at rest is that of the features, not of vertices.
@@ -15,6 +15,7 @@
 PARAMS
 {
     uint capacity;
+    uint rule; // TAUT_CONTACT_MIX_*
 };
 
 READ(0, ContactPair, pair);
@@ -30,6 +31,19 @@ INLINE Closest closest_of(uint kind, rvec3 b, rvec3 c, rvec3 d)
     if (kind == TAUT_CONTACT_EDGES)
         return closest_edges(b, c, d);
     return closest_vertex_triangle(b, c, d);
+}
+
+real mixed(real m, real n)
+{
+    if (rule == TAUT_CONTACT_MIX_MINIMUM)
+        return min(m, n);
+    if (rule == TAUT_CONTACT_MIX_MAXIMUM)
+        return max(m, n);
+    if (rule == TAUT_CONTACT_MIX_PRODUCT)
+        return m * n;
+    if (rule == TAUT_CONTACT_MIX_GEOMETRIC_MEAN)
+        return sqrt(m * n);
+    return real(0.5) * (m + n);
 }
 
 KERNEL(capacity)
@@ -64,7 +78,7 @@ KERNEL(capacity)
         result.normal_z = normal.z;
         result.allowed = gap;
         result.rest_gap = gap;
-        result.friction = real(0.5) * (first.friction + second.friction);
+        result.friction = mixed(first.friction, second.friction);
         side[i] = result;
         COUNT_EVENT(corners, p.a);
         COUNT_EVENT(corners, p.b);

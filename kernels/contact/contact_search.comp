@@ -34,7 +34,6 @@ PARAMS
 {
     uint count;    // triangles
     uint leaves;   // of the tree, a power of two
-    uint between;  // 1: bodies meet each other
     uint substeps; // until the next search
     float skin;    // m
     float reach;   // m, at least the greatest sum of two radii and the skin
@@ -261,7 +260,8 @@ KERNEL(count)
             ContactTriangle u = triangle[k - leaves];
             bool same = u.body == t.body;
             ContactBody other = body[u.body];
-            if (same ? own.self != 0u : between != 0u)
+            bool passes = (own.meets & other.group) == 0u || (other.meets & own.group) == 0u;
+            if (same ? own.self != 0u : !passes)
             {
                 at = compare(at, t, u, l, h, k - leaves > i, own.radius + other.radius);
                 tests += 1u;

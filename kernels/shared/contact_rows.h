@@ -10,6 +10,13 @@
 #define TAUT_CONTACT_VERTEX 0u // a against the triangle b, c, d
 #define TAUT_CONTACT_EDGES 1u  // a-b against c-d
 
+/// How the coefficients of two surfaces that rub make one: kFrictionMixes of scene/contact.hpp in order.
+#define TAUT_CONTACT_MIX_MEAN 0u
+#define TAUT_CONTACT_MIX_MINIMUM 1u
+#define TAUT_CONTACT_MIX_MAXIMUM 2u
+#define TAUT_CONTACT_MIX_PRODUCT 3u
+#define TAUT_CONTACT_MIX_GEOMETRIC_MEAN 4u
+
 /// Words of the control buffer: group counts of the passes over pairs, then of those over vertices; pairs
 /// listed; of the last search: pairs found, triangles compared. Over the whole run: pairs found and not
 /// listed.

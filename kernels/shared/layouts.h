@@ -149,6 +149,8 @@ LAYOUT_STRUCT(ContactBody)
     real radius;   // m
     real friction; // Coulomb coefficient
     uint self;     // 1: it meets itself
+    uint group;    // a bit
+    uint meets;    // bits of the groups that it does not pass through
 };
 
 /// Four corners of a vertex and a triangle, or of two edges, that come near each other in a step.

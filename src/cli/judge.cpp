@@ -44,13 +44,11 @@ public:
         const Scene& scene = world_.scene();
         const double steps = std::ceil(scene.duration / scene.timestep - 1e-6);
         frames_ = 1 + static_cast<std::size_t>(command.frames ? *command.frames : std::max(steps, 0.0));
-        judging::SceneTriangles all = judging::scene_triangles(scene);
-        triangles_ = std::move(all.triangles);
-        led_ = std::move(all.led);
+        all_ = judging::scene_triangles(scene);
     }
 
     std::size_t frames() const override { return frames_; }
-    const std::vector<judging::Triangle>& triangles() const override { return triangles_; }
+    const std::vector<judging::Triangle>& triangles() const override { return all_.triangles; }
     std::vector<glm::dvec3> positions(std::size_t frame) override
     {
         while (world_.steps() < frame)
@@ -64,15 +62,14 @@ public:
         return world_.positions();
     }
     std::string name(std::size_t frame) const override { return file_ + ", step " + std::to_string(frame); }
-    const std::vector<bool>& led() const { return led_; } ///< per vertex
+    const judging::SceneTriangles& all() const { return all_; }
     StepReport report() const { return measure(world_); } ///< of the last step that was taken
 
 private:
     std::string file_;
     World world_;
     std::size_t frames_ = 0;
-    std::vector<judging::Triangle> triangles_;
-    std::vector<bool> led_;
+    judging::SceneTriangles all_;
 };
 
 std::unique_ptr<FrameSource> open_input(const JudgeCommand& command)
@@ -286,9 +283,9 @@ int judge_input(const JudgeCommand& command)
     const auto input = open_input(command);
     const std::vector<glm::dvec3> first = input->positions(0);
     const auto* scene = dynamic_cast<const SceneFrames*>(input.get());
-    const std::vector<bool> led = scene ? scene->led() : std::vector<bool>{};
-    const judging::Judge judge =
-        naming_frame(*input, 0, [&] { return judging::Judge(input->triangles(), first, led); });
+    const judging::SceneTriangles all = scene ? scene->all() : judging::SceneTriangles{};
+    const judging::Judge judge = naming_frame(
+        *input, 0, [&] { return judging::Judge(input->triangles(), first, all.led, all.passing); });
     const Findings found = judge_all(command, *input, judge, first);
     const auto bad = static_cast<std::size_t>(
         std::count_if(found.frames.begin(), found.frames.end(), [](const Judged& j) { return !j.clean(); }));

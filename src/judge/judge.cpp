@@ -61,11 +61,12 @@ std::vector<std::optional<int>> linking_of(const Surface& surface, const std::ve
 
 } // namespace
 
-Judge::Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first, std::vector<bool> led)
+Judge::Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first, std::vector<bool> led,
+             PassingBodies passing)
 {
     check_positions(first);
     check_triangles(triangles, first.size());
-    surface_ = make_surface(first.size(), std::move(triangles), std::move(led));
+    surface_ = make_surface(first.size(), std::move(triangles), std::move(led), std::move(passing));
     for (const Edge& edge : surface_.edges)
         lengths_.push_back(length(edge, first));
     for (const std::uint32_t part : surface_.closed)

@@ -34,8 +34,9 @@ public:
 
     /// `first`: positions of the first frame, m. Throws Error{bad_input} where a position is not finite or
     /// beyond 1e30, a triangle names a vertex that is not there, or there is no triangle. `led`: vertices
-    /// that are not judged among each other (Surface::led).
-    Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first, std::vector<bool> led = {});
+    /// that are not judged among each other (Surface::led); `passing`: bodies that are not.
+    Judge(std::vector<Triangle> triangles, const std::vector<glm::dvec3>& first, std::vector<bool> led = {},
+          PassingBodies passing = {});
 
     /// Throws Error{bad_input} where the number of positions is another one, or one is not finite or too
     /// large.

@@ -11,6 +11,7 @@ struct SceneTriangles
     std::vector<Triangle> triangles; ///< vertices scene-wide: bodies one after another, as World::positions()
     std::vector<std::uint32_t> body; ///< per vertex
     std::vector<bool> led;           ///< per vertex: of a kinematic body
+    PassingBodies passing;           ///< by the groups of the bodies; empty where none passes through another
 };
 
 /// Of a resolved scene. Solids give their surfaces; chains have none.

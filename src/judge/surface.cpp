@@ -98,12 +98,14 @@ void find_borders(Surface& s)
 
 } // namespace
 
-Surface make_surface(std::size_t vertices, std::vector<Triangle> triangles, std::vector<bool> led)
+Surface make_surface(std::size_t vertices, std::vector<Triangle> triangles, std::vector<bool> led,
+                     PassingBodies passing)
 {
     Surface s;
     s.vertices = vertices;
     s.triangles = std::move(triangles);
     s.led = std::move(led);
+    s.passing = std::move(passing);
     find_edges(s);
     find_parts(s);
     find_closed(s);

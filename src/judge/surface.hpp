@@ -12,6 +12,14 @@ namespace taut::judging {
 using Triangle = std::array<std::uint32_t, 3>;
 using Edge = std::array<std::uint32_t, 2>; ///< lower vertex first
 
+/// Bodies of which some pass through others on purpose.
+struct PassingBodies
+{
+    std::vector<std::uint32_t> body; ///< per vertex; empty: none passes through another one
+    std::vector<std::uint32_t> kind; ///< per body
+    std::vector<std::vector<bool>> passes; ///< per two kinds, both ways: what two different bodies of them do
+};
+
 struct Surface
 {
     std::size_t vertices = 0;
@@ -28,10 +36,17 @@ struct Surface
     /// Per vertex: whether it goes where somebody takes it, so that what it does among its like is not
     /// judged. Empty: none does.
     std::vector<bool> led;
+    PassingBodies passing;
 
-    /// Whether a vertex of two features goes by itself.
+    /// Whether a vertex of two features goes by itself, and they are to stay apart.
     bool judged(const auto& feature, const auto& other) const
     {
+        if (!passing.body.empty())
+        {
+            const std::uint32_t a = passing.body[feature[0]], b = passing.body[other[0]];
+            if (a != b && passing.passes[passing.kind[a]][passing.kind[b]])
+                return false;
+        }
         const auto is_led = [&](std::uint32_t v) { return led[v]; };
         return led.empty() || !std::all_of(feature.begin(), feature.end(), is_led) ||
                !std::all_of(other.begin(), other.end(), is_led);
@@ -39,7 +54,8 @@ struct Surface
 };
 
 /// Indices are below `vertices`. Vertices of no triangle are parts of their own without triangles.
-Surface make_surface(std::size_t vertices, std::vector<Triangle> triangles, std::vector<bool> led = {});
+Surface make_surface(std::size_t vertices, std::vector<Triangle> triangles, std::vector<bool> led = {},
+                     PassingBodies passing = {});
 
 inline bool has(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
 

@@ -74,8 +74,10 @@ void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLe
     for (std::size_t k = 0; k < b.scene.bodies.size(); ++k)
     {
         const Body& body = b.scene.bodies[k];
+        const GroupBits bits = group_bits(b.scene, body);
         bodies.push_back({static_cast<Real>(radius_of(b.scene, body)),
-                          static_cast<Real>(friction_of(b.scene, body)), body.contact.self});
+                          static_cast<Real>(friction_of(b.scene, body)), body.contact.self, bits.group,
+                          bits.meets});
         for (std::uint32_t v = 0; v < body.mesh.positions.size(); ++v) // distances are all that is asked
             rest[b.vertex(k, v)] = {glm::vec<3, Real>(body.mesh.positions[v] - body.mesh.positions[0]),
                                     static_cast<Real>(k)};
@@ -191,7 +193,7 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     fill.start = {c.start, 2};
     fill.pair = {c.pair};
     const kernels::contact_search::Bindings<Use>::Params how = {
-        n, c.leaves, bodies_meet(b.scene), c.every, c.skin, c.reach, c.capacity};
+        n, c.leaves, c.every, c.skin, c.reach, c.capacity};
     const bool guarded = wants_guarantee(b.scene);
     searching(b, guarded ? "guarded" : "", count, how, n, TAUT_CONTACT_GATE_TRIANGLES);
     kernels::contact_scan::Bindings<Use> rows = {
@@ -209,7 +211,7 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                        .side = {c.side},
                                                        .corners = {c.corners, 4}};
     const std::uint64_t pairs = guarded ? TAUT_CONTACT_GATE_PAIRS : TAUT_CONTACT_PAIR_GROUPS;
-    gated(b, make, {c.capacity}, c.capacity, pairs);
+    gated(b, make, {c.capacity, friction_mix_of(b.scene)}, c.capacity, pairs);
     const kernels::contact_scan::Bindings<Use> places = {.found = {c.corners, vertices},
                                                          .start = {c.corner_start, vertices}};
     searching(b, "", places, {vertices, 0, vertices}, 1, TAUT_CONTACT_GATE_ONE);

@@ -15,6 +15,19 @@ constexpr double kThinnest = 64 * 0x1p-24;
 
 bool has_surface(const Body& body) { return !body.mesh.triangles.empty(); }
 
+/// Two different ones.
+bool bodies_meet(const Scene& scene, const Body& a, const Body& b)
+{
+    return scene.contact.between && has_surface(a) && has_surface(b) && !pass_through(a.contact, b.contact);
+}
+
+bool meets_another(const Scene& scene, const Body& body)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& other) {
+        return &other != &body && bodies_meet(scene, body, other);
+    });
+}
+
 std::string at_body(std::size_t k) { return "bodies[" + std::to_string(k) + "]"; }
 
 void check_guarantee(const Scene& scene)
@@ -25,7 +38,7 @@ void check_guarantee(const Scene& scene)
     if (!wants_contact(scene))
         throw Error(ErrorCode::bad_input,
                     asked + ", but no surfaces meet: set bodies[].contact.self, or contact.between and two "
-                            "bodies with surfaces; or leave it out");
+                            "bodies with surfaces that do not pass through each other; or leave it out");
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
         if (scene.bodies[k].material.tear_strain > 0)
             throw Error(ErrorCode::unsupported,
@@ -65,21 +78,35 @@ double friction_of(const Scene& scene, const Body& body)
     return body.contact.friction >= 0 ? body.contact.friction : scene.contact.friction;
 }
 
-bool bodies_meet(const Scene& scene)
+std::uint32_t friction_mix_of(const Scene& scene)
 {
-    return scene.contact.between && std::count_if(scene.bodies.begin(), scene.bodies.end(), has_surface) > 1;
+    const auto& all = kFrictionMixes;
+    const auto found = std::find(all.begin(), all.end(), scene.contact.friction_mix);
+    return static_cast<std::uint32_t>(found - all.begin());
+}
+
+GroupBits group_bits(const Scene& scene, const Body& body)
+{
+    const std::vector<std::string> names = contact_groups(scene);
+    const auto bit_of = [&](const std::string& name) {
+        return 1u << (std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    GroupBits out{bit_of(body.contact.group), scene.contact.between ? ~0u : 0u};
+    for (const std::string& name : body.contact.passes)
+        out.meets &= ~bit_of(name);
+    return out;
 }
 
 bool takes_part(const Scene& scene, const Body& body)
 {
-    return has_surface(body) && (body.contact.self || bodies_meet(scene));
+    return has_surface(body) && (body.contact.self || meets_another(scene, body));
 }
 
 bool surfaces_meet(const Scene& scene, std::size_t a, std::size_t b)
 {
     if (a == b)
         return scene.bodies[a].contact.self;
-    return bodies_meet(scene) && has_surface(scene.bodies[a]) && has_surface(scene.bodies[b]);
+    return bodies_meet(scene, scene.bodies[a], scene.bodies[b]);
 }
 
 bool wants_contact(const Scene& scene)

@@ -12,9 +12,17 @@ inline constexpr std::uint32_t kMostContactPairs = 1u << 21;
 double radius_of(const Scene& scene, const Body& body);
 /// Coulomb coefficient of the surface of a body.
 double friction_of(const Scene& scene, const Body& body);
+/// TAUT_CONTACT_MIX_* of contact.friction_mix.
+std::uint32_t friction_mix_of(const Scene& scene);
 
-/// Whether different bodies meet, and there are two of them with surfaces.
-bool bodies_meet(const Scene& resolved);
+/// Bits of the names of groups, in the order in which the bodies of a scene first have them.
+struct GroupBits
+{
+    std::uint32_t group = 0; ///< its own
+    std::uint32_t meets = 0; ///< those that it does not pass through; none where bodies do not meet
+};
+GroupBits group_bits(const Scene& scene, const Body& body);
+
 /// Whether the surface of a body meets itself or another one.
 bool takes_part(const Scene& resolved, const Body& body);
 /// Whether the surfaces of two bodies meet, or that of one itself.

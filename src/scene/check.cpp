@@ -60,15 +60,6 @@ void warn_of_idle_wind(const Scene& scene, const Checker& out)
         out.warning("wind", "moves nothing: no material has \"drag\" or \"friction_drag\"");
 }
 
-void warn_of_idle_kinematic(const Scene& scene, const Checker& out)
-{
-    for (std::size_t b = 0; b < scene.bodies.size() && !scene.contact.between; ++b)
-        if (scene.bodies[b].kinematic.used)
-            out.at("bodies", b).warning("kinematic",
-                                        "meets nothing: the scene has no \"contact\"; write \"contact\": {}, "
-                                        "and bodies meet each other");
-}
-
 } // namespace
 
 void check_scene(const Scene& scene, const Checker& out)
@@ -77,6 +68,7 @@ void check_scene(const Scene& scene, const Checker& out)
         out.error("taut", "is " + std::to_string(scene.version) + "; this library reads version 1");
     check_times(scene, out);
     warn_of_idle_wind(scene, out);
+    check_groups(scene, out);
     warn_of_idle_kinematic(scene, out);
     if (out.scope() == Scope::meshes)
         return;

@@ -3,6 +3,7 @@
 // docs/scene.md lists every key of the file format; the names are the same here.
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/contact.hpp"
 #include "taut/scene/embed.hpp"
 #include "taut/scene/fabric.hpp"
 #include "taut/scene/mesh.hpp"
@@ -188,28 +189,6 @@ struct Shape
     double radius = 0.5;           ///< ball: m
 };
 
-/// How deformable surfaces meet each other (docs/contact.md). Two surfaces of radii r and s keep their
-/// middles r + s apart.
-struct SceneContact
-{
-    bool between = false;  ///< different bodies meet; false = none does: no effect unless a body meets itself
-    double thickness = -1; ///< m, radius of all surfaces that give none; < 0 = each material's `thickness`
-    double friction = 0;   ///< Coulomb coefficient of all surfaces that give none, >= 0
-    std::uint32_t searches = 4; ///< a time step, 1..1000: how often pairs that may meet are looked for
-    std::uint32_t sweeps = 2;   ///< 1..100: over all pairs, after each iteration of the constraints
-    /// Surfaces that meet and cross at the start: "ignore" (they stay so) or "refuse": World throws.
-    std::string start = "ignore";
-    std::string guarantee = "none"; ///< or "no_crossing": no pair that meets ever crosses (docs/contact.md)
-};
-
-/// The same of one body's surface.
-struct BodyContact
-{
-    bool self = false;     ///< the surface meets itself
-    double thickness = -1; ///< m, its radius; < 0 = as the scene says
-    double friction = -1;  ///< Coulomb coefficient; < 0 = as the scene says
-};
-
 struct Body
 {
     std::string name;
@@ -363,6 +342,9 @@ struct Scene
     std::vector<Collider> colliders;
     std::filesystem::path directory; ///< mesh paths are relative to it
 };
+
+/// Names of the groups of its bodies (BodyContact::group), in the order of the bodies.
+std::vector<std::string> contact_groups(const Scene& scene);
 
 /// Reads a scene file. Throws Error{bad_input} naming file, field path ("bodies[0].material.density"),
 /// what is there, what would be right, and for an unknown key the nearest known one; Error{io}.

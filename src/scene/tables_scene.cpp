@@ -110,10 +110,11 @@ constexpr Key kContact[] = {
         .unit("m")
         .at_least(0)
         .or_word("material", -1),
-    key<&SceneContact::friction>("friction",
-                                 "Coulomb coefficient of every surface whose body gives none; two "
-                                 "surfaces rub by the mean of theirs")
+    key<&SceneContact::friction>("friction", "Coulomb coefficient of every surface whose body gives none")
         .at_least(0),
+    key<&SceneContact::friction_mix>("friction_mix", "what the coefficients of two surfaces that rub make")
+        .words(kFrictionMixes)
+        .see("which", "contact.md#what-meets-what"),
     key<&SceneContact::searches>("searches", "how often a time step looks for what may meet: more where "
                                              "several layers fall fast; at most once a substep")
         .range(1, 1000),
@@ -131,12 +132,19 @@ constexpr Key kContact[] = {
 
 constexpr Key kBodyContact[] = {
     key<&BodyContact::self>("self", "the surface meets itself"),
+    key<&BodyContact::group>("group", "a name of one's own for bodies that others pass through")
+        .ranges("at most 32 different ones in a scene")
+        .see("groups", "contact.md#what-meets-what"),
+    key<&BodyContact::passes>("passes",
+                              "groups whose bodies do not meet this one, nor it them; its own: those "
+                              "of the group do not meet each other")
+        .ranges("list of groups that bodies have"),
     key<&BodyContact::thickness>("thickness",
                                  "the surface's radius; two surfaces keep the sum of theirs apart")
         .unit("m")
         .at_least(0)
         .or_word("scene", -1),
-    key<&BodyContact::friction>("friction", "Coulomb coefficient; two surfaces rub by the mean of theirs")
+    key<&BodyContact::friction>("friction", "Coulomb coefficient")
         .at_least(0)
         .or_word("scene", -1),
 };

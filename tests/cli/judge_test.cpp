@@ -89,6 +89,21 @@ TEST_CASE("a run whose surfaces were to meet and cross is unconverged, and says 
     const std::size_t begin = crossed.find("\"contact\""), end = crossed.find("\"bodies\"");
     folder.file("ghosts.json", crossed.substr(0, begin) + crossed.substr(end));
     CHECK(folder.taut({"run", "ghosts.json", "--device", "cpu:serial", "--no-picture"}).status == 0);
+    CHECK(folder.taut({"judge", "ghosts.json", "--device", "cpu:serial", "--frames", "1"}).status == 1);
+    // Somebody asked them not to.
+    std::string passing = crossed;
+    passing.insert(passing.find("\"name\": \"sheet\""),
+                   R"("contact": {"group": "sheet", "passes": ["default"]}, )");
+    folder.file("passing.json", passing);
+    CHECK(folder.taut({"run", "passing.json", "--device", "cpu:serial", "--no-picture"}).status == 0);
+    CHECK(folder.taut({"judge", "passing.json", "--device", "cpu:serial", "--frames", "1"}).status == 0);
+    CHECK_THAT(folder.taut({"check", "crossed.json"}).out, Contains("at the start"));
+    CHECK_THAT(folder.taut({"check", "passing.json"}).out, Contains("is a sound scene.\n"));
+    passing.replace(passing.find("[\"default\"]"), 11, "[\"defualt\"]");
+    folder.file("wrong.json", passing);
+    CHECK_THAT(folder.taut({"check", "wrong.json"}).out,
+               Contains("bodies[1].contact.passes[0]: is \"defualt\"") &&
+                   Contains("did you mean \"default\""));
 }
 
 TEST_CASE("a sheet that is through another one within a frame is seen, though no frame shows it")

@@ -5,13 +5,30 @@
 using namespace taut;
 using namespace taut::conformance;
 
+namespace {
+
+double mixed(std::uint32_t rule, double m, double n)
+{
+    switch (rule)
+    {
+    case TAUT_CONTACT_MIX_MINIMUM: return std::min(m, n);
+    case TAUT_CONTACT_MIX_MAXIMUM: return std::max(m, n);
+    case TAUT_CONTACT_MIX_PRODUCT: return m * n;
+    case TAUT_CONTACT_MIX_GEOMETRIC_MEAN: return std::sqrt(m * n);
+    default: return 0.5 * (m + n);
+    }
+}
+
+} // namespace
+
 TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction, and counts its corners", "",
                    float, double)
 {
     using Real = TestType;
     using Vec = glm::vec<4, Real>;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 1000u);
-    CAPTURE(count);
+    const std::uint32_t rule = count == 1000 ? GENERATE(range(0u, 5u)) : TAUT_CONTACT_MIX_MEAN;
+    CAPTURE(count, rule);
     Random random(2500 + count);
     const auto net = contact_net<Real>(120, random, 0.003);
     const auto pairs = some_pairs(net, count + 3, random);
@@ -30,7 +47,7 @@ TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction
             {"side", bytes_of(std::vector<Side>(count + 3, Side{3, 3, 3, 3, 3, 3}))},
             {"corners", bytes_of(std::vector<std::uint32_t>(net.position.size(), 0))}};
     c.launches = {make_launch(kernels::contact_make::info("", c.precision),
-                              kernels::contact_make::Params{count + 3}, count + 3)};
+                              kernels::contact_make::Params{count + 3, rule}, count + 3)};
     std::vector<std::uint32_t> corners(net.position.size(), 0);
     Field& field = c.expected["side"];
     std::size_t thin = 0;
@@ -53,7 +70,8 @@ TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction
         thin += gap < sum ? 1 : 0;
         field.add(gap, 1);
         field.add(gap, 1);
-        field.add(0.5 * (static_cast<double>(first.friction) + static_cast<double>(second.friction)), 1);
+        field.add(
+            mixed(rule, static_cast<double>(first.friction), static_cast<double>(second.friction)), 1);
     }
     for (int k = 0; k < 3 * 6; ++k)
         field.add(3, 0);
@@ -77,12 +95,12 @@ TEST_CASE("contact_make takes any side of what touches, and never one that is no
     c.in = {{"pair", bytes_of(pairs)},
             {"position", bytes_of(position)},
             {"rest", bytes_of(rest)},
-            {"body", bytes_of(std::vector<layout::ContactBody<float>>{{0.01f, 0, 1}})},
+            {"body", bytes_of(std::vector<layout::ContactBody<float>>{{0.01f, 0, 1, 1, ~0u}})},
             {"control", bytes_of(control_of(3))},
             {"side", bytes_of(std::vector<layout::ContactSide<float>>(3))},
             {"corners", bytes_of(std::vector<std::uint32_t>(5, 0))}};
     c.launches = {make_launch(kernels::contact_make::info("", Precision::float32),
-                              kernels::contact_make::Params{3}, 3)};
+                              kernels::contact_make::Params{3, TAUT_CONTACT_MIX_MEAN}, 3)};
     look_on_every_device(c, [&](const Buffers& out) {
         const auto sides = values_of<layout::ContactSide<float>>(out.at("side"));
         CHECK(std::abs(sides[0].normal_y) == 1);

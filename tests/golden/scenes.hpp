@@ -93,7 +93,23 @@ inline Scene contact()
     return scene;
 }
 
-/// The same, thrown so fast that ways have to be cut.
+/// The same and another small one, which passes through the first and rubs on the large one alone.
+inline Scene grouped()
+{
+    Scene scene = contact();
+    Body ghost = scene.bodies[1];
+    ghost.name = "ghost";
+    ghost.transform.translate += glm::dvec3(-0.0625, 0.03125, 0.03125);
+    ghost.contact.group = "ghost";
+    ghost.contact.friction = 0.75;
+    scene.bodies.push_back(ghost);
+    scene.bodies[1].contact.group = "above";
+    scene.bodies[1].contact.passes = {"ghost"};
+    scene.contact.friction_mix = "geometric_mean";
+    return scene;
+}
+
+/// The same as the first, thrown so fast that ways have to be cut.
 inline Scene guarded()
 {
     Scene scene = contact();
@@ -162,6 +178,7 @@ inline std::map<std::string, Scene> scenes()
     all.merge(std::map<std::string, Scene>{{"effects", effects()},
                                            {"tear", tear()},
                                            {"contact", contact()},
+                                           {"grouped", grouped()},
                                            {"guarded", guarded()},
                                            {"guarded_pbd", guarded_by("pbd")},
                                            {"guarded_vbd", guarded_by("vbd")},

@@ -55,8 +55,7 @@ struct Meant
         const auto is_held = [&](std::uint32_t v) { return held[v]; };
         if (std::all_of(a.begin(), a.end(), is_held) && std::all_of(b.begin(), b.end(), is_held))
             return false;
-        return all.body[a[0]] == all.body[b[0]] ? scene.bodies[all.body[a[0]]].contact.self
-                                                : bodies_meet(scene);
+        return surfaces_meet(scene, all.body[a[0]], all.body[b[0]]);
     }
 };
 

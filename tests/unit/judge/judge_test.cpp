@@ -311,3 +311,34 @@ TEST_CASE("what is led is judged against what is not, and not among its like")
     CHECK(judged(false, false).look(after).stretch == Approx(0.5));
     CHECK(judged(true, false).look(after).stretch == 0);
 }
+
+TEST_CASE("bodies that pass through each other are not judged against each other, each still is by itself")
+{
+    Shape s = sheet(3, [](double x, double y) { return glm::dvec3(x, y, 0); });
+    s.add(sheet(3, [](double x, double y) { return glm::dvec3(x, 0.4, y - 0.5); }));
+    s.add(sheet(3, [](double x, double y) { return glm::dvec3(x, 0.6, y - 0.5); }));
+    const auto judged = [&](const std::vector<std::vector<bool>>& passes) {
+        PassingBodies passing{std::vector<std::uint32_t>(48, 0), {0, 1, 1}, passes};
+        std::fill(passing.body.begin() + 16, passing.body.end(), 1);
+        std::fill(passing.body.begin() + 32, passing.body.end(), 2);
+        return Judge(s.triangles, s.positions, {}, passing);
+    };
+    const Judge none(s.triangles, s.positions);
+    const std::size_t pairs = none.look(s.positions).intersecting;
+    REQUIRE(pairs > 0);
+    CHECK(judged({{false, false}, {false, false}}).look(s.positions).intersecting == pairs);
+    const Judge through = judged({{false, true}, {true, false}});
+    CHECK(through.look(s.positions).intersecting == 0);
+    CHECK(through.look(s.positions).nearest.distance == Approx(0.2)); // of the second and the third
+    CHECK(judged({{false, true}, {true, true}}).look(s.positions).nearest.distance > 0.2);
+    std::vector<glm::dvec3> after = s.positions;
+    for (std::size_t v = 16; v < 32; ++v) // the second goes beyond the third
+        after[v].y += 0.5;
+    CHECK(!through.between(s.positions, after).empty());
+    CHECK(judged({{false, true}, {true, true}}).between(s.positions, after).empty());
+    after = s.positions; // and folds onto itself
+    for (std::size_t v = 16; v < 32; ++v)
+        if (after[v].x > 0.5)
+            after[v] = {1.1 - after[v].x, after[v].y + 0.01 * (after[v].z - 0.2), after[v].z};
+    CHECK(judged({{false, true}, {true, true}}).look(after).intersecting > 0);
+}

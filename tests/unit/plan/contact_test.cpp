@@ -5,6 +5,7 @@
 #include "support/scenes.hpp"
 
 #include "taut/kernels/shared/contact_rows.h"
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/contact_tree.hpp"
 #include "taut/plan/plan.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -96,6 +97,35 @@ TEST_CASE("contact adds its searches and sweeps, and leaves all other passes as 
     CHECK(after.contact.triangles == 144);
 }
 
+TEST_CASE("bodies that meet nothing are in no list, by their groups", "[contact]")
+{
+    Scene scene = two();
+    const Plan apart = make_plan(scene);
+    scene.contact.between = true;
+    scene.bodies[1].contact.group = "ghost";
+    scene.bodies[0].contact.passes = {"ghost"};
+    CHECK(same_passes(apart, make_plan(scene))); // either side may say it
+    std::swap(scene.bodies[0].contact.passes, scene.bodies[1].contact.passes);
+    scene.bodies[1].contact.passes = {"default"};
+    CHECK(same_passes(apart, make_plan(scene)));
+    scene.bodies[1].contact.passes = {"ghost"}; // its own group: no other one is in it
+    CHECK(make_plan(scene).contact.triangles == 144);
+    scene.bodies.push_back(scene.bodies[1]);
+    for (glm::dvec3& x : scene.bodies[2].mesh.positions)
+        x.z += 0.5;
+    CHECK(make_plan(scene).contact.triangles == 216);
+    scene.bodies[0].contact.passes = {"ghost"}; // and now no two meet
+    CHECK(same_passes(make_plan(scene), [&] {
+        Scene without = scene;
+        without.contact.between = false;
+        return make_plan(without);
+    }()));
+    scene.bodies[2].contact.self = true; // but one itself
+    CHECK(make_plan(scene).contact.triangles == 72);
+    CHECK(surfaces_meet(scene, 2, 2));
+    CHECK(!surfaces_meet(scene, 1, 2));
+}
+
 TEST_CASE("a surface too thin to meet others is refused by name", "[contact]")
 {
     const auto refusal = [](const Scene& scene) -> std::string {
@@ -110,7 +140,8 @@ TEST_CASE("a surface too thin to meet others is refused by name", "[contact]")
         return "";
     };
     Scene thin = test::hanging(4);
-    thin.bodies[0].contact = {true, 1e-6, 0};
+    thin.bodies[0].contact.self = true;
+    thin.bodies[0].contact.thickness = 1e-6;
     CHECK_THAT(refusal(thin),
                Contains("bodies[0].contact.thickness is 1e-06 m") && Contains("needs at least"));
     thin.bodies[0].contact.thickness = 0;

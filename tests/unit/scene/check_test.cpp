@@ -303,3 +303,47 @@ TEST_CASE("two bodies of one name are a warning")
     resolve(scene, &warnings);
     CHECK(warnings.size() == 1);
 }
+
+TEST_CASE("a group that no body has is refused by name, and so are more of them than can be told apart")
+{
+    Scene scene = good_scene();
+    scene.bodies[0].contact.group = "skirt";
+    scene.bodies[1].contact.passes = {"skirt", "default"};
+    CHECK(check(scene).empty());
+    scene.bodies[1].contact.passes = {"skirt", "skrit"};
+    const auto issues = check(scene);
+    REQUIRE(issues.size() == 1);
+    CHECK(issues[0].error);
+    CHECK(issues[0].field == "bodies[1].contact.passes[1]");
+    CHECK_THAT(issues[0].text, Contains("is \"skrit\"; it must be \"skirt\" or \"default\"") &&
+                                   Contains("did you mean \"skirt\""));
+    scene.bodies[1].contact.passes.clear();
+    for (int k = 0; k < 31; ++k)
+    {
+        scene.bodies.push_back(scene.bodies[1]);
+        scene.bodies.back().name = scene.bodies.back().contact.group = "body " + std::to_string(k);
+    }
+    REQUIRE(check(scene).size() == 1);
+    CHECK_THAT(check(scene)[0].text, Contains("33 different contact.group; at most 32"));
+    scene.bodies.pop_back();
+    CHECK(check(scene).empty());
+}
+
+TEST_CASE("a led mesh that all others pass through is warned of")
+{
+    Scene scene = good_scene();
+    scene.bodies.resize(1);
+    scene.bodies[0].name = "cloth";
+    scene.contact.between = true;
+    Body wall;
+    wall.kinematic.used = true;
+    scene.bodies.push_back(wall);
+    CHECK(check(scene).empty());
+    scene.bodies[0].contact.group = "cloth";
+    scene.bodies[1].contact.passes = {"cloth"};
+    const auto issues = check(scene);
+    REQUIRE(issues.size() == 1);
+    CHECK(!issues[0].error);
+    CHECK(issues[0].field == "bodies[1].kinematic");
+    CHECK_THAT(issues[0].text, Contains("meets nothing") && Contains("passes through all other bodies"));
+}

@@ -1,0 +1,70 @@
+// What the bodies of a scene say of each other: which of them pass through which.
+
+#include "taut/scene/checker.hpp"
+#include "taut/scene/scene.hpp"
+
+#include <algorithm>
+
+namespace taut {
+namespace {
+
+bool has(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool meets_another(const Scene& scene, const Body& body)
+{
+    return scene.contact.between &&
+           std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& other) {
+               return &other != &body && !pass_through(body.contact, other.contact);
+           });
+}
+
+} // namespace
+
+bool pass_through(const BodyContact& a, const BodyContact& b)
+{
+    return has(a.passes, b.group) || has(b.passes, a.group);
+}
+
+std::vector<std::string> contact_groups(const Scene& scene)
+{
+    std::vector<std::string> out;
+    for (const Body& body : scene.bodies)
+        if (!has(out, body.contact.group))
+            out.push_back(body.contact.group);
+    return out;
+}
+
+namespace scene_file {
+
+void check_groups(const Scene& scene, const Checker& out)
+{
+    const std::vector<std::string> names = contact_groups(scene);
+    if (names.size() > kMostContactGroups)
+        out.error("bodies", "have " + std::to_string(names.size()) + " different contact.group; at most " +
+                                std::to_string(kMostContactGroups) + " are told apart");
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+        const std::vector<std::string>& passes = scene.bodies[b].contact.passes;
+        for (std::size_t k = 0; k < passes.size(); ++k)
+            out.at("bodies", b).at("contact").at("passes", k).word("", passes[k], known);
+    }
+}
+
+void warn_of_idle_kinematic(const Scene& scene, const Checker& out)
+{
+    const std::string why = scene.contact.between
+                                ? "it passes through all other bodies (contact.group)"
+                                : "the scene has no \"contact\"; write \"contact\": {}, and "
+                                  "bodies meet each other";
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        if (scene.bodies[b].kinematic.used && !meets_another(scene, scene.bodies[b]) &&
+            (scene.bodies.size() > 1 || !scene.contact.between))
+            out.at("bodies", b).warning("kinematic", "meets nothing: " + why);
+}
+
+} // namespace scene_file
+} // namespace taut
