@@ -68,7 +68,7 @@ Made make(const Scene& scene, const linear::SparseMatrix& a, int solves, bool he
     }
     const auto kind = linear::Preconditioner::block_jacobi;
     const auto inverse = std::make_shared<linear::DeviceInverse>(builder.paper(), matrix, a, kind, marks);
-    PlanSolve solve(builder, "test", matrix, {kind, inverse->inverse(), nullptr}, inverse);
+    PlanSolve solve(builder, "test", matrix, {kind, inverse->inverse(), nullptr}, {inverse});
     for (int k = 0; k < solves; ++k)
         solve.record(builder);
     builder.finish_paper();
