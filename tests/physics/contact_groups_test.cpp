@@ -18,15 +18,6 @@ namespace {
 
 constexpr double kRadius = 0.002, kGap = 2 * kRadius, kNet = 0.03;
 
-void hold(Body& body)
-{
-    Pin pin;
-    pin.use_box = true;
-    pin.box_min = glm::dvec3(-10);
-    pin.box_max = glm::dvec3(10);
-    body.pins = {pin};
-}
-
 /// A sheet above a held net above a held plate.
 Scene above_a_net(double height)
 {
@@ -34,8 +25,8 @@ Scene above_a_net(double height)
     scene.bodies = {test::level_sheet(6, 0.2, {0, 0, 0}, kRadius),
                     test::level_sheet(6, 0.2, {0.007, kNet, 0.003}, kRadius),
                     test::level_sheet(4, 0.1, {0.011, height, 0.007}, kRadius)};
-    hold(scene.bodies[0]);
-    hold(scene.bodies[1]);
+    test::hold_all(scene.bodies[0]);
+    test::hold_all(scene.bodies[1]);
     scene.bodies[1].contact.group = "net";
     scene.bodies[2].contact.group = "sheet";
     scene.contact.between = true;
@@ -107,7 +98,7 @@ TEST_CASE("a sheet on a slope rubs by the rule of the scene", "[contact]")
     Scene scene;
     scene.bodies = {test::level_sheet(8, 0.3, {0, 0, 0}, kRadius),
                     test::level_sheet(3, 0.06, {0, kGap, 0}, kRadius)};
-    hold(scene.bodies[0]);
+    test::hold_all(scene.bodies[0]);
     scene.bodies[0].contact.friction = 0.2;
     scene.bodies[1].contact.friction = 0.6;
     scene.contact.between = true;

@@ -25,15 +25,6 @@ Body sheet(std::uint32_t cells, double size, const glm::dvec3& centre)
     return body;
 }
 
-void hold(Body& body)
-{
-    Pin pin;
-    pin.use_box = true;
-    pin.box_min = glm::dvec3(-10);
-    pin.box_max = glm::dvec3(10);
-    body.pins = {pin};
-}
-
 Scene meeting(std::vector<Body> bodies)
 {
     Scene scene;
@@ -65,7 +56,7 @@ TEST_CASE("a sheet falls on a held one and rests a gap above it, under every met
     CAPTURE(method);
     Scene scene =
         test::under(meeting({sheet(8, 0.24, {0, 0, 0}), sheet(4, 0.1, {0.011, 0.02, 0.007})}), method);
-    hold(scene.bodies[0]);
+    test::hold_all(scene.bodies[0]);
     World world(scene, test_device("cpu:serial"));
     CHECK(test::crossed_in(world, 60) == 0);
     for (const glm::dvec3& x : world.positions(1))
@@ -106,7 +97,7 @@ TEST_CASE("a sheet stays on a slope below the angle of friction and slides above
     const double friction = GENERATE(0.6, 0.2); // tan 20 degrees = 0.36
     CAPTURE(method, friction);
     Scene scene = test::under(meeting({sheet(8, 0.3, {0, 0, 0}), sheet(3, 0.06, {0, kGap, 0})}), method);
-    hold(scene.bodies[0]);
+    test::hold_all(scene.bodies[0]);
     scene.contact.friction = friction;
     scene.contact.sweeps = 8;
     const double slope = glm::radians(20.0);

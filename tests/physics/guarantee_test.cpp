@@ -146,16 +146,6 @@ Body level_sheet(std::uint32_t cells, double size, const glm::dvec3& centre)
     return test::level_sheet(cells, size, centre, 0.001);
 }
 
-void hold_all(Body& body, const std::vector<Keyframe>& motion)
-{
-    Pin pin;
-    pin.box_min = glm::dvec3(-10);
-    pin.box_max = glm::dvec3(10);
-    pin.use_box = true;
-    pin.motion = motion;
-    body.pins = {pin};
-}
-
 Scene guarded_scene(std::vector<Body> bodies)
 {
     Scene scene;
@@ -212,7 +202,7 @@ TEST_CASE("a sheet that strikes a held one at any speed ends above it, and gains
     CAPTURE(speed);
     Scene scene =
         guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.05, 0.007})});
-    hold_all(scene.bodies[0], {});
+    test::hold_all(scene.bodies[0], {});
     scene.bodies[1].velocity = {0, -speed, 0};
     scene.bodies[1].contact.self = true;
     scene.gravity = glm::dvec3(0);
@@ -250,7 +240,7 @@ TEST_CASE("a held sheet that moves pushes a free one before it")
     Scene scene =
         guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.004, 0.007})});
     const double speed = GENERATE(1.0, 10.0);
-    hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.2 * speed, 0}}});
+    test::hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.2 * speed, 0}}});
     const Crossed guarded = run_thrown(resolve(scene), 12, false);
     CHECK(guarded.met == 0);
     CHECK((guarded.counts.pinched > 0) == (speed > 5)); // from rest it may not follow at once
@@ -262,8 +252,8 @@ TEST_CASE("a sheet between two held ones that close is counted as pinched, and t
 {
     Scene scene = guarded_scene({level_sheet(8, 0.2, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.02, 0.007}),
                                  level_sheet(8, 0.2, {0.003, 0.04, 0.002})});
-    hold_all(scene.bodies[0], {});
-    hold_all(scene.bodies[2], {{0, glm::dvec3(0)}, {0.2, {0, -0.039, 0}}, {0.3, {0, -0.06, 0}}});
+    test::hold_all(scene.bodies[0], {});
+    test::hold_all(scene.bodies[2], {{0, glm::dvec3(0)}, {0.2, {0, -0.039, 0}}, {0.3, {0, -0.06, 0}}});
     World world(scene, test_device("cpu:serial"));
     std::uint64_t before_it = 0;
     for (int step = 0; step < 24; ++step)
@@ -283,7 +273,8 @@ TEST_CASE("with the guarantee a step whose lists are too short is done again, bi
 {
     Scene scene =
         guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.02, 0.007})});
-    hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.05, 0}}}); // inputs that change in every step
+    // Inputs that change in every step.
+    test::hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.05, 0}}});
     scene.bodies[1].velocity = {0, -1, 0};
     scene.bodies[1].contact.self = true;
     WorldOptions options;

@@ -21,6 +21,17 @@ inline Body level_sheet(std::uint32_t cells, double size, const glm::dvec3& cent
     return body;
 }
 
+/// A pin of all vertices within 10 m of the origin, which goes as `motion` says.
+inline void hold_all(Body& body, const std::vector<Keyframe>& motion = {})
+{
+    Pin pin;
+    pin.use_box = true;
+    pin.box_min = glm::dvec3(-10);
+    pin.box_max = glm::dvec3(10);
+    pin.motion = motion;
+    body.pins = {pin};
+}
+
 /// Pairs of triangles that intersect after each of so many steps, added up.
 inline std::size_t crossed_in(World& world, int steps)
 {
