@@ -17,6 +17,18 @@ namespace bench {
 
 std::string processor() { return taut::Device::open("cpu:serial")->info().name; }
 
+namespace {
+
+/// Spins; where the other thread does not get a core, it lets go of this one.
+void await(const std::atomic<int>& line, int number)
+{
+    for (int spins = 0; line.load(std::memory_order_acquire) != number; ++spins)
+        if (spins > 10'000)
+            std::this_thread::yield();
+}
+
+} // namespace
+
 double line_round_trip()
 {
     constexpr int kTrips = 2000, kTurns = 9;
@@ -25,8 +37,7 @@ double line_round_trip()
     std::thread other([&line] {
         for (int answer = 2; answer <= 2 * kTrips * kTurns; answer += 2)
         {
-            while (line.load(std::memory_order_acquire) != answer - 1)
-                ;
+            await(line, answer - 1);
             line.store(answer, std::memory_order_release);
         }
     });
@@ -37,8 +48,7 @@ double line_round_trip()
         for (int trip = 0; trip < kTrips; ++trip)
         {
             line.store(++number, std::memory_order_release);
-            while (line.load(std::memory_order_acquire) != number + 1)
-                ;
+            await(line, number + 1);
             ++number;
         }
         const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - start;
