@@ -1,6 +1,5 @@
 // Based on: George, Liu. Computer Solution of Large Sparse Positive Definite Systems. 1981, 4.3 (level
-// structures from a vertex far
-//   from the others) and 8.3 (bisection by them).
+//   structures from a vertex far from the others) and 8.3 (bisection by them).
 // Departures: halves are cut where the count says, inside a level too.
 
 #include "taut/linear/partition.hpp"

@@ -1,10 +1,10 @@
 // Based on:
 //   Nicolaides. Deflation of Conjugate Gradients with Applications to Boundary Value Problems. SINUM 1987
-//   (the coarse space). Toselli, Widlund. Domain Decomposition Methods. 2005, chapter 3 (both levels added
-//   up).
+//   (the coarse space).
+//   Toselli, Widlund. Domain Decomposition Methods. 2005, chapter 3 (both levels added up).
 // Departures: the coarse system is a product with its dense inverse, since no pass here is sequential; its
-// diagonal is raised by 2^-14, which
-//   keeps every pivot of the inversion above its rounding (a Schur complement of A + S is at least S).
+//   diagonal is raised by 2^-14, which keeps every pivot of the inversion above its rounding (a Schur
+//   complement of A + S is at least S).
 
 #include "taut/linear/two_level.hpp"
 

@@ -224,6 +224,7 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
                                                   aggregates_of(pattern, solved));
     const auto mask = std::make_shared<linear::DeviceInverse>(
         b.paper(), matrix, pattern, linear::Preconditioner::jacobi, b.on_paper(m.marks));
+    // "multigrid" is what conjugate gradients call any preconditioner whose result is stored.
     m.solve.emplace(b, kName, system,
                     linear::Preconditioning{linear::Preconditioner::multigrid, mask->inverse(), m.coarse},
                     PlanSolve::Inverses{inverse, mask});

@@ -18,8 +18,8 @@ class PlanSolve
 public:
     using Inverses = std::vector<std::shared_ptr<const linear::DeviceInverse>>;
 
-    /// Operator and inverse live on builder.paper(). The inverses of `formed` are formed anew
-    /// before each solve; without any passes of the caller fill preconditioning.inverse, and an inverse of 0
+    /// Operator and inverse live on builder.paper(). The inverses of `formed` are formed anew before each
+    /// solve; where there are none, passes of the caller fill preconditioning.inverse, and an inverse of 0
     /// holds a row. Throws what ConjugateGradient throws.
     PlanSolve(PlanBuilder& builder, std::string_view effect, std::shared_ptr<const linear::Operator>,
               linear::Preconditioning, Inverses formed = {});
