@@ -15,6 +15,9 @@ std::string shown(double value);
 /// which more digits would say nothing. 1 <= digits <= 17.
 std::string shown(double value, int digits);
 
+/// A share as "12.3 %", at most `digits` significant digits.
+std::string shown_percent(double share, int digits = 3);
+
 /// "1 entry", "0 entries": the count and what is counted, in its right form.
 std::string counted(std::uint64_t count, std::string_view one, std::string_view several);
 

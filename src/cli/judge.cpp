@@ -8,6 +8,7 @@
 #include "taut/cli/output.hpp"
 #include "taut/judge/scene_triangles.hpp"
 #include "taut/report/report.hpp"
+#include "taut/runtime/base/shown.hpp"
 #include "taut/scene/frame_source.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
@@ -198,7 +199,7 @@ Findings judge_all(const JudgeCommand& command, FrameSource& input, const judgin
             continue;
         naming_frame(input, frame, [&] {
             std::vector<glm::dvec3> now = frame == 0 ? first : input.positions(frame);
-            Judged judged{frame, judge.look(now)};
+            Judged judged{frame, judge.look(now), false, {}};
             if (!out.frames.empty() &&
                 out.frames.back().frame + 1 == frame) // else the way was hardly straight
                 judged.passed = judge.between(before, now);
@@ -210,7 +211,7 @@ Findings judge_all(const JudgeCommand& command, FrameSource& input, const judgin
     return out;
 }
 
-std::string percent(double share) { return share < 0 ? "-" : number(100 * share, 3) + " %"; }
+std::string percent_or_dash(double share) { return share < 0 ? "-" : shown_percent(share); }
 std::string distance_text(const judging::Nearest& n)
 {
     return n.distance < 0 ? "-" : number(n.distance, 3) + " m";
@@ -250,7 +251,8 @@ void print(const std::vector<Judged>& all, const FrameSource& input, const judgi
             continue;
         rows.push_back({std::to_string(all[k].frame), std::to_string(v.intersecting),
                         std::to_string(all[k].passed.size()), distance_text(v.nearest),
-                        distance_text(v.nearest_parts), percent(v.stretch), percent(v.volume_change),
+                        distance_text(v.nearest_parts), percent_or_dash(v.stretch),
+                        percent_or_dash(v.volume_change),
                         all[k].relinked               ? "changed"
                         : v.linking.empty() || k == 0 ? "-"
                                                       : "as before"});

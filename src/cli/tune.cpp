@@ -6,6 +6,7 @@
 #include "taut/cli/output.hpp"
 #include "taut/cli/study.hpp"
 #include "taut/report/method_settings.hpp"
+#include "taut/runtime/base/shown.hpp"
 #include "taut/scene/settings.hpp"
 
 #include <algorithm>
@@ -55,8 +56,6 @@ TuneOptions tune_options(const TuneCommand& command)
         command.seconds.value_or(command.prior_only ? std::numeric_limits<double>::infinity() : kSeconds);
     return options;
 }
-
-std::string percent(double error) { return number(100 * error, 3) + " %"; }
 
 /// One row for each method and stage: how many fell there, and the first one's reason.
 std::string rejected_table(const TuneResult& result)
@@ -111,9 +110,9 @@ std::string not_tried_table(const TuneResult& result)
 std::string found_text(const TuneResult& result)
 {
     std::string text = "\"method\": " + settings_block(result.settings) + "\n";
-    text += "error      " + percent(result.confirmed_error) + " confirmed on " +
+    text += "error      " + shown_percent(result.confirmed_error) + " confirmed on " +
             std::to_string(result.starts) + (result.starts == 1 ? " start, " : " starts, ") +
-            percent(result.predicted_error) + " predicted\n";
+            shown_percent(result.predicted_error) + " predicted\n";
     text += "time       ";
     if (result.ms)
         text += number(*result.ms, 3) + " ms per simulated second";
@@ -132,7 +131,7 @@ std::string summary(const TuneResult& result)
                                                  : ""; // without a reference there are none
     std::string text = "Cheapest setting of " + result.scene + " on " + result.device.name + " (" +
                        result.device.executor + ") with " + result.metric + " of at most " +
-                       percent(result.bound) + span + "\n";
+                       shown_percent(result.bound) + span + "\n";
     text += "reference  " + result.reference.name + ": " + result.reference.text + "\n";
     for (const std::string& passed : result.reference.passed)
         text += "           passed over: " + passed + "\n";

@@ -12,7 +12,7 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::uint32_t kSlice = TAUT_BCSR3_SLICE;
+constexpr std::uint32_t kBlockSlice = TAUT_BCSR3_SLICE;
 
 /// Columns of the blocks of one block row, ascending.
 std::vector<std::uint32_t> block_columns(const SparseMatrix& matrix, std::uint32_t block_row)
@@ -48,7 +48,7 @@ public:
 private:
     void check_trips() const;
     void record(Recorder&, const Gate&, const Pass&) const override;
-    Grid grid(std::uint32_t groups) const { return make_grid(rows() / 3, groups, kSlice); }
+    Grid grid(std::uint32_t groups) const { return make_grid(rows() / 3, groups, kBlockSlice); }
 
     const Bcsr3Layout layout_;
     BufferPtr slice_start_, column_;
@@ -59,19 +59,19 @@ void Bcsr3Matrix::check_trips() const
 {
     if (device_->info().executor.starts_with("cpu"))
         return; // a CPU's loops may run as long as they like
-    const std::uint32_t slices_of_group = grid(group_count_for(rows(), device_->info())).chunk / kSlice;
+    const std::uint32_t slices_of_group = grid(group_count_for(rows(), device_->info())).chunk / kBlockSlice;
     const auto slices = static_cast<std::uint32_t>(layout_.slice_start.size() - 1);
     for (std::uint32_t first = 0; first < slices; first += slices_of_group)
     {
-        std::uint64_t trips[TAUT_LINEAR_GROUP / kSlice] = {};
+        std::uint64_t trips[TAUT_LINEAR_GROUP / kBlockSlice] = {};
         for (std::uint32_t s = first; s < std::min(slices, first + slices_of_group); ++s)
             trips[(s - first) % std::size(trips)] += layout_.slice_start[s + 1] - layout_.slice_start[s] + 2;
         const std::uint64_t most = *std::max_element(std::begin(trips), std::end(trips));
         if (most > kMaxLoopTrips)
             throw Error(ErrorCode::limit, "format bcsr3 would make " + std::to_string(most) +
-                                              " loop trips from block row " + std::to_string(first * kSlice) +
-                                              " on, and " + std::to_string(kMaxLoopTrips) +
-                                              " are safe: take csr or coo");
+                                              " loop trips from block row " +
+                                              std::to_string(first * kBlockSlice) + " on, and " +
+                                              std::to_string(kMaxLoopTrips) + " are safe: take csr or coo");
     }
 }
 
@@ -96,23 +96,23 @@ Bcsr3Layout bcsr3_layout(const SparseMatrix& matrix)
     const std::uint32_t block_rows = matrix.rows / 3;
     Bcsr3Layout layout;
     layout.slice_start.push_back(0);
-    for (std::uint32_t first = 0; first < block_rows; first += kSlice)
+    for (std::uint32_t first = 0; first < block_rows; first += kBlockSlice)
     {
         std::vector<std::vector<std::uint32_t>> rows;
         std::size_t longest = 0;
-        for (std::uint32_t i = first; i < std::min(block_rows, first + kSlice); ++i)
+        for (std::uint32_t i = first; i < std::min(block_rows, first + kBlockSlice); ++i)
         {
             rows.push_back(block_columns(matrix, i));
             longest = std::max(longest, rows.back().size());
         }
         for (std::size_t k = 0; k < longest; ++k)
-            for (std::uint32_t r = 0; r < kSlice; ++r)
+            for (std::uint32_t r = 0; r < kBlockSlice; ++r)
             {
                 const bool there = r < rows.size() && k < rows[r].size();
                 layout.column.push_back(there ? rows[r][k] : std::min(first + r, block_rows - 1));
             }
         check_entry_count(layout.values(), "format bcsr3");
-        layout.slice_start.push_back(static_cast<std::uint32_t>(layout.column.size() / kSlice));
+        layout.slice_start.push_back(static_cast<std::uint32_t>(layout.column.size() / kBlockSlice));
     }
     return layout;
 }
@@ -130,9 +130,9 @@ std::vector<std::uint32_t> bcsr3_slots(const SparseMatrix& matrix, const Bcsr3La
         for (std::uint32_t k = matrix.row_start[row]; k < matrix.row_start[row + 1]; ++k)
         {
             const auto at = std::lower_bound(columns.begin(), columns.end(), matrix.column[k] / 3);
-            const auto step =
-                layout.slice_start[block_row / kSlice] + static_cast<std::uint32_t>(at - columns.begin());
-            out.push_back(bcsr3_value(step, row % 3 * 3 + matrix.column[k] % 3, block_row % kSlice));
+            const auto step = layout.slice_start[block_row / kBlockSlice] +
+                              static_cast<std::uint32_t>(at - columns.begin());
+            out.push_back(bcsr3_value(step, row % 3 * 3 + matrix.column[k] % 3, block_row % kBlockSlice));
         }
     }
     return out;

@@ -17,7 +17,7 @@ namespace {
 
 /// Iterations between two places where the residual may be formed.
 constexpr std::uint32_t kReplacementEvery = 8;
-constexpr const char* kLabel = "cg";
+constexpr const char* kCgLabel = "cg";
 
 bool is_diagonal(Preconditioner kind)
 {
@@ -123,7 +123,7 @@ void ConjugateGradient::record_restart(Recorder& recorder, const Gate& gate, boo
 {
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
     launch(recorder, gate,
-           {variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_, kLabel},
+           {variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_, kCgLabel},
            kernels::cg_restart::Bindings<Recorder::Binding>{.residual = r_,
                                                             .b = begin ? b_ : r_,
                                                             .partials = partials_,
@@ -172,7 +172,7 @@ void ConjugateGradient::record_direction(Recorder& recorder, bool last)
     const Gate gate{groups_, control_, word_bytes(TAUT_CONTROL_ITERATE)};
     const Grid grid = grid_of(*operator_, preconditioning_.kind, groups_);
     const bool stored = is_stored(preconditioning_.kind);
-    launch(recorder, gate, {variant_of(preconditioning_.kind), precision_, kLabel},
+    launch(recorder, gate, {variant_of(preconditioning_.kind), precision_, kCgLabel},
            kernels::cg_direction::Bindings<Recorder::Binding>{.residual = stored ? z_ : r_,
                                                               .direction = p_,
                                                               .x = x_,
@@ -204,7 +204,7 @@ void ConjugateGradient::record_iteration(Recorder& recorder)
     }
     operator_->record_product(recorder, gate, p_, q_, curvatures_);
     launch(recorder, gate,
-           {variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_, kLabel},
+           {variant_of(preconditioning_.kind, preconditioning_.inverse != nullptr), precision_, kCgLabel},
            kernels::cg_step::Bindings<Recorder::Binding>{.residual = r_,
                                                          .product = q_,
                                                          .curvatures = curvatures_,
@@ -236,7 +236,7 @@ void ConjugateGradient::record_end(Recorder& recorder)
 void ConjugateGradient::record_collect(Recorder& recorder, const Gate& gate, bool add)
 {
     const Grid grid = make_grid(operator_->rows(), groups_);
-    launch(recorder, gate, {pairs_ ? "pair" : "", precision_, kLabel},
+    launch(recorder, gate, {pairs_ ? "pair" : "", precision_, kCgLabel},
            kernels::cg_collect::Bindings<Recorder::Binding>{.base = base_, .x = x_},
            {grid.count, grid.chunk, add ? 1u : 0u});
 }

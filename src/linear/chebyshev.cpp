@@ -32,7 +32,7 @@ namespace {
 constexpr int kLanczosSteps = 15;
 constexpr double kLanczosFactor = 1.05; // what 15 steps may lack
 constexpr int kMostDegree = 16;
-constexpr const char* kLabel = "chebyshev";
+constexpr const char* kChebyshevLabel = "chebyshev";
 
 /// Diagonal and squared off-diagonal entries of a symmetric tridiagonal matrix.
 struct Tridiagonal
@@ -215,7 +215,7 @@ void Chebyshev::record(Recorder& recorder, const Gate& gate, Operator::Binding r
         const bool last = step + 1 == degree_ && partials.is_set();
         if (last)
             bindings.partials = partials;
-        launch(recorder, gate, {variant_of(step, last), operator_->precision(), kLabel}, bindings,
+        launch(recorder, gate, {variant_of(step, last), operator_->precision(), kChebyshevLabel}, bindings,
                {grid.count, grid.chunk, gate.groups, static_cast<float>(momentum), static_cast<float>(gain)});
     }
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kTile = 7 * TAUT_LINEAR_GROUP; ///< entries of a round of spmv_coo
 constexpr std::uint64_t kTripsOfTile = 24; ///< loading 7, adding 7, a scan of 7, and the round itself
-constexpr const char* kLabel = "spmv";
+constexpr const char* kCooLabel = "spmv";
 
 class CooMatrix final : public PackedMatrix
 {
@@ -133,10 +133,10 @@ void CooMatrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) c
         product.y = pass.y;
     if (pass.variant == "dot")
         rest.x = pass.x;
-    launch(recorder, gate, {pairs ? pass.variant : "", precision(), kLabel}, product,
+    launch(recorder, gate, {pairs ? pass.variant : "", precision(), kCooLabel}, product,
            {entries_.count, entries_.chunk, groups_, has_low_words() ? 1u : 0u});
     const Grid grid = make_grid(rows(), groups_);
-    launch(recorder, gate, {pass.variant, precision(), kLabel}, rest,
+    launch(recorder, gate, {pass.variant, precision(), kCooLabel}, rest,
            {grid.count, grid.chunk, groups_, splits_});
 }
 

@@ -12,7 +12,7 @@
 namespace taut::linear {
 namespace {
 
-constexpr const char* kLabel = "spmv";
+constexpr const char* kCsrLabel = "spmv";
 
 struct Layout
 {
@@ -145,7 +145,7 @@ void CsrMatrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) c
         Pass plain = pass;
         if (pass.variant == "dot") // taken from y by the short rows
             plain.variant = "";
-        launch(recorder, gate, {plain.variant, precision(), kLabel},
+        launch(recorder, gate, {plain.variant, precision(), kCsrLabel},
                bindings(kernels::spmv_csr_long::Bindings<Binding>{.long_rows = long_rows_, .column = column_},
                         plain),
                {cuts_[k - 1], cuts_[k], gate.groups, low_words});
@@ -154,7 +154,7 @@ void CsrMatrix::record(Recorder& recorder, const Gate& gate, const Pass& pass) c
     if (stream_)
         variant = variant.empty() ? "stream" : "stream_" + variant;
     const Grid grid = make_grid(rows(), gate.groups);
-    launch(recorder, gate, {variant, precision(), kLabel},
+    launch(recorder, gate, {variant, precision(), kCsrLabel},
            bindings(kernels::spmv_csr::Bindings<Binding>{.row_start = row_start_, .column = column_}, pass),
            {grid.count, grid.chunk, gate.groups, low_words});
 }

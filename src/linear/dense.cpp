@@ -8,7 +8,7 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::uint32_t kMostRows = 65535; ///< so that entries can be numbered by 32 bits
+constexpr std::uint32_t kMostDenseRows = 65535; ///< so that entries can be numbered by 32 bits
 
 class DenseMatrix final : public PackedMatrix
 {
@@ -20,9 +20,9 @@ public:
         const std::uint64_t count = std::uint64_t{matrix.rows} * matrix.rows;
         check_bytes(count * real_bytes(precision()),
                     std::to_string(matrix.rows) + " x " + std::to_string(matrix.rows) + " values");
-        if (matrix.rows > kMostRows)
+        if (matrix.rows > kMostDenseRows)
             throw Error(ErrorCode::limit, "format dense numbers the entries of at most " +
-                                              std::to_string(kMostRows) + " rows, but there are " +
+                                              std::to_string(kMostDenseRows) + " rows, but there are " +
                                               std::to_string(matrix.rows) + ": take a sparser format");
         check_trips();
         upload_values(matrix, slots(matrix), count);

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::array kFormats = {Format::dense, Format::coo,  Format::csr,
                                  Format::ell,   Format::sell, Format::bcsr3};
-constexpr std::array<std::string_view, 7> kWords = {"auto", "dense", "coo", "csr", "ell", "sell", "bcsr3"};
+constexpr std::array<std::string_view, 7> kFormatWords = {"auto", "dense", "coo",  "csr",
+                                                          "ell",  "sell",  "bcsr3"};
 
 /// Number of 3 x 3 blocks that hold an entry, block row by block row. Rows are a multiple of 3.
 std::vector<std::uint32_t> blocks_of(const SparseMatrix& matrix)
@@ -116,16 +117,16 @@ bool needs_low_words(const SparseMatrix& matrix)
 
 } // namespace
 
-std::string_view to_string(Format format) { return kWords[static_cast<std::size_t>(format)]; }
+std::string_view to_string(Format format) { return kFormatWords[static_cast<std::size_t>(format)]; }
 
 Format format_from(std::string_view word)
 {
     std::string words;
-    for (std::size_t k = 0; k < kWords.size(); ++k)
+    for (std::size_t k = 0; k < kFormatWords.size(); ++k)
     {
-        if (kWords[k] == word)
+        if (kFormatWords[k] == word)
             return static_cast<Format>(k);
-        words += (k == 0 ? "\"" : ", \"") + std::string(kWords[k]) + '"';
+        words += (k == 0 ? "\"" : ", \"") + std::string(kFormatWords[k]) + '"';
     }
     throw Error(ErrorCode::bad_input,
                 "\"" + std::string(word) + "\" is no matrix format: take one of " + words);

@@ -44,7 +44,7 @@ struct Sizes
     std::uint64_t entries = 0; ///< lines that follow
 };
 
-constexpr std::uint64_t kMostRows = std::numeric_limits<std::uint32_t>::max() - 1ull;
+constexpr std::uint64_t kMostFileRows = std::numeric_limits<std::uint32_t>::max() - 1ull;
 /// A matrix with more rows or columns than this must have an entry for one in kRowsPerEntry of them: a short
 /// text asks for little memory.
 constexpr std::uint64_t kFreeRows = 1 << 22;
@@ -197,9 +197,9 @@ private:
         if (!next_line())
             words_.fail("the file ends before the size line, rows columns" +
                         std::string(banner_.array ? "" : " entries"));
-        sizes_.rows = std::uint32_t(read_count("the number of rows", kMostRows));
-        sizes_.columns = std::uint32_t(read_count("the number of columns", kMostRows));
-        sizes_.entries = banner_.array ? array_entries() : read_count("the number of entries", kMostRows);
+        sizes_.rows = std::uint32_t(read_count("the number of rows", kMostFileRows));
+        sizes_.columns = std::uint32_t(read_count("the number of columns", kMostFileRows));
+        sizes_.entries = banner_.array ? array_entries() : read_count("the number of entries", kMostFileRows);
         end_line("the size line");
         if (banner_.symmetry != Symmetry::general && sizes_.rows != sizes_.columns)
             words_.fail("a symmetric or skew-symmetric matrix is square, but this one is said to be " +

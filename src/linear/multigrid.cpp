@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSmootherDegree = 2;
 constexpr double kSmootherSpread = 4; ///< the upper quarter of the spectrum: the rest is for coarser levels
-constexpr const char* kLabel = "multigrid";
+constexpr const char* kMultigridLabel = "multigrid";
 
 SparseMatrix negative(SparseMatrix a)
 {
@@ -96,7 +96,7 @@ void Multigrid::record_level(Recorder& recorder, const Gate& gate, std::size_t k
     level.matrix->record_residual(recorder, gate, level.corrected, r, level.rest);
     level.smoother->record(recorder, gate, level.rest, z, none);
     const Grid grid = make_grid(level.matrix->rows(), gate.groups);
-    launch(recorder, gate, {"", precision_, kLabel},
+    launch(recorder, gate, {"", precision_, kMultigridLabel},
            kernels::cg_collect::Bindings<Recorder::Binding>{.base = z, .x = level.corrected},
            {grid.count, grid.chunk, 1});
 }
@@ -106,7 +106,7 @@ void Multigrid::record(Recorder& recorder, const Gate& gate, Operator::Binding r
 {
     record_level(recorder, gate, 0, r, z);
     const Grid grid = make_grid(levels_.front().matrix->rows(), gate.groups);
-    launch(recorder, gate, {"", precision_, kLabel},
+    launch(recorder, gate, {"", precision_, kMultigridLabel},
            kernels::dot::Bindings<Recorder::Binding>{.x = r, .y = z, .partials = partials},
            {grid.count, grid.chunk, gate.groups});
 }

@@ -18,9 +18,9 @@
 namespace taut::linear {
 namespace {
 
-constexpr std::array kWords = {Preconditioner::none,         Preconditioner::jacobi,
-                               Preconditioner::block_jacobi, Preconditioner::chebyshev,
-                               Preconditioner::multigrid,    Preconditioner::spai0};
+constexpr std::array kPreconditioners = {Preconditioner::none,         Preconditioner::jacobi,
+                                         Preconditioner::block_jacobi, Preconditioner::chebyshev,
+                                         Preconditioner::multigrid,    Preconditioner::spai0};
 
 /// 1 for each row of `held`.
 std::vector<char> marks(const SparseMatrix& a, std::span<const std::uint32_t> held)
@@ -38,15 +38,15 @@ std::vector<char> marks(const SparseMatrix& a, std::span<const std::uint32_t> he
     return is_held;
 }
 
-struct Row
+struct DiagonalEntry
 {
     double diagonal = 0;
     double largest = 0; ///< magnitude over the entries that are not of held columns
 };
 
-Row look_at(const SparseMatrix& a, std::uint32_t row, const std::vector<char>& is_held)
+DiagonalEntry look_at(const SparseMatrix& a, std::uint32_t row, const std::vector<char>& is_held)
 {
-    Row found;
+    DiagonalEntry found;
     for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
     {
         const std::uint32_t column = a.column[k];
@@ -80,7 +80,7 @@ std::vector<double> diagonal_inverse(const SparseMatrix& a, std::span<const std:
     {
         if (is_held[row])
             continue;
-        const Row found = look_at(a, row, is_held);
+        const DiagonalEntry found = look_at(a, row, is_held);
         if (found.largest != 0)
             refuse_diagonal(row, found.diagonal);
         inverse[row] = found.largest == 0 ? 1 : of(row, found, is_held);
@@ -188,18 +188,21 @@ std::string_view to_string(Preconditioner kind)
 
 Preconditioner preconditioner_from(std::string_view word)
 {
-    for (const Preconditioner kind : kWords)
+    for (const Preconditioner kind : kPreconditioners)
         if (to_string(kind) == word)
             return kind;
     std::string all;
-    for (const Preconditioner kind : kWords)
-        all += (all.empty() ? "" : kind == kWords.back() ? " and " : ", ") + std::string(to_string(kind));
+    for (const Preconditioner kind : kPreconditioners)
+        all += (all.empty()                       ? ""
+                : kind == kPreconditioners.back() ? " and "
+                                                  : ", ") +
+               std::string(to_string(kind));
     throw Error(ErrorCode::bad_input, "\"" + std::string(word) + "\" is no preconditioner: there are " + all);
 }
 
 std::vector<double> jacobi_inverse(const SparseMatrix& a, std::span<const std::uint32_t> held)
 {
-    return diagonal_inverse(a, held, [](std::uint32_t, const Row& found, const std::vector<char>&) {
+    return diagonal_inverse(a, held, [](std::uint32_t, const DiagonalEntry& found, const std::vector<char>&) {
         return inverse_of(found.diagonal);
     });
 }
@@ -207,7 +210,7 @@ std::vector<double> jacobi_inverse(const SparseMatrix& a, std::span<const std::u
 std::vector<double> spai0_inverse(const SparseMatrix& a, std::span<const std::uint32_t> held)
 {
     return diagonal_inverse(
-        a, held, [&](std::uint32_t row, const Row& found, const std::vector<char>& is_held) {
+        a, held, [&](std::uint32_t row, const DiagonalEntry& found, const std::vector<char>& is_held) {
             double squares = 0; // of entries over the largest: no overflow, and no underflow to zero
             for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
                 if (!is_held[a.column[k]])

@@ -76,7 +76,7 @@ void check(const SparseMatrix& a, std::span<const double> inverse, std::size_t k
 }
 
 /// values times 2^exponent as `Real`, and what that leaves over.
-struct Words
+struct SplitValues
 {
     std::vector<double> high, low;
 
@@ -131,7 +131,7 @@ struct SmallBatch::Parts
 void SmallBatch::Parts::upload_systems(std::span<const SparseMatrix> systems, std::span<const int> exponents)
 {
     std::vector<std::uint32_t> words, starts = {0}, columns;
-    Words values;
+    SplitValues values;
     for (std::size_t k = 0; k < systems.size(); ++k)
     {
         const SparseMatrix& a = systems[k];
@@ -268,7 +268,7 @@ void SmallBatch::start(std::span<const double> b, std::span<const double> x0)
         throw Error(ErrorCode::bad_input, "the batch has " + counted(p.rows, "row", "rows") + ", but b has " +
                                               counted(b.size(), "entry", "entries") + " and x0 " +
                                               std::to_string(x0.size()) + ": one a row is wanted");
-    Words right, guess;
+    SplitValues right, guess;
     for (std::size_t i = 0; i < b.size(); ++i)
     {
         right.add(b[i], p.precision);

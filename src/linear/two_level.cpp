@@ -22,7 +22,7 @@
 namespace taut::linear {
 namespace {
 
-constexpr const char* kLabel = "two levels";
+constexpr const char* kTwoLevelLabel = "two levels";
 
 BufferPtr upload(Device& device, const std::vector<std::uint32_t>& words, std::string_view label)
 {
@@ -126,7 +126,7 @@ TwoLevel::TwoLevel(std::shared_ptr<Device> device, std::shared_ptr<const DeviceM
 
 void TwoLevel::form(Recorder& recorder, const Gate& gate) const
 {
-    const Recorder::Form form{"", matrix_->precision(), kLabel};
+    const Recorder::Form form{"", matrix_->precision(), kTwoLevelLabel};
     BufferPtr from = rows() % 2 == 0 ? coarse_ : other_, to = rows() % 2 == 0 ? other_ : coarse_;
     const Grid pairs = make_grid(aggregates_ * (aggregates_ + 1) / 2, gate.groups, 1);
     launch(recorder, gate, form,
@@ -143,7 +143,7 @@ void TwoLevel::form(Recorder& recorder, const Gate& gate) const
 void TwoLevel::record(Recorder& recorder, const Gate& gate, Operator::Binding r, Operator::Binding z,
                       Operator::Binding partials) const
 {
-    const Recorder::Form form{"", matrix_->precision(), kLabel};
+    const Recorder::Form form{"", matrix_->precision(), kTwoLevelLabel};
     const Grid coarse = make_grid(rows(), gate.groups, 1);
     launch(recorder, gate, form,
            kernels::coarse_restrict::Bindings<Recorder::Binding>{

@@ -33,7 +33,7 @@
 namespace taut {
 namespace {
 
-constexpr const char* kEffect = "acad";
+constexpr const char* kAcadEffect = "acad";
 constexpr std::uint64_t kWord = 4;
 
 /// A strain as a sum of two floats, for parameters.
@@ -84,7 +84,7 @@ void add_candidates(PlanBuilder& b, Acad& a, const std::vector<StretchElement>& 
         candidates.back().damping = static_cast<Real>(inverse_diagonal(b, e, compliances[k]));
         candidates.back().kind = std::max(springs_at(e.a), springs_at(e.b));
     }
-    a.candidates = b.add_buffer<layout::Spring<Real>>(kEffect, "rows", candidates);
+    a.candidates = b.add_buffer<layout::Spring<Real>>(kAcadEffect, "rows", candidates);
 }
 
 template <typename Real>
@@ -108,34 +108,34 @@ void add_spring_records(PlanBuilder& b, Acad& a)
         if (entry % 2 == 1)
             std::swap(ends.back().a, ends.back().b);
     }
-    a.springs = b.add_buffer<Record>(kEffect, "springs", springs);
-    a.ends = b.add_buffer<Record>(kEffect, "spring ends", ends);
+    a.springs = b.add_buffer<Record>(kAcadEffect, "springs", springs);
+    a.ends = b.add_buffer<Record>(kAcadEffect, "spring ends", ends);
     add_candidates(b, a, targets, springs);
-    a.hold = b.add_buffer<Real>(kEffect, "forces at the threshold", hold);
-    a.rows.records = b.add_buffer(kEffect, "active rows", springs.size() * sizeof(Record));
+    a.hold = b.add_buffer<Real>(kAcadEffect, "forces at the threshold", hold);
+    a.rows.records = b.add_buffer(kAcadEffect, "active rows", springs.size() * sizeof(Record));
 }
 
 void add_choice_buffers(PlanBuilder& b, Acad& a)
 {
     const std::uint64_t springs = size_of(a), vertices = b.plan.vertex_count;
     const std::uint64_t real = b.real_size();
-    a.rows.start = b.add_buffer<std::uint32_t>(kEffect, "springs at a vertex, start", a.at.start);
-    a.rows.incident = b.add_buffer<std::uint32_t>(kEffect, "springs at a vertex", a.at.entries);
-    a.rows.direction = b.add_buffer(kEffect, "row directions", springs * 4 * real);
-    a.rows.spread = b.add_buffer(kEffect, "moves of vertices", vertices * 4 * real);
-    a.rows.list = b.add_buffer(kEffect, "vertices of rows", (vertices + 1) * kWord);
-    a.rows.place = b.add_buffer(kEffect, "rows of springs", springs * kWord);
-    a.row_list = b.add_buffer(kEffect, "springs of rows", (springs + 1) * kWord);
-    a.flags = b.add_buffer(kEffect, "flags", (springs + 1) * kWord);
-    a.multiplier = b.add_buffer(kEffect, "multipliers", springs * real);
-    a.touched = b.add_buffer(kEffect, "ends of constraints", vertices * kWord);
-    a.sums = b.add_buffer(kEffect, "sums of groups", 2 * std::uint64_t(a.groups) * kWord);
+    a.rows.start = b.add_buffer<std::uint32_t>(kAcadEffect, "springs at a vertex, start", a.at.start);
+    a.rows.incident = b.add_buffer<std::uint32_t>(kAcadEffect, "springs at a vertex", a.at.entries);
+    a.rows.direction = b.add_buffer(kAcadEffect, "row directions", springs * 4 * real);
+    a.rows.spread = b.add_buffer(kAcadEffect, "moves of vertices", vertices * 4 * real);
+    a.rows.list = b.add_buffer(kAcadEffect, "vertices of rows", (vertices + 1) * kWord);
+    a.rows.place = b.add_buffer(kAcadEffect, "rows of springs", springs * kWord);
+    a.row_list = b.add_buffer(kAcadEffect, "springs of rows", (springs + 1) * kWord);
+    a.flags = b.add_buffer(kAcadEffect, "flags", (springs + 1) * kWord);
+    a.multiplier = b.add_buffer(kAcadEffect, "multipliers", springs * real);
+    a.touched = b.add_buffer(kAcadEffect, "ends of constraints", vertices * kWord);
+    a.sums = b.add_buffer(kAcadEffect, "sums of groups", 2 * std::uint64_t(a.groups) * kWord);
     std::vector<std::uint32_t> control(TAUT_ACAD_WORDS, 0);
     for (const std::size_t word : {TAUT_ACAD_CHOOSE, TAUT_ACAD_SCAN, TAUT_ACAD_SOLVE, TAUT_ACAD_ONCE})
         control[word + 1] = control[word + 2] = 1;
-    a.control = b.add_buffer<std::uint32_t>(kEffect, "acad control", control);
+    a.control = b.add_buffer<std::uint32_t>(kAcadEffect, "acad control", control);
     if (b.plan.iterations > 1)
-        a.total = b.add_buffer(kEffect, "multipliers of the substep", springs * real);
+        a.total = b.add_buffer(kAcadEffect, "multipliers of the substep", springs * real);
     PlanBuffer& events = b.plan.buffers[b.plan.events]; // with room for the count of this method
     events.bytes = TAUT_EVENT_WORDS * kWord;
 }
@@ -145,7 +145,7 @@ template <template <typename> typename Bindings>
 void gated(PlanBuilder& b, const Acad& a, std::string_view variant, const Bindings<Use>& uses,
            const typename Bindings<Use>::Params& params, std::uint32_t groups, std::uint32_t gate)
 {
-    b.dispatch_indirect(kEffect, variant, uses, params, groups, a.control, gate * kWord);
+    b.dispatch_indirect(kAcadEffect, variant, uses, params, groups, a.control, gate * kWord);
 }
 
 void record_choice(PlanBuilder& b, Acad& a)
@@ -154,7 +154,7 @@ void record_choice(PlanBuilder& b, Acad& a)
     const Strain on(b.scene.method.activate_strain), off(release_strain(b.scene));
     const kernels::acad_begin::Bindings<Use> begin = {
         .events = {b.plan.events, 0}, .control = {a.control, 0}, .flags = {a.flags}};
-    b.dispatch(kEffect, "", begin, {1, a.groups, springs}, 1);
+    b.dispatch(kAcadEffect, "", begin, {1, a.groups, springs}, 1);
     const kernels::acad_flag::Bindings<Use> flag = {.spring = {a.springs},
                                                     .position = {b.plan.position, 2},
                                                     .low = {b.plan.low, 2},
@@ -216,7 +216,7 @@ void prepare_acad(PlanBuilder& b)
     add_choice_buffers(b, *a);
     const BufferPtr inverse =
         b.paper()->make_buffer(a->rows.count * b.real_size(), "inverses of rows", BufferUse::device);
-    a->solve.emplace(b, kEffect, std::make_shared<ConstraintOperator>(b, a->rows),
+    a->solve.emplace(b, kAcadEffect, std::make_shared<ConstraintOperator>(b, a->rows),
                      linear::Preconditioning{linear::Preconditioner::jacobi, inverse, nullptr});
     a->solve->use_part(b, a->control, TAUT_ACAD_SOLVE * kWord, TAUT_ACAD_ONCE * kWord);
     b.plan.kept.insert(b.plan.kept.end(), {a->flags, a->multiplier});
@@ -225,7 +225,7 @@ void prepare_acad(PlanBuilder& b)
                          std::count_if(a->elements.begin(), a->elements.end(), [&](const StretchElement& e) {
                              return may_be_constrained(b.scene, e);
                          }))};
-    add_inner_forces(b, kEffect, a->rows.count);
+    add_inner_forces(b, kAcadEffect, a->rows.count);
     b.acad = std::move(a);
 }
 
@@ -245,7 +245,7 @@ void record_acad_forces(PlanBuilder& b, const Moment& moment)
                                                .flags = {a.flags, each}};
     if (a.damped)
         uses.velocity = {b.plan.velocity, 1 + each};
-    b.dispatch(kEffect, a.damped ? "damped" : "", uses,
+    b.dispatch(kAcadEffect, a.damped ? "damped" : "", uses,
                {n, moment.substep + 1 == b.plan.substeps, size_of(a), on.high, on.low, off.high, off.low,
                 b.scene.method.compress},
                n);

@@ -18,7 +18,8 @@ namespace taut {
 namespace {
 
 /// Those with a folder of kernels over elements.
-constexpr std::array<std::string_view, 5> kMethods = {"xpbd", "pbd", "mass_spring", "implicit_euler", "vbd"};
+constexpr std::array<std::string_view, 5> kMethodsOfElements = {"xpbd", "pbd", "mass_spring",
+                                                                "implicit_euler", "vbd"};
 
 /// One element in plan vertices. corners <= 4.
 struct Added
@@ -73,7 +74,7 @@ void check_list(const std::string& where, const Body& body, const Body::Elements
 std::string methods_of(const ElementKind& kind)
 {
     std::vector<std::string_view> out;
-    for (const std::string_view method : kMethods)
+    for (const std::string_view method : kMethodsOfElements)
         if (has_kernel(kind, method))
             out.push_back(method);
     return scene_file::listing(out);
@@ -83,7 +84,8 @@ std::string methods_of(const ElementKind& kind)
 void check_method(const std::string& where, const Scene& scene, const ElementKind& kind)
 {
     const std::string& method = scene.method.type;
-    const bool can = std::find(std::begin(kMethods), std::end(kMethods), method) != std::end(kMethods);
+    const bool can = std::find(std::begin(kMethodsOfElements), std::end(kMethodsOfElements), method) !=
+                     std::end(kMethodsOfElements);
     if (!has_kernel(kind, method))
         throw Error(ErrorCode::unsupported,
                     where + ": method \"" + method + "\" has no kernels for elements \"" + kind.name +

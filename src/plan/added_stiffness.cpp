@@ -17,18 +17,18 @@ namespace {
 
 constexpr double kShare = 1e-4; ///< of an element's size
 
-using Corners = std::array<glm::dvec3, 4>;
+using CornerPlaces = std::array<glm::dvec3, 4>;
 
 struct Element
 {
     const ElementKind& kind;
     std::span<const double> values;
-    Corners x{};
+    CornerPlaces x{};
 
     /// With axes i and j of all corners moved by these.
     double energy(std::size_t i, double by, std::size_t j, double also) const
     {
-        Corners moved = x;
+        CornerPlaces moved = x;
         moved[i / 3][static_cast<int>(i % 3)] += by;
         moved[j / 3][static_cast<int>(j % 3)] += also;
         return kind.energy(std::span(moved).first(kind.corners), values);

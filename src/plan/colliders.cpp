@@ -10,12 +10,6 @@
 namespace taut {
 namespace {
 
-bool has_bodies(const Scene& scene)
-{
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                       [](const Body& b) { return !b.mesh.positions.empty(); });
-}
-
 template <ColliderKind Kind>
 bool wanted(const Scene& scene)
 {
@@ -80,6 +74,12 @@ std::array<Effect, kColliderKinds> make_effects(std::index_sequence<Kinds...>)
 }
 
 } // namespace
+
+bool has_bodies(const Scene& scene)
+{
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [](const Body& b) { return !b.mesh.positions.empty(); });
+}
 
 std::span<const Effect, kColliderKinds> collider_effects()
 {

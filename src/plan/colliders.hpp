@@ -8,6 +8,8 @@ namespace taut {
 /// One for each ColliderKind, in order.
 std::span<const Effect, kColliderKinds> collider_effects();
 
+/// Whether the scene has a vertex.
+bool has_bodies(const Scene& scene);
 /// Whether any collider rubs.
 bool wants_friction(const Scene& scene);
 /// Turns the contact passes' friction on. With one iteration a substep, what friction took so far is zero

@@ -18,7 +18,7 @@ namespace taut {
 namespace {
 
 constexpr std::uint64_t kMostPatternEntries = std::uint64_t(1) << 26;
-constexpr const char* kLabel = "constraint product";
+constexpr const char* kConstraintProduct = "constraint product";
 
 std::uint64_t degree_of(const Incidence& at, std::size_t v) { return at.start[v + 1] - at.start[v]; }
 
@@ -75,7 +75,7 @@ void ConstraintOperator::record_spread(Recorder& recorder, const linear::Gate& g
     // Rows in use have twice as many vertices at most, so that their groups suffice for these too.
     const std::uint32_t chunk = list_ ? 2 * linear::make_grid(rows_.count, gate.groups).chunk
                                       : linear::make_grid(vertices_, gate.groups).chunk;
-    launch(recorder, gate, {list_ ? "listed" : "", precision_, kLabel},
+    launch(recorder, gate, {list_ ? "listed" : "", precision_, kConstraintProduct},
            kernels::constraint_spread::Bindings<Binding>{.start = start_,
                                                          .incident = incident_,
                                                          .direction = direction_,
@@ -86,7 +86,7 @@ void ConstraintOperator::record_spread(Recorder& recorder, const linear::Gate& g
                                                          .place = place_},
            {vertices_, chunk});
     if (corners_)
-        launch(recorder, gate, {"", precision_, kLabel},
+        launch(recorder, gate, {"", precision_, kConstraintProduct},
                kernels::corner_spread::Bindings<Binding>{.start = corner_start_,
                                                          .incident = corner_incident_,
                                                          .gradient = gradient_,
@@ -99,7 +99,7 @@ void ConstraintOperator::record_spread(Recorder& recorder, const linear::Gate& g
 void ConstraintOperator::record_rows(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
 {
     record_spread(recorder, gate, pass.x);
-    const Recorder::Form form = {pass.variant, precision_, kLabel};
+    const Recorder::Form form = {pass.variant, precision_, kConstraintProduct};
     const linear::Grid grid = linear::make_grid(rows_.count, gate.groups);
     launch(recorder, gate, form,
            kernels::constraint_product::Bindings<Binding>{.row = records_,

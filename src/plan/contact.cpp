@@ -34,11 +34,11 @@
 namespace taut {
 namespace {
 
-constexpr std::string_view kEffect = "contact";
+constexpr std::string_view kContactEffect = "contact";
 /// Times the gap kept: how much further than the gap the search looks, beside what motion adds.
 constexpr double kSkin = 0.5;
 /// Rows that one group can scan: 128 lanes, two loops of at most half of kMaxLoopTrips each.
-constexpr std::uint32_t kMostRows = 1u << 20;
+constexpr std::uint32_t kMostMeeting = 1u << 20;
 constexpr std::uint32_t kLeastCapacity = 1u << 12;
 static_assert(TAUT_CONTACT_GROUP == kGroupSize);
 std::vector<ContactLeaf> leaves_of(const PlanBuilder& b)
@@ -55,10 +55,10 @@ std::vector<ContactLeaf> leaves_of(const PlanBuilder& b)
 
 void check_size(const PlanBuilder& b, std::size_t triangles)
 {
-    if (triangles > kMostRows || b.plan.vertex_count > kMostRows)
+    if (triangles > kMostMeeting || b.plan.vertex_count > kMostMeeting)
         throw Error(ErrorCode::limit, "contact: " + std::to_string(triangles) + " triangles and " +
                                           std::to_string(b.plan.vertex_count) +
-                                          " vertices; surfaces of at most " + std::to_string(kMostRows) +
+                                          " vertices; surfaces of at most " + std::to_string(kMostMeeting) +
                                           " of each can meet so far");
 }
 
@@ -82,38 +82,40 @@ void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLe
             rest[b.vertex(k, v)] = {glm::vec<3, Real>(body.mesh.positions[v] - body.mesh.positions[0]),
                                     static_cast<Real>(k)};
     }
-    c.triangle = b.add_buffer<layout::ContactTriangle<Real>>(kEffect, "triangles that meet", triangles);
-    c.body = b.add_buffer<layout::ContactBody<Real>>(kEffect, "bodies that meet", bodies);
-    c.rest = b.add_buffer<glm::vec<4, Real>>(kEffect, "shapes at rest", rest);
-    c.side = b.add_buffer(kEffect, "sides of pairs", c.capacity * sizeof(layout::ContactSide<Real>));
+    c.triangle =
+        b.add_buffer<layout::ContactTriangle<Real>>(kContactEffect, "triangles that meet", triangles);
+    c.body = b.add_buffer<layout::ContactBody<Real>>(kContactEffect, "bodies that meet", bodies);
+    c.rest = b.add_buffer<glm::vec<4, Real>>(kContactEffect, "shapes at rest", rest);
+    c.side = b.add_buffer(kContactEffect, "sides of pairs", c.capacity * sizeof(layout::ContactSide<Real>));
 }
 
 void add_lists(PlanBuilder& b, ContactBuffers& c)
 {
     constexpr std::uint64_t word = sizeof(std::uint32_t);
     const std::uint64_t real = b.real_size(), pairs = c.capacity, vertices = b.plan.vertex_count;
-    c.node = b.add_buffer(kEffect, "tree", 2 * std::uint64_t(c.leaves) * 8 * real);
-    c.found = b.add_buffer(kEffect, "pairs of triangles", c.triangles * word);
-    c.compared = b.add_buffer(kEffect, "triangles compared", c.triangles * word);
-    c.start = b.add_buffer(kEffect, "pairs of triangles, start", (c.triangles + std::uint64_t(1)) * word);
+    c.node = b.add_buffer(kContactEffect, "tree", 2 * std::uint64_t(c.leaves) * 8 * real);
+    c.found = b.add_buffer(kContactEffect, "pairs of triangles", c.triangles * word);
+    c.compared = b.add_buffer(kContactEffect, "triangles compared", c.triangles * word);
+    c.start =
+        b.add_buffer(kContactEffect, "pairs of triangles, start", (c.triangles + std::uint64_t(1)) * word);
     const bool guarded = wants_guarantee(b.scene);
     std::vector<std::uint32_t> control(guarded ? TAUT_CONTACT_GUARDED_WORDS : TAUT_CONTACT_WORDS, 0);
     for (const std::size_t gate : {TAUT_CONTACT_PAIR_GROUPS, TAUT_CONTACT_VERTEX_GROUPS})
         control[gate + 1] = control[gate + 2] = 1;
     for (std::size_t gate = TAUT_CONTACT_GATE_TRIANGLES; gate + 2 < control.size(); gate += 4)
         control[gate + 1] = control[gate + 2] = 1;
-    c.control = b.add_buffer<std::uint32_t>(kEffect, "contact control", control);
-    c.lost = b.add_buffer(kEffect, "what was left out",
+    c.control = b.add_buffer<std::uint32_t>(kContactEffect, "contact control", control);
+    c.lost = b.add_buffer(kContactEffect, "what was left out",
                           (guarded ? TAUT_CONTACT_GUARDED_LOST_WORDS : TAUT_CONTACT_LOST_WORDS) * word);
-    c.pair = b.add_buffer(kEffect, "pairs", pairs * sizeof(layout::ContactPair<float>));
-    c.row = b.add_buffer(kEffect, "weights of pairs", pairs * 8 * real);
-    c.taken = b.add_buffer(kEffect, "multipliers of pairs", pairs * 4 * real);
-    c.impulse = b.add_buffer(kEffect, "impulses of pairs", pairs * 4 * real);
-    c.corners = b.add_buffer(kEffect, "corners at vertices", vertices * word);
-    c.placed = b.add_buffer(kEffect, "corners placed", vertices * word);
-    c.corner_start = b.add_buffer(kEffect, "corners at vertices, start", (vertices + 1) * word);
-    c.corner = b.add_buffer(kEffect, "corners of pairs", 4 * pairs * word);
-    c.active = b.add_buffer(kEffect, "active pairs at vertices", vertices * word);
+    c.pair = b.add_buffer(kContactEffect, "pairs", pairs * sizeof(layout::ContactPair<float>));
+    c.row = b.add_buffer(kContactEffect, "weights of pairs", pairs * 8 * real);
+    c.taken = b.add_buffer(kContactEffect, "multipliers of pairs", pairs * 4 * real);
+    c.impulse = b.add_buffer(kContactEffect, "impulses of pairs", pairs * 4 * real);
+    c.corners = b.add_buffer(kContactEffect, "corners at vertices", vertices * word);
+    c.placed = b.add_buffer(kContactEffect, "corners placed", vertices * word);
+    c.corner_start = b.add_buffer(kContactEffect, "corners at vertices, start", (vertices + 1) * word);
+    c.corner = b.add_buffer(kContactEffect, "corners of pairs", 4 * pairs * word);
+    c.active = b.add_buffer(kContactEffect, "active pairs at vertices", vertices * word);
 }
 
 std::uint32_t capacity_for(const PlanBuilder& b, std::size_t triangles)
@@ -129,7 +131,8 @@ template <template <typename> typename Bindings>
 void gated(PlanBuilder& b, const Bindings<Use>& uses, const typename Bindings<Use>::Params& params,
            std::uint32_t count, std::uint64_t gate)
 {
-    b.dispatch_indirect(kEffect, "", uses, params, count, b.contact->control, gate * sizeof(std::uint32_t));
+    b.dispatch_indirect(kContactEffect, "", uses, params, count, b.contact->control,
+                        gate * sizeof(std::uint32_t));
 }
 
 /// Adds a pass of a search: with the guarantee it runs where `gate` lets it.
@@ -139,10 +142,10 @@ void searching(PlanBuilder& b, std::string_view variant, const Bindings<Use>& us
                std::uint64_t elements = 0)
 {
     if (wants_guarantee(b.scene))
-        b.dispatch_indirect(kEffect, variant, uses, params, count, b.contact->control,
+        b.dispatch_indirect(kContactEffect, variant, uses, params, count, b.contact->control,
                             gate * sizeof(std::uint32_t));
     else
-        b.dispatch(kEffect, variant, uses, params, count, elements);
+        b.dispatch(kContactEffect, variant, uses, params, count, elements);
 }
 
 std::uint32_t refit_groups(std::uint32_t level)

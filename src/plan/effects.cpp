@@ -33,12 +33,6 @@
 namespace taut {
 namespace {
 
-bool has_bodies(const Scene& scene)
-{
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                       [](const Body& b) { return !b.mesh.positions.empty(); });
-}
-
 // ---------------------------------------------------------------- forces
 
 void record_damping(PlanBuilder& b, const Moment&)

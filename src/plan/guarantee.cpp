@@ -21,7 +21,7 @@
 namespace taut {
 namespace {
 
-constexpr std::string_view kEffect = "guarantee";
+constexpr std::string_view kGuaranteeEffect = "guarantee";
 /// Rounds in which vertices that keep to their planes ask their neighbours to; then all are asked, if need
 /// be.
 constexpr int kRounds = 2;
@@ -31,7 +31,7 @@ template <template <typename> typename Bindings>
 void over_pairs(PlanBuilder& b, std::string_view variant, const Bindings<Use>& uses,
                 const typename Bindings<Use>::Params& params)
 {
-    b.dispatch_indirect(kEffect, variant, uses, params, b.contact->capacity, b.contact->control,
+    b.dispatch_indirect(kGuaranteeEffect, variant, uses, params, b.contact->capacity, b.contact->control,
                         TAUT_CONTACT_PAIR_GROUPS * sizeof(std::uint32_t));
 }
 
@@ -44,7 +44,7 @@ void record_begin(PlanBuilder& b, const ContactBuffers& c)
                                                           .asked = {c.asked},
                                                           .next = {c.asked_next},
                                                           .events = {b.plan.events, 0}};
-    b.dispatch(kEffect, "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
+    b.dispatch(kGuaranteeEffect, "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 void record_planes(PlanBuilder& b, const ContactBuffers& c)
@@ -89,7 +89,7 @@ void record_filter(PlanBuilder& b, const ContactBuffers& c, std::uint32_t asked)
                                                            .anchor = {c.anchor, 2},
                                                            .delta = {b.plan.delta},
                                                            .lost = {c.lost, 0}};
-    b.dispatch(kEffect, "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
+    b.dispatch(kGuaranteeEffect, "", uses, {b.plan.vertex_count}, b.plan.vertex_count);
 }
 
 } // namespace
@@ -98,9 +98,9 @@ void prepare_guarantee(PlanBuilder& b)
 {
     const std::uint64_t vertices = b.plan.vertex_count, word = sizeof(std::uint32_t);
     ContactBuffers& c = *b.contact;
-    c.anchor = b.add_buffer(kEffect, "anchors", vertices * 8 * b.real_size());
-    c.asked = b.add_buffer(kEffect, "asked", (vertices + 1) * word);
-    c.asked_next = b.add_buffer(kEffect, "asked next", (vertices + 1) * word);
+    c.anchor = b.add_buffer(kGuaranteeEffect, "anchors", vertices * 8 * b.real_size());
+    c.asked = b.add_buffer(kGuaranteeEffect, "asked", (vertices + 1) * word);
+    c.asked_next = b.add_buffer(kGuaranteeEffect, "asked next", (vertices + 1) * word);
 }
 
 void record_guarantee_anchor(PlanBuilder& b, const Moment&)
@@ -113,8 +113,8 @@ void record_guarantee_anchor(PlanBuilder& b, const Moment&)
                                                            .control = {c.control, 0},
                                                            .start = {c.corner_start, 2},
                                                            .anchor = {c.anchor, 2}};
-    b.dispatch_indirect(kEffect, "", uses, {b.plan.vertex_count, c.every, c.skin}, b.plan.vertex_count,
-                        c.control, TAUT_CONTACT_GATE_VERTICES * sizeof(std::uint32_t));
+    b.dispatch_indirect(kGuaranteeEffect, "", uses, {b.plan.vertex_count, c.every, c.skin},
+                        b.plan.vertex_count, c.control, TAUT_CONTACT_GATE_VERTICES * sizeof(std::uint32_t));
 }
 
 void record_guarantee(PlanBuilder& b, const Moment&)

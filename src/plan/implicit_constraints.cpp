@@ -34,7 +34,7 @@
 namespace taut {
 namespace {
 
-constexpr const char* kEffect = "implicit_constraints";
+constexpr const char* kImplicitConstraintsEffect = "implicit_constraints";
 
 std::uint32_t groups_of(const PlanBuilder& b, const ImplicitConstraints& c)
 {
@@ -64,27 +64,31 @@ void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
     c.rows.count = static_cast<std::uint32_t>(c.elements.size());
     c.corners = corner_set(b);
     c.rows.corners.count = static_cast<std::uint32_t>(c.corners.size()); // groups are of all rows
-    c.rows.corners = add_corner_buffers(b, kEffect, c.corners, groups_of(b, c));
+    c.rows.corners = add_corner_buffers(b, kImplicitConstraintsEffect, c.corners, groups_of(b, c));
     check_row_trips(b, c.at, linear::make_grid(b.plan.vertex_count, groups_of(b, c)).chunk);
     const std::uint64_t vec = 4 * b.real_size();
     c.compliances = row_compliances(b, c.elements);
     warn_of_contradictions(b, c);
-    c.rows.records = add_row_records(b, kEffect, c.elements, c.compliances);
-    c.rows.start = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex, start", c.at.start);
-    c.rows.incident = b.add_buffer<std::uint32_t>(kEffect, "rows at a vertex", c.at.entries);
-    c.rows.direction = b.add_buffer(kEffect, "row directions", c.rows.count * vec);
-    c.rows.spread = b.add_buffer(kEffect, "moves of vertices", b.plan.vertex_count * vec);
+    c.rows.records = add_row_records(b, kImplicitConstraintsEffect, c.elements, c.compliances);
+    c.rows.start =
+        b.add_buffer<std::uint32_t>(kImplicitConstraintsEffect, "rows at a vertex, start", c.at.start);
+    c.rows.incident =
+        b.add_buffer<std::uint32_t>(kImplicitConstraintsEffect, "rows at a vertex", c.at.entries);
+    c.rows.direction = b.add_buffer(kImplicitConstraintsEffect, "row directions", c.rows.count * vec);
+    c.rows.spread = b.add_buffer(kImplicitConstraintsEffect, "moves of vertices", b.plan.vertex_count * vec);
     if (b.plan.iterations > 1)
-        c.multiplier = b.add_buffer(kEffect, "multipliers of the substep", c.rows.all() * b.real_size());
+        c.multiplier = b.add_buffer(kImplicitConstraintsEffect, "multipliers of the substep",
+                                    c.rows.all() * b.real_size());
 }
 
 void make_matrix(PlanBuilder& b, ImplicitConstraints& c)
 {
     const std::vector<std::uint32_t> corners = c.corners.corners();
     if (corners.empty())
-        c.matrix.emplace(b, kEffect, constraint_pattern(c.elements, c.at, b.inverse_mass), c.rows.direction);
+        c.matrix.emplace(b, kImplicitConstraintsEffect, constraint_pattern(c.elements, c.at, b.inverse_mass),
+                         c.rows.direction);
     else
-        c.matrix.emplace(b, kEffect,
+        c.matrix.emplace(b, kImplicitConstraintsEffect,
                          constraint_terms(c.elements, c.at, corners,
                                           incidence_of(b.plan.vertex_count, corners, 4), b.inverse_mass),
                          c.rows.direction, c.rows.corners.gradient);
@@ -243,7 +247,7 @@ void prepare_implicit_constraints(PlanBuilder& b)
     else
         system = std::make_shared<ConstraintOperator>(b, c->rows);
     c->solve.emplace(
-        b, kEffect, system,
+        b, kImplicitConstraintsEffect, system,
         linear::Preconditioning{linear::Preconditioner::jacobi, diagonal_inverse(b, *c), nullptr});
     b.plan.kept.push_back(c->solve->x());
     if (c->multiplier != kNoBuffer)
@@ -261,7 +265,7 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
     {
         const kernels::constraint_total::Bindings<Use> uses = {
             .x = {c.solve->x()}, .multiplier = {c.multiplier}, .state = {c.solve->state(), 0}};
-        b.dispatch(kEffect, "", uses, {all, moment.iteration == 0}, all);
+        b.dispatch(kImplicitConstraintsEffect, "", uses, {all, moment.iteration == 0}, all);
     }
     kernels::constraint_rows::Bindings<Use> uses = {.row = {c.rows.records},
                                                     .position = {b.plan.position, 2},
@@ -273,9 +277,10 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
     if (c.multiplier != kNoBuffer)
         uses.multiplier = {c.multiplier};
     const std::uint32_t chunk = linear::make_grid(count, groups).chunk;
-    b.dispatch(kEffect, c.multiplier != kNoBuffer ? "kept" : "", uses,
+    b.dispatch(kImplicitConstraintsEffect, c.multiplier != kNoBuffer ? "kept" : "", uses,
                {count, chunk, moment.iteration > 0, moment.last, b.plan.iterations == 1}, groups, count);
-    record_corner_rows(b, kEffect, c.corners, c.rows, *c.solve, c.multiplier, groups, moment);
+    record_corner_rows(b, kImplicitConstraintsEffect, c.corners, c.rows, *c.solve, c.multiplier, groups,
+                       moment);
     if (c.matrix)
         c.matrix->record(b);
     c.solve->record(b);
@@ -287,7 +292,7 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
                                                              .position = {b.plan.position},
                                                              .delta = {b.plan.delta},
                                                              .state = {c.solve->state(), 0}};
-    b.dispatch(kEffect, "apply", moved, {grid.count, grid.chunk}, groups, grid.count);
+    b.dispatch(kImplicitConstraintsEffect, "apply", moved, {grid.count, grid.chunk}, groups, grid.count);
     const CornerRows& v = c.rows.corners;
     if (v.count == 0)
         return;
@@ -298,7 +303,8 @@ void record_implicit_constraints(PlanBuilder& b, const Moment& moment)
                                                         .position = {b.plan.position},
                                                         .delta = {b.plan.delta},
                                                         .state = {c.solve->state(), 0}};
-    b.dispatch(kEffect, "apply", also, {grid.count, grid.chunk, count}, groups, grid.count);
+    b.dispatch(kImplicitConstraintsEffect, "apply", also, {grid.count, grid.chunk, count}, groups,
+               grid.count);
 }
 
 } // namespace taut

@@ -34,7 +34,6 @@
 namespace taut {
 namespace {
 
-constexpr std::string_view kName = "implicit_euler";
 
 struct Elements
 {
@@ -69,11 +68,11 @@ void add_records(PlanBuilder& b, ImplicitEuler& m, const Elements& elements)
     auto springs = records_of(elements.springs, spring_record<Real>);
     if (springs.empty())
         springs.push_back({}); // a binding has bytes; no entry of the table leads here
-    m.springs = b.add_buffer<layout::Spring<Real>>(kName, "springs", springs);
+    m.springs = b.add_buffer<layout::Spring<Real>>(kImplicitEuler, "springs", springs);
     if (!elements.hinges.empty())
-        m.kinds.push_back({std::string(kName), "hinge",
+        m.kinds.push_back({std::string(kImplicitEuler), "hinge",
                            b.add_buffer<layout::BendingConstraint<Real>>(
-                               kName, "hinges", records_of(elements.hinges, bending_record<Real>)),
+                               kImplicitEuler, "hinges", records_of(elements.hinges, bending_record<Real>)),
                            kNoBuffer, static_cast<std::uint32_t>(elements.hinges.size()), 4});
     for (const AddedSet& set : elements.added)
     {
@@ -83,10 +82,10 @@ void add_records(PlanBuilder& b, ImplicitEuler& m, const Elements& elements)
     }
     if (elements.solids.empty())
         return;
-    m.solids = b.add_buffer<layout::SolidTetrahedron<Real>>(kName, "tetrahedra",
+    m.solids = b.add_buffer<layout::SolidTetrahedron<Real>>(kImplicitEuler, "tetrahedra",
                                                             records_of(elements.solids, solid_record<Real>));
-    m.solid_state =
-        b.add_buffer(kName, "state of tetrahedra", elements.solids.size() * TAUT_SOLID_STATE * sizeof(Real));
+    m.solid_state = b.add_buffer(kImplicitEuler, "state of tetrahedra",
+                                 elements.solids.size() * TAUT_SOLID_STATE * sizeof(Real));
 }
 
 void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std::uint32_t words,
@@ -130,16 +129,16 @@ void add_marks(PlanBuilder& b, ImplicitEuler& m, const std::vector<bool>& solved
     std::vector<std::uint32_t> marks;
     for (const bool moves : solved)
         marks.insert(marks.end(), 3, moves ? 0u : 1u);
-    m.held = b.add_buffer<std::uint32_t>(kName, "not solved for", marks);
+    m.held = b.add_buffer<std::uint32_t>(kImplicitEuler, "not solved for", marks);
     m.marks = m.held;
     if (b.scene.colliders.empty() || b.plan.iterations <= 1)
         return;
     const std::vector<std::uint32_t> light = light_vertices(b);
     if (std::find(light.begin(), light.end(), 1u) == light.end())
         return;
-    m.light = b.add_buffer<std::uint32_t>(kName, "light vertices", light);
-    m.marks = b.add_buffer<std::uint32_t>(kName, "stays in this Newton step", marks);
-    m.before = b.add_buffer(kName, "displacement before colliders",
+    m.light = b.add_buffer<std::uint32_t>(kImplicitEuler, "light vertices", light);
+    m.marks = b.add_buffer<std::uint32_t>(kImplicitEuler, "stays in this Newton step", marks);
+    m.before = b.add_buffer(kImplicitEuler, "displacement before colliders",
                             std::uint64_t{b.plan.vertex_count} * 4 * b.real_size());
 }
 
@@ -178,12 +177,12 @@ void add_tables(PlanBuilder& b, ImplicitEuler& m, const AllCorners& corners,
         check_trips(b, tables[k], corners[k].words(), what);
         return b.add_buffer<std::uint32_t>(effect, what + " at a vertex", tables[k]);
     };
-    m.spring_table = add(0, kName, "springs");
+    m.spring_table = add(0, kImplicitEuler, "springs");
     for (std::size_t k = 0; k < m.kinds.size(); ++k)
         m.kinds[k].table =
-            add(1 + k, m.kinds[k].effect, m.kinds[k].effect == kName ? "hinges" : m.kinds[k].stem);
+            add(1 + k, m.kinds[k].effect, m.kinds[k].effect == kImplicitEuler ? "hinges" : m.kinds[k].stem);
     if (m.solid_count > 0)
-        m.solid_table = add(tables.size() - 1, kName, "tetrahedra");
+        m.solid_table = add(tables.size() - 1, kImplicitEuler, "tetrahedra");
 }
 
 /// Twenty vertices each, as long as the coarse system stays small beside a product with the matrix.
@@ -206,7 +205,7 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
     const auto matrix = linear::DeviceMatrix::upload(b.paper(), pattern, options);
     const std::vector<std::uint32_t> slots = matrix->slots(pattern);
     add_tables(b, m, elements.corners, implicit_tables(solved, elements.corners, pattern, slots));
-    m.values = b.adopt(kName, matrix->values());
+    m.values = b.adopt(kImplicitEuler, matrix->values());
     add_marks(b, m, solved);
     const auto inverse = std::make_shared<linear::DeviceInverse>(
         b.paper(), matrix, pattern, linear::Preconditioner::block_jacobi, b.on_paper(m.marks));
@@ -215,7 +214,7 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
         system = std::make_shared<ImplicitProduct>(product_buffers(b, m));
     if (b.scene.method.preconditioner != "two_level")
     {
-        m.solve.emplace(b, kName, system,
+        m.solve.emplace(b, kImplicitEuler, system,
                         linear::Preconditioning{inverse->kind(), inverse->inverse(), nullptr},
                         PlanSolve::Inverses{inverse});
         return;
@@ -225,7 +224,7 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
     const auto mask = std::make_shared<linear::DeviceInverse>(
         b.paper(), matrix, pattern, linear::Preconditioner::jacobi, b.on_paper(m.marks));
     // "multigrid" is what conjugate gradients call any preconditioner whose result is stored.
-    m.solve.emplace(b, kName, system,
+    m.solve.emplace(b, kImplicitEuler, system,
                     linear::Preconditioning{linear::Preconditioner::multigrid, mask->inverse(), m.coarse},
                     PlanSolve::Inverses{inverse, mask});
 }
@@ -234,7 +233,7 @@ void add_vectors(PlanBuilder& b, ImplicitEuler& m)
 {
     const std::uint64_t real = b.real_size(), groups = m.solve->groups();
     const auto make = [&](std::string_view name, std::uint64_t reals) {
-        const std::uint32_t id = b.add_buffer(kName, name, reals * real);
+        const std::uint32_t id = b.add_buffer(kImplicitEuler, name, reals * real);
         return b.on_paper(id);
     };
     m.product = make("product of the guess", 3ull * b.plan.vertex_count);
@@ -298,8 +297,8 @@ void prepare_implicit_euler(PlanBuilder& b)
     m.part_count = static_cast<std::uint32_t>(parts.start.size() - 1);
     if (m.part_count == 0)
         return;
-    m.part_start = b.add_buffer<std::uint32_t>(kName, "free parts, start", parts.start);
-    m.part_members = b.add_buffer<std::uint32_t>(kName, "free parts", parts.member);
+    m.part_start = b.add_buffer<std::uint32_t>(kImplicitEuler, "free parts, start", parts.start);
+    m.part_members = b.add_buffer<std::uint32_t>(kImplicitEuler, "free parts", parts.member);
 }
 
 } // namespace taut

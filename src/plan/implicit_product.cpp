@@ -10,14 +10,14 @@
 namespace taut {
 namespace {
 
-constexpr const char* kLabel = "implicit product";
+constexpr const char* kImplicitProduct = "implicit product";
 
 } // namespace
 
 void ImplicitProduct::record_springs(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
 {
     const linear::Grid grid = linear::make_grid(at_.vertices, gate.groups);
-    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel},
+    linear::launch(recorder, gate, {pass.variant, at_.precision, kImplicitProduct},
                    kernels::implicit_product::Bindings<Binding>{.position = at_.position,
                                                                 .delta = at_.delta,
                                                                 .spring = at_.springs,
@@ -34,7 +34,7 @@ void ImplicitProduct::record_kind(Recorder& recorder, const linear::Gate& gate,
                                   const ImplicitKindBuffers& kind, const Pass& pass) const
 {
     const linear::Grid grid = linear::make_grid(at_.vertices, gate.groups);
-    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel, kind.kernel},
+    linear::launch(recorder, gate, {pass.variant, at_.precision, kImplicitProduct, kind.kernel},
                    kernels::implicit_euler_product_hinge::Bindings<Binding>{.position = at_.position,
                                                                             .delta = at_.delta,
                                                                             .constraint = kind.records,
@@ -49,7 +49,7 @@ void ImplicitProduct::record_kind(Recorder& recorder, const linear::Gate& gate,
 void ImplicitProduct::record_solids(Recorder& recorder, const linear::Gate& gate, const Pass& pass) const
 {
     const linear::Grid grid = linear::make_grid(at_.vertices, gate.groups);
-    linear::launch(recorder, gate, {pass.variant, at_.precision, kLabel},
+    linear::launch(recorder, gate, {pass.variant, at_.precision, kImplicitProduct},
                    kernels::implicit_solid_product::Bindings<Binding>{.solid = at_.solids,
                                                                       .state = at_.solid_state,
                                                                       .table = at_.solid_table,

@@ -28,7 +28,6 @@
 namespace taut {
 namespace {
 
-constexpr std::string_view kName = "implicit_euler";
 
 void record_force(PlanBuilder& b, const ImplicitEuler& m)
 {
@@ -42,7 +41,7 @@ void record_force(PlanBuilder& b, const ImplicitEuler& m)
                                                    .b = {m.solve->b(), 3}};
     if (m.damped)
         uses.low = {b.plan.low};
-    b.dispatch(kName, m.damped ? "damped" : "", uses, {n, m.scale, m.lift}, n);
+    b.dispatch(kImplicitEuler, m.damped ? "damped" : "", uses, {n, m.scale, m.lift}, n);
 }
 
 void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
@@ -56,7 +55,7 @@ void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
                                                              .step_values = {b.plan.step_values, 0},
                                                              .values = {m.values, 9},
                                                              .events = {b.plan.events, 0}};
-    b.dispatch(kName, "", springs, {n, report, m.scale}, n);
+    b.dispatch(kImplicitEuler, "", springs, {n, report, m.scale}, n);
     for (const ImplicitKind& kind : m.kinds)
     {
         const kernels::implicit_euler_hinge::Bindings<Use> uses = {.position = {b.plan.position},
@@ -78,29 +77,29 @@ void record_matrix(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
                                                            .step_values = {b.plan.step_values, 0},
                                                            .state = {m.solid_state, TAUT_SOLID_STATE},
                                                            .events = {b.plan.events, 0}};
-    b.dispatch(kName, "", state, {m.solid_count, report, m.scale}, m.solid_count);
+    b.dispatch(kImplicitEuler, "", state, {m.solid_count, report, m.scale}, m.solid_count);
     const kernels::implicit_solid_blocks::Bindings<Use> blocks = {
         .solid = {m.solids, 4},
         .state = {m.solid_state, 4 * TAUT_SOLID_STATE},
         .table = {m.solid_table, 2},
         .b = {m.solve->b(), 3},
         .values = {m.values, 9}};
-    b.dispatch(kName, "", blocks, {n, m.lift}, n);
+    b.dispatch(kImplicitEuler, "", blocks, {n, m.lift}, n);
 }
 
 /// The solver's start: the inertial guess, as far as it helps.
 void record_guess(PlanBuilder& b, const ImplicitEuler& m)
 {
-    b.record(kName, [&](Recorder& recorder) {
+    b.record(kImplicitEuler, [&](Recorder& recorder) {
         const linear::Gate always{m.solve->groups(), nullptr, 0};
         const linear::Grid rows = linear::make_grid(3 * b.plan.vertex_count, always.groups);
         const BufferPtr x = b.on_paper(m.solve->x());
         m.solve->system().record_product(recorder, always, x, m.product, m.curvatures);
-        linear::launch(recorder, always, {"", b.plan.precision, kName},
+        linear::launch(recorder, always, {"", b.plan.precision, kImplicitEuler},
                        kernels::dot::Bindings<Recorder::Binding>{
                            .x = x, .y = b.on_paper(m.solve->b()), .partials = m.products},
                        {rows.count, rows.chunk, always.groups});
-        linear::launch(recorder, always, {"", b.plan.precision, kName},
+        linear::launch(recorder, always, {"", b.plan.precision, kImplicitEuler},
                        kernels::implicit_guess::Bindings<Recorder::Binding>{
                            .products = m.products, .curvatures = m.curvatures, .x = x},
                        {rows.count, rows.chunk, always.groups});
@@ -121,7 +120,7 @@ void record_momentum(PlanBuilder& b, const ImplicitEuler& m)
     const bool contact = m.before != kNoBuffer;
     if (contact)
         uses.marks = {m.marks, 3};
-    b.dispatch(kName, contact ? "contact" : "", uses, {m.part_count, m.lift}, m.part_count,
+    b.dispatch(kImplicitEuler, contact ? "contact" : "", uses, {m.part_count, m.lift}, m.part_count,
                b.plan.vertex_count);
 }
 
@@ -136,7 +135,7 @@ void record_hold(PlanBuilder& b, const ImplicitEuler& m, bool first)
                                                         .before = {m.before},
                                                         .delta = {b.plan.delta},
                                                         .marks = {m.marks, 3}};
-    b.dispatch(kName, "", uses, {n, first ? 1u : 0u}, n);
+    b.dispatch(kImplicitEuler, "", uses, {n, first ? 1u : 0u}, n);
 }
 
 /// Colliders push between two Newton steps, so that the next one knows what they carry.
@@ -146,7 +145,7 @@ void record_push(PlanBuilder& b, const ImplicitEuler& m, Moment moment)
         return;
     const std::uint32_t n = b.plan.vertex_count;
     const kernels::vbd_mark::Bindings<Use> uses = {.delta = {b.plan.delta}, .solved = {m.before}};
-    b.dispatch(kName, "", uses, {n}, n);
+    b.dispatch(kImplicitEuler, "", uses, {n}, n);
     moment.iteration = 0; // friction knows of one push at a time
     moment.last = false;
     record_colliders(b, moment);
@@ -183,7 +182,7 @@ void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
         bindings.delta = b.on_paper(b.plan.delta);
         bindings.x = b.on_paper(m.solve->x());
         bindings.partials = m.trials;
-        linear::launch(recorder, always, {variant, b.plan.precision, kName}, bindings,
+        linear::launch(recorder, always, {variant, b.plan.precision, kImplicitEuler}, bindings,
                        {grid.count, grid.chunk, always.groups, trials, part++, m.parts(), m.scale, m.lift});
     };
     const BufferPtr step_values = b.on_paper(b.plan.step_values);
@@ -199,13 +198,13 @@ void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
 
 void record_update(PlanBuilder& b, const ImplicitEuler& m)
 {
-    b.record(kName, [&](Recorder& recorder) {
+    b.record(kImplicitEuler, [&](Recorder& recorder) {
         const linear::Gate always{m.solve->groups(), nullptr, 0};
         const linear::Grid grid = linear::make_grid(b.plan.vertex_count, always.groups);
         if (m.trials)
             record_trials(b, m, recorder);
         linear::launch(
-            recorder, always, {m.trials ? "search" : "", b.plan.precision, kName},
+            recorder, always, {m.trials ? "search" : "", b.plan.precision, kImplicitEuler},
             kernels::implicit_update::Bindings<Recorder::Binding>{
                 .delta = b.on_paper(b.plan.delta), .x = b.on_paper(m.solve->x()), .partials = m.trials},
             {grid.count, grid.chunk, always.groups, b.scene.method.line_search + 1, m.parts(), m.lift});
@@ -225,7 +224,7 @@ void record_implicit_start(PlanBuilder& b, const Moment&)
                                                          .predicted = {b.plan.predicted},
                                                          .delta = {b.plan.delta},
                                                          .guess = {m.solve->x(), 3}};
-    b.dispatch(kName, "", uses, {n, m.lift}, n);
+    b.dispatch(kImplicitEuler, "", uses, {n, m.lift}, n);
 }
 
 void record_implicit_step(PlanBuilder& b, const Moment& moment)
@@ -239,7 +238,7 @@ void record_implicit_step(PlanBuilder& b, const Moment& moment)
     if (moment.iteration == 0)
         record_guess(b, m);
     if (m.coarse && moment.substep == 0 && moment.iteration == 0) // once a step: it may lag behind the matrix
-        b.record(kName, [&](Recorder& recorder) {
+        b.record(kImplicitEuler, [&](Recorder& recorder) {
             m.coarse->form(recorder, {m.solve->groups(), nullptr, 0});
         });
     m.solve->record(b);

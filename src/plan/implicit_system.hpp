@@ -7,8 +7,12 @@
 #include "taut/plan/solve.hpp"
 
 #include <optional>
+#include <string_view>
 
 namespace taut {
+
+/// The effect that pays for its buffers and passes.
+inline constexpr std::string_view kImplicitEuler = "implicit_euler";
 
 /// Elements of one kind that go through kernels/methods/implicit_euler/.
 struct ImplicitKind

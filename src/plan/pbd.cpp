@@ -28,12 +28,12 @@
 namespace taut {
 namespace {
 
-constexpr std::uint32_t kPlainIterations = 4;  ///< before Chebyshev's weights begin
+constexpr std::uint32_t kPlainPbdIterations = 4; ///< before Chebyshev's weights begin
 constexpr std::uint32_t kLeastChebyshev = 8;   ///< iterations below which the weights do harm
 
 constexpr std::string_view kJacobi = "pbd_jacobi";
 
-void record_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
+void record_pbd_hubs(PlanBuilder& b, const ConstraintSet& set, const Moment& moment)
 {
     const MethodSettings& m = b.scene.method;
     const auto share = static_cast<float>(pbd_share(m.stretch, b.plan.iterations) * m.relaxation);
@@ -200,11 +200,11 @@ double pbd_share(double stiffness, std::uint32_t iterations)
 
 double chebyshev_weight(double spectral_radius, std::uint32_t iteration)
 {
-    if (!(spectral_radius > 0) || iteration < kPlainIterations)
+    if (!(spectral_radius > 0) || iteration < kPlainPbdIterations)
         return 1;
     const double square = spectral_radius * spectral_radius;
     double weight = 2 / (2 - square);
-    for (std::uint32_t i = kPlainIterations; i < iteration; ++i)
+    for (std::uint32_t i = kPlainPbdIterations; i < iteration; ++i)
         weight = 4 / (4 - square * weight);
     return weight;
 }
@@ -286,7 +286,7 @@ void record_pbd_stretch(PlanBuilder& b, const Moment& moment)
     if (set == nullptr)
         return;
     record_pbd_sweep(b, *set, "pbd_spring", 2, b.scene.method.stretch, moment);
-    record_hubs(b, *set, moment);
+    record_pbd_hubs(b, *set, moment);
 }
 
 void record_pbd_bend(PlanBuilder& b, const Moment& moment)

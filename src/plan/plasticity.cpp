@@ -28,7 +28,7 @@
 namespace taut {
 namespace {
 
-constexpr const char* kEffect = "plasticity";
+constexpr const char* kPlasticityEffect = "plasticity";
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kAtOnce = 1e30; ///< 1/s: an infinite creep as a float
 
@@ -83,8 +83,8 @@ void add_springs(PlanBuilder& b, Plasticity& p, std::uint32_t records)
     p.spring_records = records;
     if (p.forces)
         b.plan.flowing = records;
-    p.spring_list = b.add_buffer<std::uint32_t>(kEffect, "springs that flow", list);
-    p.spring_rules = b.add_buffer<Real>(kEffect, "yield of springs", rules);
+    p.spring_list = b.add_buffer<std::uint32_t>(kPlasticityEffect, "springs that flow", list);
+    p.spring_rules = b.add_buffer<Real>(kPlasticityEffect, "yield of springs", rules);
     b.plan.kept.push_back(records);
 }
 
@@ -199,9 +199,9 @@ void add_solids(PlanBuilder& b, Plasticity& p)
     p.solids = static_cast<std::uint32_t>(table.size() / 8);
     if (p.solids == 0)
         return;
-    p.solid_table = b.add_buffer<std::uint32_t>(kEffect, "tetrahedra that flow", table);
-    p.solid_rules = b.add_buffer<Real>(kEffect, "yield of tetrahedra", rules);
-    p.solid_state = b.add_buffer<Real>(kEffect, "plastic stretch", state);
+    p.solid_table = b.add_buffer<std::uint32_t>(kPlasticityEffect, "tetrahedra that flow", table);
+    p.solid_rules = b.add_buffer<Real>(kPlasticityEffect, "yield of tetrahedra", rules);
+    p.solid_state = b.add_buffer<Real>(kPlasticityEffect, "plastic stretch", state);
     b.plan.kept.insert(b.plan.kept.end(), {p.solid_records, p.solid_state});
 }
 
@@ -214,7 +214,7 @@ bool wants_plasticity(const Scene& scene)
 
 void check_plasticity(const Scene& scene)
 {
-    constexpr std::string_view kMethods[] = {"xpbd", "vbd", "implicit_euler", "mass_spring"};
+    constexpr std::string_view kMethodsThatFlow[] = {"xpbd", "vbd", "implicit_euler", "mass_spring"};
     const bool tears = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.material.tear_strain > 0; });
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
@@ -222,10 +222,11 @@ void check_plasticity(const Scene& scene)
         if (!keeps_strain(scene.bodies[k]))
             continue;
         const std::string where = "bodies[" + std::to_string(k) + "].material.plastic_yield is not 0, but ";
-        if (std::find(std::begin(kMethods), std::end(kMethods), scene.method.type) == std::end(kMethods))
+        if (std::find(std::begin(kMethodsThatFlow), std::end(kMethodsThatFlow), scene.method.type) ==
+            std::end(kMethodsThatFlow))
             throw Error(ErrorCode::unsupported, where + "method \"" + scene.method.type +
                                                     "\" keeps no strain; set it to 0, or take a method of " +
-                                                    scene_file::listing(kMethods));
+                                                    scene_file::listing(kMethodsThatFlow));
         if (tears)
             throw Error(ErrorCode::unsupported,
                         where + "a body of the scene can tear, and a tear plans the scene anew and would "
@@ -259,7 +260,7 @@ void record_plasticity(PlanBuilder& b, const Moment&)
                                                              .position = {b.plan.position, 2},
                                                              .low = {b.plan.low, 2},
                                                              .step_values = {b.plan.step_values, 0}};
-        b.dispatch(kEffect, p.forces ? "force" : "", uses, {p.springs}, p.springs);
+        b.dispatch(kPlasticityEffect, p.forces ? "force" : "", uses, {p.springs}, p.springs);
     }
     if (p.solids > 0)
     {
@@ -270,7 +271,7 @@ void record_plasticity(PlanBuilder& b, const Moment&)
                                                             .position = {b.plan.position, 4},
                                                             .low = {b.plan.low, 4},
                                                             .step_values = {b.plan.step_values, 0}};
-        b.dispatch(kEffect, "", uses, {p.solids}, p.solids);
+        b.dispatch(kPlasticityEffect, "", uses, {p.solids}, p.solids);
     }
 }
 

@@ -20,7 +20,7 @@
 namespace taut {
 namespace {
 
-constexpr const char* kEffect = "pressure";
+constexpr const char* kPressureEffect = "pressure";
 
 bool has_gas(const Body& body) { return body.material.pressure != 0 && !body.mesh.triangles.empty(); }
 
@@ -83,7 +83,7 @@ void prepare_pressure(PlanBuilder& b)
 {
     const SurfaceTables tables = surface_tables(b, has_gas, "pressure");
     SurfaceBuffers& s = b.gas;
-    add_surface_tables(b, kEffect, tables, s);
+    add_surface_tables(b, kPressureEffect, tables, s);
     if (s.groups == 0)
         return;
     std::vector<double> values;
@@ -97,7 +97,7 @@ void prepare_pressure(PlanBuilder& b)
     }
     with_real(b.plan.precision, [&](auto zero) {
         const std::vector<decltype(zero)> kept(values.begin(), values.end());
-        s.values = b.add_buffer<decltype(zero)>(kEffect, "gases", kept);
+        s.values = b.add_buffer<decltype(zero)>(kPressureEffect, "gases", kept);
     });
 }
 
@@ -106,7 +106,7 @@ void record_pressure(PlanBuilder& b, const Moment& moment)
     const SurfaceBuffers& s = b.gas;
     if (s.groups == 0)
         return;
-    record_surface_sums(b, kEffect, s, false);
+    record_surface_sums(b, kPressureEffect, s, false);
     const kernels::pressure::Bindings<Use> push = {.table = {s.table, 2},
                                                    .surface = {s.values},
                                                    .gradient = {s.gradient},
@@ -114,7 +114,8 @@ void record_pressure(PlanBuilder& b, const Moment& moment)
                                                    .step_values = {b.plan.step_values, 0},
                                                    .velocity = {b.plan.velocity},
                                                    .events = {b.plan.events, 0}};
-    b.dispatch(kEffect, "", push, {s.groups, moment.substep + 1 == b.plan.substeps}, s.groups, s.vertices);
+    b.dispatch(kPressureEffect, "", push, {s.groups, moment.substep + 1 == b.plan.substeps}, s.groups,
+               s.vertices);
 }
 
 } // namespace taut

@@ -19,7 +19,7 @@
 namespace taut {
 namespace {
 
-constexpr const char* kEffect = "surface_volume";
+constexpr const char* kSurfaceVolumeEffect = "surface_volume";
 constexpr std::uint32_t kVertices = 2 * TAUT_LINEAR_GROUP; ///< of a group of a small surface
 constexpr std::uint32_t kMostGroups = 1024;                ///< of a surface
 
@@ -143,7 +143,7 @@ void prepare_surface_volume(PlanBuilder& b)
 {
     const SurfaceTables tables = surface_tables(b, holds_surface_volume, "volume_stiffness");
     SurfaceBuffers& s = b.surfaces;
-    add_surface_tables(b, kEffect, tables, s);
+    add_surface_tables(b, kSurfaceVolumeEffect, tables, s);
     if (s.groups == 0)
         return;
     std::vector<double> held;
@@ -154,13 +154,13 @@ void prepare_surface_volume(PlanBuilder& b)
     }
     with_real(b.plan.precision, [&](auto zero) {
         const std::vector<decltype(zero)> values(held.begin(), held.end());
-        s.values = b.add_buffer<decltype(zero)>(kEffect, "volumes at rest", values);
+        s.values = b.add_buffer<decltype(zero)>(kSurfaceVolumeEffect, "volumes at rest", values);
     });
     bool soft = false;
     for (std::size_t k = 1; k < held.size(); k += 2)
         soft = soft || held[k] > 0;
     if (soft && b.plan.iterations > 1) // what the iterations before have pulled with
-        s.multiplier = b.add_buffer(kEffect, "volume multipliers",
+        s.multiplier = b.add_buffer(kSurfaceVolumeEffect, "volume multipliers",
                                     std::uint64_t(b.plan.iterations + 1) * s.surfaces * b.real_size());
 }
 
@@ -169,7 +169,7 @@ void record_surface_volume(PlanBuilder& b, const Moment& moment)
     const SurfaceBuffers& s = b.surfaces;
     if (s.groups == 0)
         return;
-    record_surface_sums(b, kEffect, s, moment.iteration > 0);
+    record_surface_sums(b, kSurfaceVolumeEffect, s, moment.iteration > 0);
     kernels::surface_volume_apply::Bindings<Use> moved = {.table = {s.table, 2},
                                                           .surface = {s.values},
                                                           .gradient = {s.gradient},
@@ -180,8 +180,8 @@ void record_surface_volume(PlanBuilder& b, const Moment& moment)
     const bool kept = s.multiplier != kNoBuffer;
     if (kept)
         moved.multiplier = {s.multiplier};
-    b.dispatch(kEffect, kept ? "kept" : "", moved, {s.groups, s.surfaces, moment.iteration, moment.last},
-               s.groups, s.vertices);
+    b.dispatch(kSurfaceVolumeEffect, kept ? "kept" : "", moved,
+               {s.groups, s.surfaces, moment.iteration, moment.last}, s.groups, s.vertices);
 }
 
 } // namespace taut

@@ -21,7 +21,7 @@
 namespace taut {
 namespace {
 
-constexpr std::uint32_t kPlainIterations = 3; ///< before the acceleration starts
+constexpr std::uint32_t kPlainVbdIterations = 3; ///< before the acceleration starts
 constexpr std::uint32_t kFewIterations = 8;   ///< fewer are not accelerated
 
 /// Of a generated box's vertices, in the order of the plan; nothing for other shapes.
@@ -160,13 +160,13 @@ std::vector<float> chebyshev_factors(double radius, std::uint32_t iterations)
 {
     if (!(radius > 0) || iterations < kFewIterations)
         return {};
-    const double most = 1 - 1.0 / (iterations - kPlainIterations);
+    const double most = 1 - 1.0 / (iterations - kPlainVbdIterations);
     const double square = std::min(radius, most) * std::min(radius, most);
     std::vector<float> out(iterations, 1.0f);
     double omega = 1;
-    for (std::uint32_t i = kPlainIterations + 1; i < iterations; ++i)
+    for (std::uint32_t i = kPlainVbdIterations + 1; i < iterations; ++i)
     {
-        omega = i == kPlainIterations + 1 ? 2 / (2 - square) : 4 / (4 - square * omega);
+        omega = i == kPlainVbdIterations + 1 ? 2 / (2 - square) : 4 / (4 - square * omega);
         out[i] = static_cast<float>(omega);
     }
     return out;

@@ -2,6 +2,7 @@
 
 #include "taut/plan/effect_names.hpp"
 #include "taut/report/errors.hpp"
+#include "taut/report/median.hpp"
 #include "taut/report/model.hpp"
 #include "taut/runtime/base/csv.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -98,15 +99,6 @@ std::uint64_t step_in_turns(std::vector<Run>& runs, std::uint64_t frames,
         }
     }
     return frames;
-}
-
-double median(std::vector<double> values)
-{
-    if (values.empty())
-        return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 const std::vector<std::string> kHead = {"without",   "ms a step",        "its cost ms",      "its dispatches",

@@ -1,8 +1,9 @@
 #include "taut/report/compare.hpp"
 
 #include "taut/report/errors.hpp"
-#include "taut/runtime/base/shown.hpp"
+#include "taut/report/median.hpp"
 #include "taut/runtime/base/csv.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -11,15 +12,6 @@ namespace taut {
 namespace {
 
 using Clockwork = std::chrono::steady_clock;
-
-double median(std::vector<double> values)
-{
-    if (values.empty())
-        return 0;
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 void look(const World& world, std::uint64_t frame, Looks& looks, CompareRow& row)
 {

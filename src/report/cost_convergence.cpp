@@ -11,7 +11,7 @@
 namespace taut {
 namespace {
 
-std::string number(double value)
+std::string two_decimals(double value)
 {
     char text[40];
     const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 2).ptr;
@@ -83,7 +83,7 @@ std::string order_text(const CostOrder& row)
 {
     if (!row.order)
         return row.name + (row.at_floor ? " at its floor" : " none");
-    return row.name + " " + number(*row.order) + (row.at_floor ? ", then at its floor" : "");
+    return row.name + " " + two_decimals(*row.order) + (row.at_floor ? ", then at its floor" : "");
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "taut/report/cost_reference.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 #include "taut/scene/pose.hpp"
 
 #include <algorithm>
@@ -12,13 +13,6 @@
 
 namespace taut {
 namespace {
-
-std::string number(double value, int digits = 4)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
-    return std::string(text, end);
-}
 
 void check_conservative(const Scene& scene)
 {
@@ -114,8 +108,8 @@ std::string energy_csv(const EnergyStudy& study)
     for (const EnergyRun& run : study.runs)
         for (std::size_t f = 0; f < run.energy.size(); ++f)
             out += "\"" + settings_text(run.settings) + "\"," +
-                   number(static_cast<double>(f) * study.timestep, 6) + "," + number(run.energy[f]) + "," +
-                   (run.momentum.empty() ? "" : number(run.momentum[f])) + "\n";
+                   shown(static_cast<double>(f) * study.timestep, 6) + "," + shown(run.energy[f], 4) + "," +
+                   (run.momentum.empty() ? "" : shown(run.momentum[f], 4)) + "\n";
     return out;
 }
 
@@ -145,7 +139,7 @@ Plot energy_plot(const EnergyStudy& study, Conserved what)
             plot.gaps.push_back(settings_text(run.settings) + ": " + run.reason);
     }
     if (energy)
-        plot.caption.push_back("E_ref = " + number(study.reference_energy) +
+        plot.caption.push_back("E_ref = " + shown(study.reference_energy, 4) +
                                " J, the largest kinetic energy of all runs.");
     plot.caption.emplace_back(
         "No reference: both are kept by the model itself (class R1). Zeros are not drawn.");
@@ -164,10 +158,10 @@ std::vector<std::string> energy_sentences(const EnergyStudy& study)
         {
             const double last = run.energy.back();
             text +=
-                std::string(last < 0 ? "loses " : "gains ") + number(100 * std::abs(last), 3) + " % of E_ref";
+                std::string(last < 0 ? "loses " : "gains ") + shown(100 * std::abs(last), 3) + " % of E_ref";
             if (!run.momentum.empty())
                 text += ", momentum off by at most " +
-                        number(*std::max_element(run.momentum.begin(), run.momentum.end()), 2);
+                        shown(*std::max_element(run.momentum.begin(), run.momentum.end()), 2);
         }
         out.push_back(text + ".");
     }

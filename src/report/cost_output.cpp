@@ -1,9 +1,10 @@
 // A study as JSON, CSV and a diagram.
 #include "taut/report/cost.hpp"
-
 #include "taut/report/method_settings.hpp"
-#include "taut/version.hpp"
+#include "taut/report/number_or_null.hpp"
 #include "taut/runtime/base/csv.hpp"
+#include "taut/runtime/base/shown.hpp"
+#include "taut/version.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -14,18 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json maybe(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json sentence_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 /// Like %.*g, whatever the locale.
-std::string number(double value, int digits = 6)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
-    return std::string(text, end);
-}
-
 const char* kind_word(const CostStudy& study)
 {
     return study.kind == CostKind::at_rest ? "static" : "moving";
@@ -49,15 +41,15 @@ Json point_json(const CostStudy& study, const CostPoint& point)
 {
     Json json = setting_json(point);
     const bool gap = !point.error;
-    json["error"] = maybe(point.error);
+    json["error"] = number_or_null(point.error);
     json["error_metric"] = study.metric;
     json["reference"] = study.reference.name;
-    json["error_l"] = maybe(point.error_l);
-    json["error_smoothed"] = maybe(point.error_smoothed);
+    json["error_l"] = number_or_null(point.error_l);
+    json["error_smoothed"] = number_or_null(point.error_smoothed);
     json["at_reference_floor"] = point.at_floor;
     json["ms_per_simulated_second"] = gap ? Json(nullptr) : Json(point.ms);
     json["ms_least"] = gap ? Json(nullptr) : Json(point.ms_least);
-    json["cpu_ms_per_simulated_second"] = gap ? Json(nullptr) : maybe(point.cpu_ms);
+    json["cpu_ms_per_simulated_second"] = gap ? Json(nullptr) : number_or_null(point.cpu_ms);
     json["repetitions"] = point.repetitions;
     json["ms_quartiles"] = gap ? Json(nullptr) : Json({point.ms_low, point.ms_high});
     json["cpu_ms_quartiles"] = gap || !point.cpu_ms ? Json(nullptr) : Json({point.cpu_low, point.cpu_high});
@@ -77,7 +69,7 @@ Json cheapest_json(const CostStudy& study, const std::vector<CostTarget>& target
     Json json = Json::object();
     for (const CostTarget& target : targets)
     {
-        Json& entry = json[number(target.tolerance)];
+        Json& entry = json[shown(target.tolerance, 6)];
         if (!target.cheapest)
             continue; // null
         const CostPoint& point = study.points[*target.cheapest];
@@ -107,16 +99,16 @@ Json reference_json(const CostReference& reference)
     return {{"class", reference.name},
             {"text", reference.text},
             {"verified", reference.verified},
-            {"error", maybe(reference.error)},
-            {"error_l", maybe(reference.error_l)},
+            {"error", number_or_null(reference.error)},
+            {"error_l", number_or_null(reference.error_l)},
             {"passed_over", reference.passed}};
 }
 
 /// Quoted where a comma or quote would break the row.
 std::string csv_row(const CostStudy& study, const CostPoint& point)
 {
-    const auto value = [](const std::optional<double>& v) { return v ? number(*v) : std::string(); };
-    const auto timed = [&](double v) { return point.error ? number(v) : std::string(); };
+    const auto value = [](const std::optional<double>& v) { return v ? shown(*v, 6) : std::string(); };
+    const auto timed = [&](double v) { return point.error ? shown(v, 6) : std::string(); };
     const std::string cells[] = {csv_cell(study.scene),
                                  csv_cell(study.device.executor),
                                  point.method,
@@ -132,7 +124,7 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
                                  timed(point.ms),
                                  timed(point.ms_least),
                                  value(point.error ? point.cpu_ms : std::nullopt),
-                                 number(point.sweeps),
+                                 shown(point.sweeps, 6),
                                  point.pareto ? "1" : "0",
                                  point.at_floor ? "1" : "0",
                                  std::string(to_string(point.status)),

@@ -1,6 +1,7 @@
 // A study as a diagram.
 #include "taut/report/cost.hpp"
 #include "taut/report/method_settings.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -8,13 +9,6 @@
 
 namespace taut {
 namespace {
-
-std::string number(double value)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 2).ptr;
-    return std::string(text, end);
-}
 
 /// What a time axis shows.
 CostBasis time_basis(const CostStudy& study)
@@ -73,7 +67,7 @@ std::vector<std::string> captions(const CostStudy& study, CostAxis axis)
     const bool at_floor = std::any_of(study.points.begin(), study.points.end(),
                                       [](const CostPoint& point) { return point.at_floor; });
     if (at_floor)
-        out.push_back("Errors below " + number(10 * *study.reference.error) +
+        out.push_back("Errors below " + shown(10 * *study.reference.error, 2) +
                       ", ten times the reference's own, are not told apart.");
     const std::string span =
         study.kind == CostKind::at_rest ? "at rest" : "over " + std::to_string(study.frames) + " frames";

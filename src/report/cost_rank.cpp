@@ -9,8 +9,6 @@
 namespace taut {
 namespace {
 
-std::string number(double value) { return shown(value, 3); }
-
 /// What counts for ranking: nothing is told apart below ten times the reference's own error.
 double ranked_error(const CostPoint& point, double floor) { return std::max(*point.error, floor); }
 
@@ -82,8 +80,8 @@ std::string result_text(const CostStudy& study, const CostPoint& point)
                              : study.basis == CostBasis::cpu ? " ms of CPU time per simulated second"
                                                              : " sweeps per simulated second";
     return (study.methods.size() > 1 ? point.method + ", " : "") + setting_text(point) +
-           (details.empty() ? "" : ", " + details) + ", " + number(price(point, study.basis)) + unit + " (" +
-           study.metric + " " + number(100 * *point.error) + " %)";
+           (details.empty() ? "" : ", " + details) + ", " + shown(price(point, study.basis), 3) + unit +
+           " (" + study.metric + " " + shown(100 * *point.error, 3) + " %)";
 }
 
 /// Of a cheapest point that does not move the scene's own material: that, and what does instead. Else empty.
@@ -112,7 +110,7 @@ std::vector<CostFloor> cost_floors(const CostStudy& study, const CostPoint* poin
         const bool there =
             std::any_of(out.begin(), out.end(), [&](const CostFloor& f) { return f.error == error; });
         if (error > 0 && !there)
-            out.push_back({word, error, words + ", " + number(error)});
+            out.push_back({word, error, words + ", " + shown(error, 3)});
     };
     add("reference", 10 * study.reference.error.value_or(0), "10 x the reference's own error");
     if (study.kind == CostKind::at_rest)
@@ -187,7 +185,7 @@ std::vector<std::string> cost_sentences(const CostStudy& study)
     const CostPoint* best = most_accurate(study);
     for (const CostTarget& target : study.targets)
     {
-        const std::string percent = number(100 * target.tolerance) + " %";
+        const std::string percent = shown(100 * target.tolerance, 3) + " %";
         if (target.cheapest)
             out.push_back(percent + ": " + result_text(study, study.points[*target.cheapest]) +
                           material_text(study, target) + ".");
@@ -205,7 +203,7 @@ std::vector<std::vector<std::string>> cost_table(const CostStudy& study)
     const bool counted = study.basis == CostBasis::sweeps;
     for (const CostTarget& target : study.targets)
         for (const char* what : {counted ? "sweeps/s" : "ms/s", counted ? "ms/s" : "sweeps/s", "setting"})
-            rows[0].push_back(number(100 * target.tolerance) + " %: " + what);
+            rows[0].push_back(shown(100 * target.tolerance, 3) + " %: " + what);
     for (const CostMethod& method : study.methods)
     {
         rows.push_back({method.name});
@@ -216,7 +214,7 @@ std::vector<std::vector<std::string>> cost_table(const CostStudy& study)
             {
                 const CostPoint& point = study.points[*target.cheapest];
                 const std::string details = settings_details(point.settings);
-                cells = {number(price(point, study.basis)), number(counted ? point.ms : point.sweeps),
+                cells = {shown(price(point, study.basis), 3), shown(counted ? point.ms : point.sweeps, 3),
                          std::to_string(point.substeps) + " x " + std::to_string(point.iterations) +
                              (details.empty() ? "" : ", " + details)};
             }

@@ -5,6 +5,7 @@
 
 #include "taut/plan/material.hpp"
 #include "taut/report/method_settings.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -15,13 +16,6 @@ namespace taut {
 namespace {
 
 constexpr double kGood = 0.1; ///< the error that a sentence calls held
-
-std::string number(double value)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
-    return std::string(text, end);
-}
 
 const char* ratio_word(RatioKind kind) { return kind == RatioKind::mass ? "mass" : "stiffness"; }
 
@@ -131,22 +125,22 @@ std::vector<std::string> ratio_sentences(const RatioStudy& study)
             if (!point.error)
             {
                 gap = gap ? gap : &point;
-                gaps += (gaps.empty() ? "" : ", ") + number(row.ratios[i]);
+                gaps += (gaps.empty() ? "" : ", ") + shown(row.ratios[i], 3);
             }
             else if (!above && *point.error <= kGood)
                 held = row.ratios[i];
             else if (!above)
             {
                 above = &point;
-                first_above = number(row.ratios[i]);
+                first_above = shown(row.ratios[i], 3);
             }
         }
         std::string text = row.name + ": ";
-        text += held    ? "within 10 % up to a " + what + number(*held)
+        text += held    ? "within 10 % up to a " + what + shown(*held, 3)
                 : above ? "above 10 % from the start"
                         : "no result";
         if (above)
-            text += "; at " + first_above + " the error is " + number(100 * *above->error) + " %";
+            text += "; at " + first_above + " the error is " + shown(100 * *above->error, 3) + " %";
         if (gap)
             text += "; nothing at " + gaps +
                     (gap->refused.empty() ? ": " + gap->reason : ": it refuses (" + gap->refused + ")");
@@ -164,7 +158,7 @@ std::string ratio_csv(const RatioStudy& study)
         std::string row;
         for (bool head = true; std::getline(rows, row); head = false)
             if (!head || r == 0)
-                out += (head ? std::string("ratio") : number(study.ratios[r])) + "," + row + "\n";
+                out += (head ? std::string("ratio") : shown(study.ratios[r], 3)) + "," + row + "\n";
     }
     return out;
 }
@@ -187,7 +181,7 @@ Plot ratio_plot(const RatioStudy& study)
             if (row.points[i]->error)
                 series.points.push_back({row.ratios[i], *row.points[i]->error, "", 0});
             else
-                gaps += (gaps.empty() ? " at " : ", ") + number(row.ratios[i]);
+                gaps += (gaps.empty() ? " at " : ", ") + shown(row.ratios[i], 3);
         const auto gap = std::find_if(row.points.begin(), row.points.end(),
                                       [](const CostPoint* point) { return !point->error; });
         if (!gaps.empty())
@@ -197,7 +191,7 @@ Plot ratio_plot(const RatioStudy& study)
     }
     plot.y_most = off_the_top(plot.series, 1);
     for (std::size_t r = 0; r < study.studies.size(); ++r)
-        plot.caption.push_back("Ratio " + number(study.ratios[r]) + ": reference class " +
+        plot.caption.push_back("Ratio " + shown(study.ratios[r], 3) + ": reference class " +
                                study.studies[r].reference.name + ".");
     return plot;
 }

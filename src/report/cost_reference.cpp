@@ -6,6 +6,7 @@
 #include "taut/report/cost_self.hpp"
 #include "taut/report/reference_dynamic.hpp"
 #include "taut/report/reference_static.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,10 +54,10 @@ CostReference newton(const Question& q, std::string& refusal)
     out.name = "R2";
     out.verified = true;
     out.frames = {q.model.start, solved.positions};
-    out.text = "Newton in fp64 on the same mesh and energy, residual " + number(solved.relative_residual) +
+    out.text = "Newton in fp64 on the same mesh and energy, residual " + shown(solved.relative_residual, 2) +
                " of the weight";
     if (solved.correction > 0)
-        out.text += " (rounding of its forces; a further step moves " + number(solved.correction) + " m)";
+        out.text += " (rounding of its forces; a further step moves " + shown(solved.correction, 2) + " m)";
     const Motion settled = settled_run(q, MethodKind::xpbd, 20); // only a second start for Newton
     const StaticReference second =
         settled.rests ? solve_static(q.model, settled.frames.back()) : StaticReference{};
@@ -95,7 +96,7 @@ std::size_t affordable(const Question& q, std::size_t frames, DynamicOptions opt
         reason = dry.reason;
     else if (most < std::min(frames, kFewest))
         reason = "too stiff for explicit steps: " + std::to_string(frames) + " frames need " +
-                 number(dry.element_steps) + " element steps, the budget is " + number(budget);
+                 shown(dry.element_steps, 2) + " element steps, the budget is " + shown(budget, 2);
     return most;
 }
 
@@ -169,8 +170,8 @@ CostReference reference_of_motion(const Question& q)
     out.errors = std::move(found.errors);
     out.errors.resize(found.verified_frames + 1);
     out.frames = std::move(found.frames);
-    out.text = "Explicit small steps in fp64 (" + number(found.step) + " s), own error " +
-               number(found.error) + " by halving, over " +
+    out.text = "Explicit small steps in fp64 (" + shown(found.step, 2) + " s), own error " +
+               shown(found.error, 2) + " by halving, over " +
                frames_text(found.verified_frames, q.model.timestep);
     out.text += stop.empty() || found.verified_frames == frames ? "." : "; " + stop + ".";
     return out;

@@ -5,6 +5,7 @@
 #include "taut/report/cost_self.hpp"
 
 #include "taut/report/method_settings.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
 #include <array>
@@ -145,7 +146,7 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
     out.methods = {best.method};
     out.name = alone ? kSelf : "R4 (self-convergence of " + name + ")";
     out.text = name + (alone ? " itself" : "") + " in double with " + std::to_string(best.substeps) +
-               " substeps x 1 iteration, halved twice, observed order " + number(best.found.order);
+               " substeps x 1 iteration, halved twice, observed order " + shown(best.found.order, 2);
     if (runs.size() > 1)
     {
         const auto [error, far] = apart(q, best, runs[1], out.errors);
@@ -154,7 +155,7 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
         best.found.frames = std::min(best.found.frames, runs[1].found.frames);
         out.methods.push_back(runs[1].method);
         out.text += "; the finest run of " + std::string(method_name(runs[1].method)) + " differs by " +
-                    number(error) + ", which counts as its error";
+                    shown(error, 2) + ", which counts as its error";
     }
     else
         out.text += "; blind to errors that all its runs share" +
@@ -240,18 +241,9 @@ MethodSettings fine_settings(const Question& q, MethodKind method, std::uint32_t
     return out;
 }
 
-std::string number(double value)
-{
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(2);
-    out << value;
-    return out.str();
-}
-
 std::string frames_text(std::size_t frames, double timestep)
 {
-    return std::to_string(frames) + " frames (" + number(static_cast<double>(frames) * timestep) + " s)";
+    return std::to_string(frames) + " frames (" + shown(static_cast<double>(frames) * timestep, 2) + " s)";
 }
 
 Motion settled_run(const Question& q, MethodKind method, std::uint32_t substeps)

@@ -38,8 +38,6 @@ Motion settled_run(const Question& question, MethodKind method, std::uint32_t su
 CostReference self_at_rest(const Question& question, std::vector<std::string> passed);
 CostReference self_motion(const Question& question, std::size_t frames, std::vector<std::string> passed);
 
-/// Two digits.
-std::string number(double value);
 /// "19 frames (0.32 s)"
 std::string frames_text(std::size_t frames, double timestep);
 

@@ -6,6 +6,7 @@
 // Departures: what counts is that a surface goes through the middle of a collider, not that it touches it.
 
 #include "taut/report/crossing.hpp"
+#include "taut/report/is_finite.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -64,8 +65,6 @@ double furthest(std::span<const glm::dvec3> before, std::span<const glm::dvec3> 
         square = std::max(square, glm::dot(after[i] - before[i], after[i] - before[i]));
     return std::sqrt(square);
 }
-
-bool finite(const glm::dvec3& p) { return std::isfinite(p.x + p.y + p.z); }
 
 /// How long `distance` lasts at `speed` (doubled) and under `gravity`, s.
 double time_over(double distance, double speed, double gravity)
@@ -146,7 +145,7 @@ CrossingWatch::Motion CrossingWatch::motion_of(const Part& part, const Moment& n
         const glm::dvec3 &x = now.x[i], &v = now.v[i];
         bounds.low = glm::min(bounds.low, x);
         bounds.high = glm::max(bounds.high, x);
-        bounds.finite = bounds.finite && finite(x);
+        bounds.finite = bounds.finite && is_finite(x);
         speed = std::max(speed, glm::dot(v, v));
         out.mean += v;
         if (last_time_)

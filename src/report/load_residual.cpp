@@ -33,7 +33,7 @@ using reference::StaticEnergy;
 using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
 
 constexpr int kMostFactored = 30000, kMostFactoredOfSolids = 6000; // unknowns; solids fill more
-constexpr double kHeld = 1e9;     // times the diagonal
+constexpr double kHeldWeight = 1e9;                                // times the diagonal
 constexpr double kTouching = 0.5; // right runs leave more where vertices are held that a contact may let go
 
 using Motion = std::vector<glm::dvec3>; ///< a vertex: N, or m
@@ -59,7 +59,7 @@ std::vector<Motion> factored_steps(const StaticEnergy& energy, std::span<const g
         {
             const int u = energy.unknown(i) + c;
             if (left.touches[i])
-                stiffness.coeffRef(u, u) *= kHeld;
+                stiffness.coeffRef(u, u) *= kHeldWeight;
             for (std::size_t f = 0; f < forces.size() && !left.touches[i]; ++f)
                 force(u, static_cast<Eigen::Index>(f)) = forces[f][i][c];
         }

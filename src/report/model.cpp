@@ -31,10 +31,9 @@ std::array<Vec<double>, 4> corners(const BendElement& h, std::span<const glm::dv
 
 void append_vertices(PhysicalModel& model, const Body& body)
 {
-    const std::vector<glm::dvec3>& rest = body.mesh.positions;
     const std::vector<double> mass = vertex_masses(body);
     const std::vector<glm::dvec3>& start = start_of(body);
-    assert(start.size() == rest.size());
+    assert(start.size() == body.mesh.positions.size());
     model.mass.insert(model.mass.end(), mass.begin(), mass.end());
     model.start.insert(model.start.end(), start.begin(), start.end());
     model.gap.resize(model.mass.size(), body.material.thickness);

@@ -2,6 +2,7 @@
 
 #include "taut/report/picture_frame.hpp"
 
+#include "taut/report/is_finite.hpp"
 #include "taut/report/picture.hpp"
 #include "taut/scene/collider.hpp"
 
@@ -14,8 +15,6 @@
 
 namespace taut {
 namespace {
-
-bool finite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 glm::dvec3 up_of(const Scene& scene)
 {
@@ -104,14 +103,14 @@ void add_torn(std::vector<glm::dvec3>& points, const Body& body, std::span<const
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     glm::dvec3 low(kInfinity), high(-kInfinity);
     for (std::size_t v = 0; v < part.size(); ++v)
-        if (main[part[v]] && finite(x[v]))
+        if (main[part[v]] && is_finite(x[v]))
         {
             low = glm::min(low, x[v]);
             high = glm::max(high, x[v]);
         }
     const double reach = 1.2 * 0.5 * glm::length(high - low);
     for (std::size_t v = 0; v < part.size(); ++v)
-        if (finite(x[v]) && (main[part[v]] || glm::length(x[v] - (low + high) / 2.0) <= reach))
+        if (is_finite(x[v]) && (main[part[v]] || glm::length(x[v] - (low + high) / 2.0) <= reach))
             points.push_back(x[v]);
 }
 
@@ -128,7 +127,7 @@ void add_bodies(std::vector<glm::dvec3>& points, const Scene& scene, const std::
         if (body.material.tear_strain > 0)
             add_torn(points, body, own);
         else
-            std::copy_if(own.begin(), own.end(), std::back_inserter(points), finite);
+            std::copy_if(own.begin(), own.end(), std::back_inserter(points), is_finite);
         first += count;
     }
 }

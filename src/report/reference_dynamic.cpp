@@ -7,6 +7,7 @@
 #include "taut/report/reference_dynamic.hpp"
 
 #include "taut/report/contact.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -23,13 +24,18 @@ using Scheme = DynamicOptions::Scheme;
 using reference::Surface;
 
 /// One run at one step size.
-class Run
+class MotionRun
 {
 public:
-    Run(const PhysicalModel& model, Scheme scheme, std::uint64_t steps_per_frame)
-        : model_(model), scheme_(scheme), steps_(steps_per_frame),
-          h_(model.timestep / static_cast<double>(steps_per_frame)), x_(model.start), v_(model.velocity),
-          before_(model.start), force_(model.start.size(), glm::dvec3(0))
+    MotionRun(const PhysicalModel& model, Scheme scheme, std::uint64_t steps_per_frame)
+        : model_(model),
+          scheme_(scheme),
+          steps_(steps_per_frame),
+          h_(model.timestep / static_cast<double>(steps_per_frame)),
+          x_(model.start),
+          v_(model.velocity),
+          before_(model.start),
+          force_(model.start.size(), glm::dvec3(0))
     {
         for (const Collider& collider : model.colliders)
             surfaces_.push_back(reference::surface_at(collider, 0));
@@ -133,14 +139,6 @@ private:
     std::vector<Surface> surfaces_; // at the end of the last step
 };
 
-std::string number(double value)
-{
-    std::ostringstream out;
-    out.precision(3);
-    out << value;
-    return out.str();
-}
-
 bool starts_inside(const PhysicalModel& model)
 {
     for (const Collider& collider : model.colliders)
@@ -167,8 +165,8 @@ std::string refusal(const PhysicalModel& model, const DynamicOptions& options, d
     if (starts_inside(model))
         return "a vertex starts inside a collider: how fast it comes out is a choice, not physics";
     if (!(element_steps <= options.max_element_steps))
-        return "too stiff or too long for explicit steps: " + number(element_steps) +
-               " element steps, the limit is " + number(options.max_element_steps);
+        return "too stiff or too long for explicit steps: " + shown(element_steps, 3) +
+               " element steps, the limit is " + shown(options.max_element_steps, 3);
     return {};
 }
 
@@ -184,8 +182,9 @@ std::vector<Frames> run_levels(const PhysicalModel& model, Scheme scheme, std::u
                                std::size_t frame_count, const DynamicOptions& options)
 {
     std::vector<Frames> out(options.levels);
-    const auto level = [&](std::uint32_t l)
-    { out[l] = Run(model, scheme, coarsest << l).frames(frame_count); };
+    const auto level = [&](std::uint32_t l) {
+        out[l] = MotionRun(model, scheme, coarsest << l).frames(frame_count);
+    };
     const std::uint32_t finest = options.levels - 1;
     if (options.two_threads)
     {
@@ -273,9 +272,9 @@ void judge(const PhysicalModel& model, std::vector<Frames>& levels, DynamicRefer
             out.verified_frames + 1; // the one that fails, not the last: errors cancel by chance
         out.reason = "only " + std::to_string(out.verified_frames) + " of " + std::to_string(count) +
                      " frames are verified: up to frame " + std::to_string(f) + " the observed orders are " +
-                     number(all.observed(last - 2, f)) + " and " + number(all.observed(last - 1, f)) + ", " +
-                     number(out.order) + " +- 0.15 is asked, and the last difference is " +
-                     number(all.difference(last, f)) + ", below 0.01 is asked";
+                     shown(all.observed(last - 2, f), 3) + " and " + shown(all.observed(last - 1, f), 3) +
+                     ", " + shown(out.order, 3) + " +- 0.15 is asked, and the last difference is " +
+                     shown(all.difference(last, f), 3) + ", below 0.01 is asked";
     }
     const std::size_t judged = out.verified_frames > 0 ? out.verified_frames : count;
     for (std::size_t l = 0; l < last; ++l)

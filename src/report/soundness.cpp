@@ -1,6 +1,7 @@
 #include "taut/report/soundness.hpp"
 
 #include "taut/plan/methods.hpp"
+#include "taut/report/is_finite.hpp"
 #include "taut/report/looks.hpp"
 #include "taut/report/volume.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -30,8 +31,6 @@ double kinetic_energy(const PhysicalModel& model, std::span<const glm::dvec3> v)
             out += 0.5 * model.mass[i] * glm::dot(v[i], v[i]);
     return out;
 }
-
-bool is_finite(const glm::dvec3& a) { return std::isfinite(a.x + a.y + a.z); }
 
 Soundness judge_places(const RunState& state)
 {
@@ -150,13 +149,12 @@ Strained strained(const PhysicalModel& model, const RunState& state)
     return out;
 }
 
-std::string percent(double share) { return shown(100 * share, 3) + " %"; }
-
 Soundness judge_strain(const Strained& strain, double accepted)
 {
     const auto beyond = [&](double value, const char* what) {
-        return found(Status::unconverged, std::string(what) + " " + percent(value) + ", accept.stretch is " +
-                                              percent(accepted) + "; take more substeps or iterations");
+        return found(Status::unconverged, std::string(what) + " " + shown_percent(value) +
+                                              ", accept.stretch is " + shown_percent(accepted) +
+                                              "; take more substeps or iterations");
     };
     if (strain.kept_strain > accepted)
         return beyond(strain.kept_strain, "a spring that the method keeps at its length is stretched by");
@@ -203,8 +201,8 @@ Soundness judge_rates(const PhysicalModel& model, const RunState& state)
     const double change = length_change(model, state), accepted = state.scene.accept.stretch;
     if (change <= accepted)
         return {};
-    return found(Status::unconverged, "springs change their length by " + percent(change) +
-                                          " in a substep, accept.stretch is " + percent(accepted) +
+    return found(Status::unconverged, "springs change their length by " + shown_percent(change) +
+                                          " in a substep, accept.stretch is " + shown_percent(accepted) +
                                           "; take more substeps");
 }
 
@@ -230,9 +228,9 @@ Soundness judge_turned(const Scene& scene, double turned, double vertex_substeps
         return {};
     const double share = springs > 0 ? turned * vertices / (springs * vertex_substeps) : 1;
     return found(Status::unconverged,
-                 "in a substep " + percent(share) +
+                 "in a substep " + shown_percent(share) +
                      " of all springs turned too far for the solve (speed_clamp), up to " +
-                     percent(kTurnedShare) + " are accepted; take more substeps");
+                     shown_percent(kTurnedShare) + " are accepted; take more substeps");
 }
 
 } // namespace

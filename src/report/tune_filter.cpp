@@ -3,6 +3,7 @@
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
 #include "taut/report/volume.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -16,13 +17,6 @@ namespace {
 
 /// Bytes that one distance constraint moves in float: its record, and two vertices read and written.
 constexpr double kElementBytes = 112;
-
-std::string number(double value)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
-    return std::string(text, end);
-}
 
 } // namespace
 
@@ -117,8 +111,8 @@ std::string held_by_acad(const SceneFacts& facts, const MethodSettings& settings
     const bool pressed = settings.compress && shorter > settings.activate_strain;
     if (!pressed && !(longer > settings.activate_strain))
         return {};
-    return "acad holds a spring at a strain of " + number(settings.activate_strain) + ", the reference " +
-           (pressed ? "presses one by " + number(shorter) : "stretches one by " + number(longer));
+    return "acad holds a spring at a strain of " + shown(settings.activate_strain, 3) + ", the reference " +
+           (pressed ? "presses one by " + shown(shorter, 3) : "stretches one by " + shown(longer, 3));
 }
 
 template <class Elements>
@@ -139,7 +133,7 @@ std::string other_material(const SceneFacts& facts, const MethodSettings& settin
     if ((settings.type == "acad" || settings.type == "implicit_constraints") && facts.stiff &&
         settings.constraint_compliance >= 0)
         return settings.type + " gives every constraint a compliance of " +
-               number(settings.constraint_compliance) + " m/N in place of the material's";
+               shown(settings.constraint_compliance, 3) + " m/N in place of the material's";
     return {};
 }
 
@@ -180,13 +174,13 @@ std::string filtered(const Scene& resolved, const SceneFacts& facts, const Devic
     if (settings.precision == "double" && !traits.float64)
         return "the device has no double";
     if (settings.type == "xpbd" && facts.mass_ratio > 100 && bound < 0.01)
-        return "mass ratio " + number(facts.mass_ratio) +
+        return "mass ratio " + shown(facts.mass_ratio, 3) +
                " is above 100: XPBD needs too many sweeps for an error below 1 %";
     const double substep = resolved.timestep / settings.substeps;
     const bool constrains = settings.type == "implicit_constraints";
     if (constrains && facts.largest_speed * substep > 0.3 * facts.shortest)
-        return "a vertex moves " + number(facts.largest_speed * substep) +
-               " m in a substep, more than 0.3 of the shortest spring (" + number(facts.shortest) + " m)";
+        return "a vertex moves " + shown(facts.largest_speed * substep, 3) +
+               " m in a substep, more than 0.3 of the shortest spring (" + shown(facts.shortest, 3) + " m)";
     const std::size_t rigid = settings.constraint_compliance == 0 ? facts.springs : facts.rigid;
     if (constrains && rigid > facts.free_coordinates)
         return std::to_string(rigid) + " constraints without compliance for " +

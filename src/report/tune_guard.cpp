@@ -1,6 +1,9 @@
 // Laws that every setting must keep, whatever its error on the scene.
 #include "taut/report/tune_parts.hpp"
 
+#include "taut/report/is_finite.hpp"
+#include "taut/runtime/base/shown.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -17,13 +20,6 @@ constexpr double kMomentum = 1e-3; ///< of M sqrt(g D)
 constexpr double kRest = 1e-5;     ///< of the diagonal
 constexpr double kPush = 1e-4;     ///< of the diagonal a frame
 
-std::string number(double value)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 2).ptr;
-    return std::string(text, end);
-}
-
 /// Nothing but the bodies' own forces.
 Scene alone(const Scene& resolved, const MethodSettings& settings)
 {
@@ -37,11 +33,9 @@ Scene alone(const Scene& resolved, const MethodSettings& settings)
     return out;
 }
 
-bool finite(const std::vector<glm::dvec3>& values)
+bool all_finite(const std::vector<glm::dvec3>& values)
 {
-    return std::all_of(values.begin(), values.end(), [](const glm::dvec3& v) {
-        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-    });
+    return std::all_of(values.begin(), values.end(), [](const glm::dvec3& v) { return is_finite(v); });
 }
 
 /// A number in [0, 1) from two small ones; the same on every machine.
@@ -89,12 +83,12 @@ Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& dev
     if (!steps(world, late))
         return std::nullopt;
     const std::vector<glm::dvec3> v = world.velocities();
-    if (!finite(v))
+    if (!all_finite(v))
         return "free fall: a velocity is not finite";
     const double mass = std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
     const double off = momentum_error(weights, v, model.velocity, mass * world.gravity_impulse(),
                                       glm::length(scene.gravity));
-    return off <= kMomentum ? "" : "free fall: momentum is off by " + number(off) + " of M sqrt(g D)";
+    return off <= kMomentum ? "" : "free fall: momentum is off by " + shown(off, 2) + " of M sqrt(g D)";
 }
 
 Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
@@ -119,11 +113,11 @@ Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
     if (!steps(world, late))
         return std::nullopt;
     const std::vector<glm::dvec3> x = world.positions();
-    if (!finite(x))
+    if (!all_finite(x))
         return "rest: a position is not finite";
     const ErrorWeights weights = error_weights(model);
     const double moved = weights.diameter > 0 ? largest_error(weights, x, model.start) : 0;
-    return moved <= kRest ? "" : "rest: a vertex wandered " + number(moved) + " of the diagonal";
+    return moved <= kRest ? "" : "rest: a vertex wandered " + shown(moved, 2) + " of the diagonal";
 }
 
 Verdict broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,

@@ -1,5 +1,6 @@
 // What a search found, as JSON.
 #include "taut/report/method_settings.hpp"
+#include "taut/report/number_or_null.hpp"
 #include "taut/report/tune.hpp"
 #include "taut/version.hpp"
 
@@ -10,8 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json maybe(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json rejections(const TuneResult& result)
 {
     Json out = Json::array();
@@ -19,7 +18,7 @@ Json rejections(const TuneResult& result)
         out.push_back({{"method", Json::parse(settings_block(rejection.settings))},
                        {"stage", rejection.stage},
                        {"reason", rejection.reason},
-                       {"error", maybe(rejection.error)}});
+                       {"error", number_or_null(rejection.error)}});
     return out;
 }
 
@@ -57,15 +56,15 @@ std::string tune_json(const TuneResult& result)
     json["frames"] = result.frames;
     json["reference"] = {{"class", result.reference.name},
                          {"text", result.reference.text},
-                         {"error", maybe(result.reference.error)},
+                         {"error", number_or_null(result.reference.error)},
                          {"passed_over", result.reference.passed}};
     json["method"] = result.found ? Json::parse(settings_block(result.settings)) : Json(nullptr);
     json["predicted_error"] = only_found(result.predicted_error);
     json["confirmed_error"] = only_found(result.confirmed_error);
     json["starts"] = result.starts;
     json["predicted_ms_per_simulated_second"] = only_found(result.predicted_ms);
-    json["ms_per_simulated_second"] = maybe(result.ms);
-    json["cpu_ms_per_simulated_second"] = maybe(result.cpu_ms);
+    json["ms_per_simulated_second"] = number_or_null(result.ms);
+    json["cpu_ms_per_simulated_second"] = number_or_null(result.cpu_ms);
     json["kept"] = result.kept;
     json["rejected"] = rejections(result);
     json["tried"] = blocks(result.tried);

@@ -5,6 +5,7 @@
 #include "taut/report/cost_self.hpp"
 #include "taut/report/tune_parts.hpp"
 #include "taut/report/volume.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -20,13 +21,6 @@ namespace {
 
 constexpr std::size_t kRungs[] = {18, 48};
 constexpr double kSlack[] = {1, 2, 3}; ///< counted from the last rung
-
-std::string percent(double value)
-{
-    char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, 100 * value, std::chars_format::general, 3).ptr;
-    return std::string(text, end) + " %";
-}
 
 double volume_error(const Scene& scene, const Frames& frames)
 {
@@ -73,7 +67,7 @@ bool passes(const Start& start, const Motion& motion, double bound, Lap& lap)
     lap.error = error_of(start, motion.frames);
     if (*lap.error <= bound)
         return true;
-    lap.reason = "error " + percent(*lap.error) + " is above " + percent(bound);
+    lap.reason = "error " + shown_percent(*lap.error) + " is above " + shown_percent(bound);
     if (lap.frames > 0)
         lap.reason += " after " + std::to_string(lap.frames) + " frames";
     return false;

@@ -10,9 +10,6 @@
 namespace taut {
 namespace {
 
-std::string number(double value) { return shown(value, 3); }
-std::string percent(double value) { return number(100 * value) + " %"; }
-
 /// Settings that differ in substeps and iterations alone.
 struct Family
 {
@@ -102,7 +99,7 @@ std::string no_reference(const TuneResult& result, const TuneOptions& options)
     const double seconds = result.reference.times * options.seconds;
     if (seconds > 0 && std::isfinite(seconds))
         return text + " The time for it was up: the method that comes next needs at least --seconds " +
-               number(seconds) + " (now " + number(options.seconds) +
+               shown(seconds, 3) + " (now " + shown(options.seconds, 3) +
                "; see \"passed over\" for how far each came).";
     if (result.kind == CostKind::at_rest)
         return text + " Its trajectory may have one: --moving.";
@@ -115,10 +112,10 @@ std::string no_reference(const TuneResult& result, const TuneOptions& options)
 std::string poor_reference(const TuneResult& result)
 {
     const double own = result.reference.error.value_or(0);
-    std::string text = "The reference is not good enough: its own error, " + percent(own) +
-                       ", is more than " + number(kReferenceShare) + " of the bound of " +
-                       percent(result.bound) + ", so nothing was tried.";
-    text += " It is good enough for an --error of " + number(1.01 * own / kReferenceShare) + " or more";
+    std::string text = "The reference is not good enough: its own error, " + shown_percent(own) +
+                       ", is more than " + shown(kReferenceShare, 3) + " of the bound of " +
+                       shown_percent(result.bound) + ", so nothing was tried.";
+    text += " It is good enough for an --error of " + shown(1.01 * own / kReferenceShare, 3) + " or more";
     return text + (result.kind == CostKind::moving
                        ? "; fewer --frames, more --seconds or more --reference-steps may have a better one."
                        : ".");
@@ -143,7 +140,7 @@ std::string frames_note(std::size_t good, std::size_t verified, std::size_t want
     std::string text = "the error is bounded over the first " + std::to_string(good) + " of " +
                        std::to_string(wanted) + " frames alone: ";
     return text + (good < verified ? "from there on the reference's own error takes more than " +
-                                         number(kReferenceShare) + " of the bound"
+                                         shown(kReferenceShare, 3) + " of the bound"
                                    : "no reference is verified beyond them");
 }
 
@@ -158,10 +155,10 @@ std::vector<std::string> never_rests_note(const Scene& resolved)
 
 std::string loosened_note(const TuneResult& result, const TuneOptions& options)
 {
-    return "the bound is " + percent(result.bound) + ": none is asked for, and with less (from " +
-           percent(options.error) +
+    return "the bound is " + shown_percent(result.bound) + ": none is asked for, and with less (from " +
+           shown_percent(options.error) +
            " on) no reference is good enough or none of those tried keeps it; --error " +
-           number(options.error) + " insists";
+           shown(options.error, 3) + " insists";
 }
 
 std::string perturbed_note(std::uint32_t which, const CostReference& reference, double bound)
@@ -170,8 +167,8 @@ std::string perturbed_note(std::uint32_t which, const CostReference& reference, 
     if (!reference.verified)
         return start + "it has no reference that can be trusted" +
                (reference.passed.empty() ? "" : " (" + reference.passed[0] + ")");
-    return start + "its reference's own error, " + percent(reference.error.value_or(0)) +
-           ", takes more than " + number(kReferenceShare) + " of the bound of " + percent(bound);
+    return start + "its reference's own error, " + shown_percent(reference.error.value_or(0)) +
+           ", takes more than " + shown(kReferenceShare, 3) + " of the bound of " + shown_percent(bound);
 }
 
 } // namespace tuning

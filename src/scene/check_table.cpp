@@ -9,12 +9,6 @@
 namespace taut::scene_file {
 namespace {
 
-template <class T>
-const T& as(const void* member)
-{
-    return *static_cast<const T*>(member);
-}
-
 /// Values that a file cannot say, and that stand for something in the struct.
 bool stands_for_something(const Key& key, double value)
 {
@@ -76,7 +70,9 @@ void check_objects(const Key& key, const void* list, const Checker& out)
     for (const Key& k : key.table->keys)
         if (k.is_ascending && out.scope() != Scope::keys)
             time = &k;
-    const auto at = [&](const void* element) { return as<double>(time->at(const_cast<void*>(element))); };
+    const auto at = [&](const void* element) {
+        return member_as<double>(time->at(const_cast<void*>(element)));
+    };
     for (std::size_t i = 0; i < key.access.size(list); ++i)
     {
         const void* element = key.access.element(list, i);
@@ -104,24 +100,24 @@ void check_key(const Key& key, const void* object, const Checker& out)
     const void* member = key.at(const_cast<void*>(object)); // only finds it
     switch (key.kind)
     {
-    case Kind::number: return check_number(key, key.name, as<double>(member), out);
-    case Kind::count: return check_count(key, as<std::uint32_t>(member), out);
-    case Kind::text: return check_text(key, as<std::string>(member), out);
-    case Kind::vector: return check_vector(key, key.name, as<glm::dvec3>(member), out);
-    case Kind::number_pair: return check_parts(key, as<glm::dvec2>(member), out);
-    case Kind::count_pair: return check_parts(key, as<glm::uvec2>(member), out);
-    case Kind::count_triple: return check_parts(key, as<glm::uvec3>(member), out);
+    case Kind::number: return check_number(key, key.name, member_as<double>(member), out);
+    case Kind::count: return check_count(key, member_as<std::uint32_t>(member), out);
+    case Kind::text: return check_text(key, member_as<std::string>(member), out);
+    case Kind::vector: return check_vector(key, key.name, member_as<glm::dvec3>(member), out);
+    case Kind::number_pair: return check_parts(key, member_as<glm::dvec2>(member), out);
+    case Kind::count_pair: return check_parts(key, member_as<glm::uvec2>(member), out);
+    case Kind::count_triple: return check_parts(key, member_as<glm::uvec3>(member), out);
     case Kind::numbers: // an element that could not be read has left its place to the next
         if (out.scope() == Scope::keys)
             return;
-        for (std::size_t i = 0; i < as<std::vector<double>>(member).size(); ++i)
-            check_number(key, "", as<std::vector<double>>(member)[i], out.at(key.name, i));
+        for (std::size_t i = 0; i < member_as<std::vector<double>>(member).size(); ++i)
+            check_number(key, "", member_as<std::vector<double>>(member)[i], out.at(key.name, i));
         return;
     case Kind::vectors:
         if (out.scope() == Scope::keys)
             return;
-        for (std::size_t i = 0; i < as<std::vector<glm::dvec3>>(member).size(); ++i)
-            check_vector(key, "", as<std::vector<glm::dvec3>>(member)[i], out.at(key.name, i));
+        for (std::size_t i = 0; i < member_as<std::vector<glm::dvec3>>(member).size(); ++i)
+            check_vector(key, "", member_as<std::vector<glm::dvec3>>(member)[i], out.at(key.name, i));
         return;
     case Kind::object:
     {

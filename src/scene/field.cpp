@@ -13,7 +13,7 @@ namespace taut::scene_file {
 namespace {
 
 /// A value as a message shows it: its text, cut short.
-std::string shown(const nlohmann::json& value)
+std::string shown_value(const nlohmann::json& value)
 {
     if (value.is_object())
         return "an object";
@@ -62,7 +62,7 @@ void Field::fail(const std::string& text) const
     throw Error(ErrorCode::bad_input, *file_ + ": " + (path_.empty() ? "the scene" : path_) + " " + text);
 }
 
-void Field::refuse(const std::string& right) const { fail("is " + shown(*value_) + "; " + right); }
+void Field::refuse(const std::string& right) const { fail("is " + shown_value(*value_) + "; " + right); }
 
 const Field& Field::object(const Table& table)
 {
@@ -78,7 +78,7 @@ const Field& Field::object(const Table& table)
         const std::string right = !hint.empty()   ? std::string(hint)
                                   : close.empty() ? "it may have " + listing(known)
                                                   : "did you mean \"" + close + "\"?";
-        attempt([&] { fail("has the unknown key " + shown(item.key()) + "; " + right); });
+        attempt([&] { fail("has the unknown key " + shown_value(item.key()) + "; " + right); });
     }
     table_ = &table;
     return *this;

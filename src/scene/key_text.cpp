@@ -10,12 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class T>
-const T& as(const void* member)
-{
-    return *static_cast<const T*>(member);
-}
-
 /// Without an exponent where that is not long: 100000, 0.00001.
 std::string plain(double value)
 {
@@ -133,16 +127,16 @@ nlohmann::ordered_json value_of(const Key& key, const void* object)
     const void* member = key.at(const_cast<void*>(object)); // only finds it
     switch (key.kind)
     {
-    case Kind::number: return with_word(key, as<double>(member));
-    case Kind::count: return with_word(key, as<std::uint32_t>(member));
-    case Kind::version: return as<int>(member);
-    case Kind::boolean: return as<bool>(member);
-    case Kind::text: return as<std::string>(member);
-    case Kind::file: return as<std::filesystem::path>(member).string();
-    case Kind::vector: return parts_of(as<glm::dvec3>(member));
-    case Kind::number_pair: return parts_of(as<glm::dvec2>(member));
-    case Kind::count_pair: return parts_of(as<glm::uvec2>(member));
-    case Kind::count_triple: return parts_of(as<glm::uvec3>(member));
+    case Kind::number: return with_word(key, member_as<double>(member));
+    case Kind::count: return with_word(key, member_as<std::uint32_t>(member));
+    case Kind::version: return member_as<int>(member);
+    case Kind::boolean: return member_as<bool>(member);
+    case Kind::text: return member_as<std::string>(member);
+    case Kind::file: return member_as<std::filesystem::path>(member).string();
+    case Kind::vector: return parts_of(member_as<glm::dvec3>(member));
+    case Kind::number_pair: return parts_of(member_as<glm::dvec2>(member));
+    case Kind::count_pair: return parts_of(member_as<glm::uvec2>(member));
+    case Kind::count_triple: return parts_of(member_as<glm::uvec3>(member));
     default: return nullptr;
     }
 }

@@ -9,6 +9,13 @@
 
 namespace taut::scene_file {
 
+/// A member of a struct, from its place.
+template <class T>
+const T& member_as(const void* member)
+{
+    return *static_cast<const T*>(member);
+}
+
 /// "N/m", or nothing where the number has no unit.
 std::string_view unit_of(const Key& key);
 

@@ -11,16 +11,24 @@ namespace taut::scene_file {
 namespace {
 
 /// Sections that are passed over, with the numbers of an entry.
-struct Section
+struct MeditSection
 {
     std::string_view name;
     int numbers;
 };
-constexpr Section kPassed[] = {{"Edges", 3},           {"Triangles", 4},        {"Quadrilaterals", 5},
-                               {"Hexahedra", 9},       {"Corners", 1},          {"RequiredVertices", 1},
-                               {"Ridges", 1},          {"RequiredEdges", 1},    {"RequiredTriangles", 1},
-                               {"Normals", 3},         {"NormalAtVertices", 2}, {"Tangents", 3},
-                               {"TangentAtVertices", 2}};
+constexpr MeditSection kPassed[] = {{"Edges", 3},
+                                    {"Triangles", 4},
+                                    {"Quadrilaterals", 5},
+                                    {"Hexahedra", 9},
+                                    {"Corners", 1},
+                                    {"RequiredVertices", 1},
+                                    {"Ridges", 1},
+                                    {"RequiredEdges", 1},
+                                    {"RequiredTriangles", 1},
+                                    {"Normals", 3},
+                                    {"NormalAtVertices", 2},
+                                    {"Tangents", 3},
+                                    {"TangentAtVertices", 2}};
 
 std::size_t count_of(Words& words, std::string_view section)
 {
@@ -78,7 +86,7 @@ RawSolid read_medit(std::string_view text, const std::string& file)
     for (std::string_view word = words.any_word(); !word.empty() && word != "End"; word = words.any_word())
     {
         const auto passed = std::find_if(std::begin(kPassed), std::end(kPassed),
-                                         [&](const Section& s) { return s.name == word; });
+                                         [&](const MeditSection& s) { return s.name == word; });
         if (word == "MeshVersionFormatted")
             words.to_integer(words.any_word(), "version");
         else if (word == "Dimension")

@@ -15,9 +15,9 @@ namespace scene_file {
 
 namespace {
 
-using Reader = RawMesh (*)(std::string_view, const std::string&);
+using SurfaceReader = RawMesh (*)(std::string_view, const std::string&);
 
-Reader reader_of(std::string extension, const std::string& file)
+SurfaceReader reader_of(std::string extension, const std::string& file)
 {
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z')

@@ -8,13 +8,13 @@ namespace taut::scene_file {
 namespace {
 
 /// The first line: a count of lines and what each of them holds.
-struct Head
+struct TetgenHead
 {
     std::size_t lines = 0, second = 0, third = 0;
 };
 
 /// `numbers`: that each line has at least.
-Head read_head(Words& words, std::string_view what, std::size_t numbers)
+TetgenHead read_head(Words& words, std::string_view what, std::size_t numbers)
 {
     if (!words.next_line())
         words.fail("the file is empty; its first line must announce " + std::string(what));
@@ -22,7 +22,7 @@ Head read_head(Words& words, std::string_view what, std::size_t numbers)
     if (lines < 0 || static_cast<std::uint64_t>(lines) > (words.left() + 1) / (2 * numbers))
         words.fail("the file announces " + std::to_string(lines) + " " + std::string(what) +
                    ", more than it holds");
-    Head head;
+    TetgenHead head;
     head.lines = static_cast<std::size_t>(lines);
     for (std::size_t* value : {&head.second, &head.third})
         if (const std::string_view word = words.word(); !word.empty())
@@ -52,7 +52,7 @@ void no_more(Words& words, std::string_view what)
 
 void read_nodes(Words words, SolidBuilder& out)
 {
-    const Head head = read_head(words, "vertices", 4);
+    const TetgenHead head = read_head(words, "vertices", 4);
     if (head.second != 3)
         words.fail("vertices have " + std::to_string(head.second) + " coordinates; they must have 3");
     for (std::size_t v = 0; v < head.lines; ++v)
@@ -68,7 +68,7 @@ void read_nodes(Words words, SolidBuilder& out)
 
 void read_elements(Words words, SolidBuilder& out)
 {
-    const Head head = read_head(words, "tetrahedra", 5);
+    const TetgenHead head = read_head(words, "tetrahedra", 5);
     if (head.second != 4)
         words.fail("tetrahedra have " + std::to_string(head.second) + " vertices; they must have 4" +
                    (head.second == 10 ? " (run TetGen without -o2)" : ""));

@@ -12,12 +12,12 @@ namespace taut {
 namespace scene_file {
 namespace {
 
-using Reader = RawSolid (*)(std::string_view, const std::string&);
+using SolidReader = RawSolid (*)(std::string_view, const std::string&);
 
 struct Format
 {
     std::string_view extension;
-    Reader read;
+    SolidReader read;
 };
 constexpr Format kFormats[] = {
     {".msh", read_gmsh}, {".vtk", read_vtk}, {".vtu", read_vtu}, {".mesh", read_medit}};

@@ -11,22 +11,23 @@
 namespace taut::scene_file {
 namespace {
 
-struct Type
+struct VtkType
 {
     std::string_view name;
     std::size_t bytes;
 };
-constexpr Type kTypes[] = {{"char", 1},      {"unsigned_char", 1},  {"vtktypeint8", 1},  {"vtktypeuint8", 1},
-                           {"short", 2},     {"unsigned_short", 2}, {"vtktypeint16", 2}, {"vtktypeuint16", 2},
-                           {"int", 4},       {"unsigned_int", 4},   {"vtktypeint32", 4}, {"vtktypeuint32", 4},
-                           {"long", 8},      {"unsigned_long", 8},  {"vtktypeint64", 8}, {"vtktypeuint64", 8},
-                           {"vtkIdType", 4}, {"float", 4},          {"double", 8}};
+constexpr VtkType kVtkTypes[] = {
+    {"char", 1},      {"unsigned_char", 1},  {"vtktypeint8", 1},  {"vtktypeuint8", 1},
+    {"short", 2},     {"unsigned_short", 2}, {"vtktypeint16", 2}, {"vtktypeuint16", 2},
+    {"int", 4},       {"unsigned_int", 4},   {"vtktypeint32", 4}, {"vtktypeuint32", 4},
+    {"long", 8},      {"unsigned_long", 8},  {"vtktypeint64", 8}, {"vtktypeuint64", 8},
+    {"vtkIdType", 4}, {"float", 4},          {"double", 8}};
 
 std::size_t bytes_of(std::string_view name, const Values& values)
 {
-    const auto found =
-        std::find_if(std::begin(kTypes), std::end(kTypes), [&](const Type& t) { return t.name == name; });
-    if (found == std::end(kTypes))
+    const auto found = std::find_if(std::begin(kVtkTypes), std::end(kVtkTypes),
+                                    [&](const VtkType& t) { return t.name == name; });
+    if (found == std::end(kVtkTypes))
         values.fail("the type " + quoted(name) +
                     " is not known; it must be one such as int, float or double");
     return found->bytes;

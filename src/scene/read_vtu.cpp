@@ -14,16 +14,16 @@
 namespace taut::scene_file {
 namespace {
 
-struct Type
+struct VtuType
 {
     std::string_view name;
     std::size_t bytes;
     bool whole;
 };
-constexpr Type kTypes[] = {{"Int8", 1, true},    {"UInt8", 1, true},  {"Int16", 2, true},
-                           {"UInt16", 2, true},  {"Int32", 4, true},  {"UInt32", 4, true},
-                           {"Int64", 8, true},   {"UInt64", 8, true}, {"Float32", 4, false},
-                           {"Float64", 8, false}};
+constexpr VtuType kVtuTypes[] = {{"Int8", 1, true},    {"UInt8", 1, true},  {"Int16", 2, true},
+                                 {"UInt16", 2, true},  {"Int32", 4, true},  {"UInt32", 4, true},
+                                 {"Int64", 8, true},   {"UInt64", 8, true}, {"Float32", 4, false},
+                                 {"Float64", 8, false}};
 
 struct Context
 {
@@ -36,11 +36,11 @@ struct Context
     }
 };
 
-const Type& type_of(const Context& in, const VtuArray& array, std::string_view name, bool whole)
+const VtuType& type_of(const Context& in, const VtuArray& array, std::string_view name, bool whole)
 {
-    const auto found = std::find_if(std::begin(kTypes), std::end(kTypes),
-                                    [&](const Type& t) { return t.name == array.type; });
-    if (found == std::end(kTypes) || found->whole != whole)
+    const auto found = std::find_if(std::begin(kVtuTypes), std::end(kVtuTypes),
+                                    [&](const VtuType& t) { return t.name == array.type; });
+    if (found == std::end(kVtuTypes) || found->whole != whole)
         in.fail(array.line, "the array " + std::string(name) + " has the type " +
                                 scene_file::quoted(array.type) +
                                 (whole ? "; it must be Int8 to UInt64" : "; it must be Float32 or Float64"));
@@ -82,7 +82,7 @@ std::string binary_of(const Context& in, const VtuArray& array, std::string_view
 
 /// Calls `work` with the numbers of an array, which must be `count`, from front to back.
 template <class Work>
-void read_array(const Context& in, const VtuArray& array, std::string_view name, const Type& type,
+void read_array(const Context& in, const VtuArray& array, std::string_view name, const VtuType& type,
                 std::size_t count, const Work& work)
 {
     const bool binary = array.format == "binary";

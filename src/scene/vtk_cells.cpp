@@ -3,7 +3,7 @@
 namespace taut::scene_file {
 namespace {
 
-constexpr std::int64_t kTetrahedron = 10, kTetrahedron10 = 24;
+constexpr std::int64_t kVtkTetrahedron = 10, kVtkTetrahedron10 = 24;
 
 /// Of a cell whose end is sound.
 std::string add_cell(const VtkCells& cells, std::size_t cell, std::size_t begin, std::size_t end,
@@ -11,9 +11,9 @@ std::string add_cell(const VtkCells& cells, std::size_t cell, std::size_t begin,
 {
     const std::int64_t type = cells.types[cell];
     const std::string name = "cell " + std::to_string(cell);
-    if (type == kTetrahedron10)
+    if (type == kVtkTetrahedron10)
         return name + " is a tetrahedron of ten points (type 24); they must have 4";
-    if (type != kTetrahedron)
+    if (type != kVtkTetrahedron)
         return {};
     if (end - begin != 4)
         return name + " is a tetrahedron (type 10) of " + std::to_string(end - begin) +

@@ -32,14 +32,14 @@ namespace {
 
 using Clockwork = std::chrono::steady_clock;
 
-constexpr int kTimedSteps = 3;
+constexpr int kTimedRuns = 3;
 
 /// The least time of some runs of `work`, ms; the first warms up.
 template <typename Work>
 double least_ms(const Work& work)
 {
     double least = 0;
-    for (int turn = 0; turn <= kTimedSteps; ++turn)
+    for (int turn = 0; turn <= kTimedRuns; ++turn)
     {
         const auto start = Clockwork::now();
         work();
