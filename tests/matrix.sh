@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The suites that take longer than a build should: run before a release, one line of summary a part.
 #   tests/matrix.sh [PART...]      all by default
-# release: tests/run.sh. headers: a build without precompiled headers, so that every file includes what it
+# release: tests/run.sh. headers: each file alone and without precompiled headers, so that it includes what it
 # uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
 # tests/run.sh in a chroot of that Debian (tests/chroot.sh). hard: the hard cases and the whole map in full on
@@ -26,7 +26,7 @@ part_release() { "$root/tests/run.sh"; }
 
 part_headers() {
     cd "$root" && cmake -S . -B build/headers -DCMAKE_BUILD_TYPE=Debug -DTAUT_BUILD_TESTS=ON \
-        -DTAUT_BUILD_EXAMPLES=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON &&
+        -DTAUT_BUILD_EXAMPLES=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DTAUT_UNITY=OFF &&
         cmake --build build/headers --parallel "$jobs"
 }
 

@@ -9,7 +9,6 @@ TEMPLATE_TEST_CASE("contact_move adds the impulses of a vertex' pairs by their w
                    float, double)
 {
     using Real = TestType;
-    using Vec = glm::vec<4, Real>;
     const std::uint32_t count = GENERATE(1u, 63u, 64u, 65u, 128u, 1000u);
     CAPTURE(count);
     Random random(3000 + count);
