@@ -8,7 +8,6 @@
 #include "taut/scene/pose.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace taut {
@@ -158,7 +157,7 @@ std::vector<std::string> energy_sentences(const EnergyStudy& study)
         {
             const double last = run.energy.back();
             text +=
-                std::string(last < 0 ? "loses " : "gains ") + shown(100 * std::abs(last), 3) + " % of E_ref";
+                std::string(last < 0 ? "loses " : "gains ") + shown_percent(std::abs(last)) + " of E_ref";
             if (!run.momentum.empty())
                 text += ", momentum off by at most " +
                         shown(*std::max_element(run.momentum.begin(), run.momentum.end()), 2);

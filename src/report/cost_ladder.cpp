@@ -154,7 +154,7 @@ private:
         best_.reason = converges + ", up to " + std::to_string(finest) + " substeps";
         if (window_ > 0)
             best_.reason += "; at " + std::to_string(compared_) + " it changes the motion by " +
-                            shown(100 * difference_, 2) + " % over " + std::to_string(window_) + " frames";
+                            shown_percent(difference_, 2) + " over " + std::to_string(window_) + " frames";
         if (!enough(q_))
             return;
         best_.reason += "; then the time for the reference was up";

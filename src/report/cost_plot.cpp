@@ -4,7 +4,6 @@
 #include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
 namespace taut {

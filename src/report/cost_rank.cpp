@@ -81,7 +81,7 @@ std::string result_text(const CostStudy& study, const CostPoint& point)
                                                              : " sweeps per simulated second";
     return (study.methods.size() > 1 ? point.method + ", " : "") + setting_text(point) +
            (details.empty() ? "" : ", " + details) + ", " + shown(price(point, study.basis), 3) + unit +
-           " (" + study.metric + " " + shown(100 * *point.error, 3) + " %)";
+           " (" + study.metric + " " + shown_percent(*point.error) + ")";
 }
 
 /// Of a cheapest point that does not move the scene's own material: that, and what does instead. Else empty.
@@ -185,7 +185,7 @@ std::vector<std::string> cost_sentences(const CostStudy& study)
     const CostPoint* best = most_accurate(study);
     for (const CostTarget& target : study.targets)
     {
-        const std::string percent = shown(100 * target.tolerance, 3) + " %";
+        const std::string percent = shown_percent(target.tolerance);
         if (target.cheapest)
             out.push_back(percent + ": " + result_text(study, study.points[*target.cheapest]) +
                           material_text(study, target) + ".");
@@ -203,7 +203,7 @@ std::vector<std::vector<std::string>> cost_table(const CostStudy& study)
     const bool counted = study.basis == CostBasis::sweeps;
     for (const CostTarget& target : study.targets)
         for (const char* what : {counted ? "sweeps/s" : "ms/s", counted ? "ms/s" : "sweeps/s", "setting"})
-            rows[0].push_back(shown(100 * target.tolerance, 3) + " %: " + what);
+            rows[0].push_back(shown_percent(target.tolerance) + ": " + what);
     for (const CostMethod& method : study.methods)
     {
         rows.push_back({method.name});

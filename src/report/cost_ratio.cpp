@@ -8,7 +8,6 @@
 #include "taut/runtime/base/shown.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <sstream>
 
@@ -140,7 +139,7 @@ std::vector<std::string> ratio_sentences(const RatioStudy& study)
                 : above ? "above 10 % from the start"
                         : "no result";
         if (above)
-            text += "; at " + first_above + " the error is " + shown(100 * *above->error, 3) + " %";
+            text += "; at " + first_above + " the error is " + shown_percent(*above->error);
         if (gap)
             text += "; nothing at " + gaps +
                     (gap->refused.empty() ? ": " + gap->reason : ": it refuses (" + gap->refused + ")");

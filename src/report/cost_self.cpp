@@ -11,9 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <numeric>
-#include <sstream>
 
 namespace taut::cost {
 namespace {
