@@ -168,16 +168,22 @@ texts_of() {
     sed -n 's/^#include "\(.*\.comp\)"$/\1/p; s/^#define TAUT_[EC][A-Z]* "\(.*\)"$/\1/p' "$1" | sort -u
 }
 
-# make_host FILE EXPRESSION: the object of a source changed by sed; sets `pairs`.
+# make_host FILE EXPRESSION: the object of a source changed by sed, alone or in its batch; sets `pairs`.
 make_host() {
-    local file=$1 object
+    local file=$1 object batch
     sed "$2" "$root/$file" > "$work/host.cpp"
     ! cmp -s "$root/$file" "$work/host.cpp" || {
         echo "$file: the expression changes nothing: $2" >&2
         exit 1
     }
     object=$(ninja -C "$build" -t query "$root/$file" | sed -n 's/^ *\(.*\.o\)$/\1/p' | head -1)
-    compile "$object" "$work/host.cpp" "$work/host.o" -I "$(dirname "$root/$file")"
+    cp "$work/host.cpp" "$work/host.cxx"
+    if [ -z "$object" ]; then
+        batch=$(grep -l "\"$root/$file\"" "$build"/CMakeFiles/*.dir/Unity/*.cxx | head -1)
+        object=${batch#"$build"/}.o
+        sed "s|\"$root/$file\"|\"$work/host.cpp\"|" "$batch" > "$work/host.cxx"
+    fi
+    compile "$object" "$work/host.cxx" "$work/host.o" -I "$(dirname "$root/$file")"
     pairs=("$object" "$work/host.o")
 }
 

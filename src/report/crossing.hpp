@@ -2,7 +2,7 @@
 // Whether bodies pass through colliders between their vertices, which are all that the methods collide: seen
 // at the moments that a watch is shown, and in the motion from one to the next.
 
-#include "taut/report/crossing_shapes.hpp"
+#include "taut/report/close_look.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -36,8 +36,9 @@ inline constexpr double kTunnelHole = 1;     ///< a hole between vertices over t
 inline constexpr double kTunnelTravel = 0.5; ///< relative way of a vertex in a substep / a collider's size
 
 /// Watches one run. Needs no device; not thread-safe. Throws nothing but std::bad_alloc. A look costs about
-/// as much as one sweep over the vertices and triangles of bodies whose bounds are near a collider, and next
-/// to nothing without colliders; planes, which have no far side, are left to StepReport::penetration.
+/// one sweep over the vertices of bodies, and over those groups of triangles that are near a collider or that
+/// decide when to look again; next to nothing without colliders. Planes, which have no far side, are left to
+/// StepReport::penetration.
 ///
 /// Colliders move by the keyframes of the scene: those that a program moves are not followed.
 ///
@@ -55,13 +56,13 @@ public:
     void look(std::uint64_t frame, double time, double substep, std::span<const glm::dvec3> positions,
               std::span<const glm::dvec3> velocities);
 
-    /// s from the last look, until which no element reaches the middle of a collider if it does not speed up
-    /// to more than twice what its speed (a quarter of its body's at least), gravity and led vertices make:
-    /// when to look again. Infinite without colliders.
+    /// s from the last look, until which no element reaches the middle of a collider if its velocity does not
+    /// change by more than its speed (a quarter of its body's at least), twice what gravity makes, and what
+    /// leads vertices: when to look again. Infinite without colliders.
     double clear_for() const { return clear_; }
 
     /// Whether there is anything to look at.
-    bool needed() const { return !obstacles_.empty(); }
+    bool needed() const { return !colliders_.empty(); }
 
     const Crossings& found() const { return found_; }
 
@@ -69,76 +70,38 @@ private:
     struct Bounds
     {
         glm::dvec3 low{0}, high{0};
-        bool finite = true;
         double distance(const glm::dvec3& point) const;
-    };
-    struct Part /// a body
-    {
-        std::string name;
-        std::size_t first = 0, count = 0;                   ///< vertices, scene-wide
-        std::vector<std::array<std::uint32_t, 3>> elements; ///< scene-wide; links have a corner twice
-        double edge = 0;                                    ///< m, longest at rest
-        double gap = 0;                                     ///< m
-        double led_speed = 0;                               ///< m/s, the most of its pins
-        Bounds last;                                        ///< at the last look
     };
     struct Motion /// of a body at a look
     {
         Bounds bounds;
-        double speed = 0;   ///< m/s, the fastest vertex
-        glm::dvec3 mean{0}; ///< m/s
-        double way = 0;     ///< m, the furthest that a vertex moved since the last look
-    };
-    struct Obstacle /// a collider that has an inside
-    {
-        std::string name;
-        Collider collider;
-        SolidShape shape;
-        double led_speed = 0;
+        double speed = 0; ///< m/s, the fastest vertex
+        bool finite = true;
     };
     struct Pair
     {
         bool inside = false; ///< since the start of the run
         bool seen = false, likely = false;
     };
-    struct Scan /// what one sweep over the elements of a body finds
-    {
-        double nearest = 0; ///< m, of an element to the middle, at least
-        double clear = 0;   ///< s, as clear_for()
-        std::uint64_t deep = 0;
-        bool fits = false; ///< the collider through a hole near it
-    };
-    struct Moment
-    {
-        std::uint64_t frame = 0;
-        double time = 0, substep = 0;
-        std::span<const glm::dvec3> x, v;
-    };
 
-    Motion motion_of(const Part& part, const Moment& now) const;
-    void look_at(const Part& part, const Motion& motion, const Obstacle& obstacle, Pair& pair,
-                 const Moment& now);
-    void look_closely(const Part& part, const Motion& motion, const Obstacle& obstacle, Pair& pair,
-                      const Moment& now);
-    Scan scan(const Part& part, const Obstacle& obstacle, const Pair& pair, double speed, double width);
-    bool went_through(const Part& part, const Motion& motion, const Obstacle& obstacle, double nearest);
-    static void into_frame(const Part& part, const Obstacle& obstacle, std::span<const glm::dvec3> x,
-                           double time, std::vector<glm::dvec3>& out);
-    double speeds_of(const Part& part, const Obstacle& obstacle, const Moment& now);
-    double width_of(const Part& part, const Motion& motion, const Obstacle& obstacle,
-                    const Moment& now) const;
-    void note(std::vector<Crossing>& list, bool& noted, const Part& part, const Obstacle& obstacle,
-              const Moment& now, bool through) const;
+    Motion motion_of(const WatchedBody& body, const LookMoment& now);
+    void look_at(const WatchedBody& body, const Bounds& last, const Motion& motion,
+                 const WatchedCollider& collider, Pair& pair, const LookMoment& now);
+    void look_closely(const WatchedBody& body, double speed, const WatchedCollider& collider, Pair& pair,
+                      const LookMoment& now);
+    static void note(std::vector<Crossing>& list, bool& noted, const WatchedBody& body,
+                     const WatchedCollider& collider, const LookMoment& now, bool through);
 
-    std::vector<Part> parts_;
-    std::vector<Obstacle> obstacles_;
-    std::vector<Pair> pairs_; ///< [part * obstacles + obstacle]
+    std::vector<WatchedBody> bodies_;
+    std::vector<WatchedCollider> colliders_;
+    std::vector<Pair> pairs_;    ///< [body * colliders + collider]
+    std::vector<Bounds> bounds_; ///< of bodies at the last look
     double gravity_ = 0, timestep_ = 0;
     std::vector<glm::dvec3> last_; ///< positions at the last look
     std::optional<double> last_time_;
-    bool first_ = true;                      ///< no look so far
-    std::vector<glm::dvec3> before_, after_; ///< of one body in the frame of a collider
-    std::vector<double> speeds_;             ///< m/s, of its vertices relative to the collider
+    bool first_ = true;                ///< no look so far
+    std::vector<GroupMotion> motions_; ///< of the body that is looked at
+    CloseLook close_;
     double clear_ = 0;
     std::uint64_t elements_ = 0; ///< deep at this look
     Crossings found_;

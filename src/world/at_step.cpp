@@ -12,29 +12,32 @@
 namespace taut {
 namespace {
 
-glm::dvec3 no_longer_than(const glm::dvec3& v, double limit)
+// Inline: in a loop over all vertices a call of each takes three times as long as what they do.
+
+/// `square`: of the limit. Most are shorter and need no root.
+inline glm::dvec3 no_longer_than(const glm::dvec3& v, double square)
 {
-    const double length = glm::length(v);
-    if (length <= limit)
+    const double own = glm::dot(v, v);
+    if (own <= square)
         return v;
-    return std::isfinite(length) ? v * (limit / length) : glm::dvec3(0);
+    return std::isfinite(own) ? v * (std::sqrt(square) / std::sqrt(own)) : glm::dvec3(0);
 }
 
 /// What constraints and contacts added to the velocity in the last substep; before the first, nothing.
-glm::dvec3 borne(const Pace& pace, const Kept& vertex)
+inline glm::dvec3 borne(const Pace& pace, const Kept& vertex)
 {
     return (vertex.displacement - vertex.coasting) / pace.substep;
 }
 
 /// What the kept velocity lacks where it stands before the step.
-glm::dvec3 half_kick(const Pace& pace, const glm::dvec3& shown)
+inline glm::dvec3 half_kick(const Pace& pace, const glm::dvec3& shown)
 {
     const glm::dvec3 sure = 0.5 * pace.substep * pace.gravity;
-    return no_longer_than(sure + 0.5 * shown, glm::length(sure));
+    return no_longer_than(sure + 0.5 * shown, glm::dot(sure, sure));
 }
 
 /// What the kept velocity has more than the one at the step.
-glm::dvec3 lead(const Pace& pace, const Kept& vertex)
+inline glm::dvec3 lead(const Pace& pace, const Kept& vertex)
 {
     if (vertex.pull == Pull::held)
         return glm::dvec3(0);
@@ -46,16 +49,43 @@ glm::dvec3 lead(const Pace& pace, const Kept& vertex)
     const glm::dvec3 kick = vertex.velocity - vertex.displacement / pace.substep; // after the displacement
     // Contacts stop what the kick drives against them in the next displacement only.
     if (pace.lead == 0)
-        return no_longer_than(-0.5 * shown, glm::length(kick));
-    return no_longer_than(0.5 * (kick - shown), pace.substep * glm::length(pace.gravity));
+        return no_longer_than(-0.5 * shown, glm::dot(kick, kick));
+    const glm::dvec3 sure = pace.substep * pace.gravity;
+    return no_longer_than(0.5 * (kick - shown), glm::dot(sure, sure));
+}
+
+inline glm::dvec3 at_step(const Pace& pace, const Kept& vertex)
+{
+    return vertex.velocity - lead(pace, vertex);
 }
 
 } // namespace
 
-glm::dvec3 velocity_at_step(const Pace& pace, const Kept& vertex)
+glm::dvec3 velocity_at_step(const Pace& pace, const Kept& vertex) { return at_step(pace, vertex); }
+
+template <typename Real>
+std::vector<glm::dvec3> velocities_at_step(const Pace& pace, std::span<const Pull> pull,
+                                           std::span<const std::uint32_t> order, std::uint32_t first,
+                                           std::span<const glm::vec<4, Real>> velocity,
+                                           std::span<const glm::vec<4, Real>> displacement,
+                                           std::span<const glm::vec<4, Real>> coasting)
 {
-    return vertex.velocity - lead(pace, vertex);
+    std::vector<glm::dvec3> out(pull.size());
+    for (std::size_t v = 0; v < out.size(); ++v)
+        out[order[v] - first] = at_step(
+            pace, {pull[v], glm::dvec3(velocity[v]), glm::dvec3(displacement[v]), glm::dvec3(coasting[v])});
+    return out;
 }
+template std::vector<glm::dvec3> velocities_at_step<float>(const Pace&, std::span<const Pull>,
+                                                           std::span<const std::uint32_t>, std::uint32_t,
+                                                           std::span<const glm::vec4>,
+                                                           std::span<const glm::vec4>,
+                                                           std::span<const glm::vec4>);
+template std::vector<glm::dvec3> velocities_at_step<double>(const Pace&, std::span<const Pull>,
+                                                            std::span<const std::uint32_t>, std::uint32_t,
+                                                            std::span<const glm::dvec4>,
+                                                            std::span<const glm::dvec4>,
+                                                            std::span<const glm::dvec4>);
 
 Kept repaced(const Pace& before, const Pace& after, const Kept& vertex)
 {

@@ -4,6 +4,10 @@
 #include "taut/plan/plan.hpp"
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <span>
+#include <vector>
 
 namespace taut {
 
@@ -29,6 +33,15 @@ struct Kept
 /// gravity alone outside that is g h / 2; else half of what the last substep showed, never more than gravity
 /// or the integrator gives by itself, so that a blow is no acceleration.
 glm::dvec3 velocity_at_step(const Pace& pace, const Kept& vertex);
+
+/// The same of many, as buffers have them; that of vertex v stands at order[v] - first of the result.
+/// `coasting` may be `displacement` itself.
+template <typename Real>
+std::vector<glm::dvec3> velocities_at_step(const Pace& pace, std::span<const Pull> pull,
+                                           std::span<const std::uint32_t> order, std::uint32_t first,
+                                           std::span<const glm::vec<4, Real>> velocity,
+                                           std::span<const glm::vec<4, Real>> displacement,
+                                           std::span<const glm::vec<4, Real>> coasting);
 
 /// The same vertex, with the same velocity at the step, where the next substep has another length or gravity.
 Kept repaced(const Pace& before, const Pace& after, const Kept& vertex);

@@ -114,43 +114,44 @@ std::vector<double> World::Impl::of_constraints(std::string_view kind,
 }
 
 template <typename Real>
-std::vector<Kept> World::Impl::kept(const Vertices& of) const
-{
-    std::vector<Kept> out(of.count);
-    each_kept<Real>(of, [&](std::uint32_t v, const Kept& vertex) { out[v] = vertex; });
-    return out;
-}
-
-template <typename Real, typename Visit>
-void World::Impl::each_kept(const Vertices& of, const Visit& visit) const
+World::Impl::KeptBuffers<Real> World::Impl::read_kept(const Vertices& of) const
 {
     using Vec = glm::vec<4, Real>;
     const auto read = [&](std::uint32_t buffer) {
         return device->read<Vec>(buffers[buffer], of.count, of.first * sizeof(Vec));
     };
-    const auto velocity = read(plan.velocity), delta = read(plan.delta);
-    const auto coasted = plan.coasting != kNoBuffer ? read(plan.coasting) : std::vector<Vec>();
-    const auto& coasting = plan.coasting != kNoBuffer ? coasted : delta;
+    KeptBuffers<Real> out{read(plan.velocity), read(plan.delta), {}};
+    out.coasting = plan.coasting != kNoBuffer ? read(plan.coasting) : out.displacement;
+    return out;
+}
+
+template <typename Real>
+std::vector<Kept> World::Impl::kept(const Vertices& of) const
+{
+    const KeptBuffers<Real> read = read_kept<Real>(of);
+    std::vector<Kept> out;
     for (std::uint32_t v = 0; v < of.count; ++v)
-        visit(v, {plan.pull[of.first + v], glm::dvec3(velocity[v]), glm::dvec3(delta[v]),
-                  glm::dvec3(coasting[v])});
+        out.push_back({plan.pull[of.first + v], glm::dvec3(read.velocity[v]),
+                       glm::dvec3(read.displacement[v]), glm::dvec3(read.coasting[v])});
+    return out;
 }
 template std::vector<Kept> World::Impl::kept<float>(const Vertices&) const;
 template std::vector<Kept> World::Impl::kept<double>(const Vertices&) const;
+
+template <typename Real>
+std::vector<glm::dvec3> World::Impl::velocities_of(const Vertices& of) const
+{
+    const KeptBuffers<Real> read = read_kept<Real>(of);
+    const auto its = [&](const auto& list) { return std::span(list).subspan(of.first, of.count); };
+    return velocities_at_step<Real>(pace(), its(plan.pull), its(plan.original), of.first, read.velocity,
+                                    read.displacement, read.coasting);
+}
 
 std::vector<glm::dvec3> World::Impl::velocities(const Vertices& of) const
 {
     if (plan.velocity == kNoBuffer)
         return {};
-    std::vector<glm::dvec3> out(of.count);
-    const auto put = [&](std::uint32_t v, const Kept& vertex) {
-        out[plan.original[of.first + v] - of.first] = velocity_at_step(pace(), vertex);
-    };
-    if (plan.precision == Precision::float64)
-        each_kept<double>(of, put);
-    else
-        each_kept<float>(of, put);
-    return out;
+    return plan.precision == Precision::float64 ? velocities_of<double>(of) : velocities_of<float>(of);
 }
 
 template <typename Real>

@@ -98,9 +98,15 @@ struct World::Impl
     /// The same in the plan's order.
     template <typename Real>
     std::vector<Kept> kept(const Vertices& of) const;
-    /// Calls visit(v, vertex) for each, v counted from the first of them.
-    template <typename Real, typename Visit>
-    void each_kept(const Vertices& of, const Visit& visit) const;
+    template <typename Real>
+    struct KeptBuffers /// of Kept, as a device has them
+    {
+        std::vector<glm::vec<4, Real>> velocity, displacement, coasting;
+    };
+    template <typename Real>
+    KeptBuffers<Real> read_kept(const Vertices& of) const;
+    template <typename Real>
+    std::vector<glm::dvec3> velocities_of(const Vertices& of) const;
     template <typename Real>
     void repace(const Pace& before);
     std::vector<glm::dvec3> vectors(std::uint32_t buffer, std::uint32_t added, const Vertices& of) const;

@@ -331,18 +331,18 @@ TEST_CASE("a watch says until when nothing can have reached the middle")
     const std::vector<glm::dvec3> at{{1, 3, 0}, {-0.5, 3, 0.8}, {-0.5, 3, -0.8}};
     const std::vector<glm::dvec3> slow(3, {0, -1, 0}), still(3, glm::dvec3(0));
     watch.look(0, 0, 1e-3, at, slow);
-    CHECK(watch.clear_for() == Approx(2.5 / 2));
+    CHECK(watch.clear_for() == Approx(3.0 / 2));
     watch.look(1, 0.1, 1e-3, at, still);
     CHECK(watch.clear_for() == std::numeric_limits<double>::infinity());
     run.scene.gravity = {0, -10, 0};
     CrossingWatch falling(run.scene);
     falling.look(0, 0, 1e-3, at, still);
-    CHECK(falling.clear_for() == Approx(0.5));                   // twice 1.25 m
+    CHECK(falling.clear_for() == Approx(std::sqrt(0.3)));        // twice 1.5 m
     run.scene.colliders[0].motion = {{4, {}}, {5, {0, 100, 0}}}; // not yet
     run.scene.gravity = glm::dvec3(0);
     CrossingWatch led(run.scene);
     led.look(0, 0, 1e-3, at, still);
-    CHECK(led.clear_for() == Approx(2.5 / 200));
+    CHECK(led.clear_for() == Approx(3.0 / 200));
     Scene empty = run.scene;
     empty.colliders[0].kind = ColliderKind::plane;
     CrossingWatch idle(empty);
