@@ -75,10 +75,10 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
         control[TAUT_CONTACT_FOUND] = total;
         control[TAUT_CONTACT_COMPARED] = before[TAUT_LINEAR_GROUP - 1];
         control[TAUT_CONTACT_MISSING] += total - listed;
+        control[TAUT_CONTACT_GATE_PAIRS] = control[TAUT_CONTACT_PAIR_GROUPS];
 #if GUARD
         bool left_out = total > listed || lost[TAUT_CONTACT_CUT] != control[TAUT_CONTACT_CUT_SEEN];
         control[TAUT_CONTACT_HOLDS] = left_out ? 1u : 0u;
-        control[TAUT_CONTACT_GATE_PAIRS] = control[TAUT_CONTACT_PAIR_GROUPS];
         control[TAUT_CONTACT_CUT_SEEN] = lost[TAUT_CONTACT_CUT];
 #endif
     }

@@ -7,15 +7,20 @@
 // d the displacement of the first substep: the skin is for what changes it later. Without FILL the pairs are
 // counted, with FILL they are written behind those of the triangles before, in the order of the tree.
 //
-// GUARD, with the guarantee, asks whether they could meet if each corner went along its forecast d as far as
-// it likes, or stood still, and up to a tenth of it astray (guarantee_anchor holds them to that):
+// The largest patch of the triangle that faces one way (contact_refit, plan/contact_patch) is passed over: it
+// cannot meet itself.
+//
+// GUARD, with the guarantee, passes over nothing, and asks whether they could meet if each corner went along
+// its forecast d as far as it likes, or stood still, and up to a tenth of it astray (guarantee_anchor holds
+// them to that):
 //
 //   |x_A - x_B| < R + substeps |D|,   and less than R across D,   D the mean of the four d,
 //   R = r_A + r_B + skin + substeps (max (|d_i - D| + |d_i| / 10) + max (|d_j - D| + |d_j| / 10)).
 //
 // Based on: Curtis, Tamstorf, Manocha. Fast Collision Detection for Deformable Models using Representative-
 //   Triangles. I3D 2008 (every vertex and edge belongs to one triangle); Smits. Efficiency Issues for Ray
-//   Tracing. Journal of Graphics Tools 3(2), 1998 (a tree walked without a stack).
+//   Tracing. Journal of Graphics Tools 3(2), 1998 (a tree walked without a stack); Volino, Magnenat-Thalmann.
+//   Computer Graphics Forum 13(3), 1994 (patches that face one way).
 // Departures: in the full binary tree the next node to visit is in the number of the last one. FILL walks no
 //   further than the pairs that were counted: not at all where there are none.
 // Bytes per triangle: 20 + 32 a node visited, 20 + 96 a triangle compared; FILL 20 a pair written (float).
@@ -229,6 +234,24 @@ uint compare(uint at, ContactTriangle t, ContactTriangle u, rvec4 least, rvec4 m
     return at;
 }
 
+#if !GUARD
+/// The node of the largest patch of a triangle that faces one way; 0, which is none, where there is none.
+uint patch_of(uint leaf, uint owns)
+{
+    uint top = owns >> TAUT_CONTACT_OWNS_PATCH;
+    uint k = (leaves + leaf) >> TAUT_CONTACT_PATCH;
+    uint spared = 0u;
+    for (uint level = TAUT_CONTACT_PATCH; level <= top; ++level)
+    {
+        bool faces = node[2u * k].w > real(0) || node[2u * k + 1u].w > real(0);
+        spared = faces ? k : spared;
+        top = faces ? top : 0u;
+        k >>= 1u;
+    }
+    return spared;
+}
+#endif
+
 KERNEL(count)
 {
     ContactTriangle t = triangle[i];
@@ -243,6 +266,11 @@ KERNEL(count)
     uint first = 0u;
     uint last = 0xffffffffu; // as many as there are
 #endif
+#if GUARD
+    uint spared = 0u;
+#else
+    uint spared = patch_of(i, t.owns);
+#endif
     uint at = first;
     uint tests = 0u;
     uint trips = 0u;
@@ -252,8 +280,8 @@ KERNEL(count)
     {
         rvec4 l = node[2u * k];
         rvec4 h = node[2u * k + 1u];
-        bool meets = l.x <= most.x && l.y <= most.y && l.z <= most.z && h.x >= least.x && h.y >= least.y &&
-                     h.z >= least.z;
+        bool meets = k != spared && l.x <= most.x && l.y <= most.y && l.z <= most.z && h.x >= least.x &&
+                     h.y >= least.y && h.z >= least.z;
         trips += 1u;
         if (meets && k >= leaves && k != leaves + i)
         {

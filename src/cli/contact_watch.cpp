@@ -40,7 +40,7 @@ void ContactWatch::after(std::uint64_t frame)
     for (const glm::dvec3& x : positions)
         if (!(glm::length(x) < 1e30)) // the run ends as non_finite or diverged
             return;
-    if (before_.size() == positions.size()) // not where cloth has just torn
+    if (surface_.parts > 1 && before_.size() == positions.size()) // not where cloth has just torn
         look_between(frame, positions);
     if (look_due(frame, frames_))
         look(frame, positions);
@@ -62,8 +62,9 @@ bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const
 
 bool ContactWatch::meets_passing(const judging::Passing& p) const
 {
-    return p.edges ? meets(body_[surface_.edges[p.a][0]], body_[surface_.edges[p.b][0]])
-                   : meets(body_[p.a], body_[surface_.triangles[p.b][0]]);
+    const std::uint32_t a = p.edges ? surface_.edges[p.a][0] : p.a;
+    const std::uint32_t b = p.edges ? surface_.edges[p.b][0] : surface_.triangles[p.b][0];
+    return surface_.part[a] != surface_.part[b] && meets(body_[a], body_[b]);
 }
 
 /// A sheet that falls flat and fast through another one crosses it in no frame.

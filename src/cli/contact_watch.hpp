@@ -18,8 +18,9 @@ public:
     /// `simulation` at its start; outlives the watch. Without contact in the scene nothing is looked at.
     ContactWatch(const Simulation& simulation, std::uint64_t frames);
 
-    /// After so many frames: looks at the last one and sixteen on the way, and each time at what passed since
-    /// the frame before.
+    /// After so many frames: looks at the last one and sixteen on the way, and each time at which surfaces
+    /// passed through others since the frame before. One that hangs together cannot pass through itself
+    /// without a triangle in another one that stays, so that is left to the looks.
     void after(std::uint64_t frame);
 
     /// Adds what was seen: crossings make a run `unconverged`, pairs that no list held are a message.

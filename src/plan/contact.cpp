@@ -17,8 +17,10 @@
 #include "taut/kernels/contact_scan.hpp"
 #include "taut/kernels/contact_search.hpp"
 #include "taut/kernels/contact_sort.hpp"
-#include "taut/kernels/guarantee_wake.hpp"
+#include "taut/kernels/contact_stray.hpp"
+#include "taut/kernels/contact_wake.hpp"
 #include "taut/kernels/shared/contact_rows.h"
+#include "taut/plan/contact_patch.hpp"
 #include "taut/plan/contact_scene.hpp"
 #include "taut/plan/contact_tree.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -30,17 +32,36 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace taut {
 namespace {
 
 constexpr std::string_view kContactEffect = "contact";
-/// Times the gap kept: how much further than the gap the search looks, beside what motion adds.
-constexpr double kSkin = 0.5;
+/// How much further than the gap the search looks, beside what motion adds: of the gap at most and at least.
+constexpr double kMostSkin = 0.5, kLeastSkin = 0.125;
+/// Of the least radius: how far a vertex may end a substep from where the last search expected it, before
+/// there is another one. Two of them take half of a gap: what is not listed yet cannot have crossed.
+constexpr double kStray = 0.5;
+constexpr float kNowhere = 1e18f; ///< m: where vertices are before the first search
 /// Rows that one group can scan: 128 lanes, two loops of at most half of kMaxLoopTrips each.
 constexpr std::uint32_t kMostMeeting = 1u << 20;
 constexpr std::uint32_t kLeastCapacity = 1u << 12;
 static_assert(TAUT_CONTACT_GROUP == kGroupSize);
+
+/// m, of each plan vertex; distances within a body are all that is asked.
+std::vector<glm::dvec3> rest_of(const PlanBuilder& b)
+{
+    std::vector<glm::dvec3> out(b.plan.vertex_count, glm::dvec3(0));
+    for (std::size_t k = 0; k < b.scene.bodies.size(); ++k)
+    {
+        const std::vector<glm::dvec3>& x = b.scene.bodies[k].mesh.positions;
+        for (std::uint32_t v = 0; v < x.size(); ++v)
+            out[b.vertex(k, v)] = x[v] - x[0];
+    }
+    return out;
+}
+
 std::vector<ContactLeaf> leaves_of(const PlanBuilder& b)
 {
     std::vector<ContactLeaf> out;
@@ -50,6 +71,8 @@ std::vector<ContactLeaf> leaves_of(const PlanBuilder& b)
                 out.push_back({{b.vertex(body, p), b.vertex(body, q), b.vertex(body, r)}, body, 0});
     out = in_tree_order(std::move(out), b.start);
     share_out(out);
+    if (!wants_guarantee(b.scene)) // which lists everything that could meet
+        mark_patches(out, rest_of(b));
     return out;
 }
 
@@ -70,7 +93,9 @@ void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLe
     for (const ContactLeaf& leaf : leaves)
         triangles.push_back({leaf.corner[0], leaf.corner[1], leaf.corner[2], leaf.body, leaf.owns});
     std::vector<layout::ContactBody<Real>> bodies;
-    std::vector<glm::vec<4, Real>> rest(b.plan.vertex_count, glm::vec<4, Real>(0));
+    std::vector<glm::vec<4, Real>> rest;
+    for (const glm::dvec3& x : rest_of(b))
+        rest.emplace_back(glm::vec<3, Real>(x), Real(0));
     for (std::size_t k = 0; k < b.scene.bodies.size(); ++k)
     {
         const Body& body = b.scene.bodies[k];
@@ -78,9 +103,8 @@ void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLe
         bodies.push_back({static_cast<Real>(radius_of(b.scene, body)),
                           static_cast<Real>(friction_of(b.scene, body)), body.contact.self, bits.group,
                           bits.meets});
-        for (std::uint32_t v = 0; v < body.mesh.positions.size(); ++v) // distances are all that is asked
-            rest[b.vertex(k, v)] = {glm::vec<3, Real>(body.mesh.positions[v] - body.mesh.positions[0]),
-                                    static_cast<Real>(k)};
+        for (std::uint32_t v = 0; v < body.mesh.positions.size(); ++v)
+            rest[b.vertex(k, v)].w = static_cast<Real>(k);
     }
     c.triangle =
         b.add_buffer<layout::ContactTriangle<Real>>(kContactEffect, "triangles that meet", triangles);
@@ -99,7 +123,7 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
     c.start =
         b.add_buffer(kContactEffect, "pairs of triangles, start", (c.triangles + std::uint64_t(1)) * word);
     const bool guarded = wants_guarantee(b.scene);
-    std::vector<std::uint32_t> control(guarded ? TAUT_CONTACT_GUARDED_WORDS : TAUT_CONTACT_WORDS, 0);
+    std::vector<std::uint32_t> control(TAUT_CONTACT_WORDS, 0);
     for (const std::size_t gate : {TAUT_CONTACT_PAIR_GROUPS, TAUT_CONTACT_VERTEX_GROUPS})
         control[gate + 1] = control[gate + 2] = 1;
     for (std::size_t gate = TAUT_CONTACT_GATE_TRIANGLES; gate + 2 < control.size(); gate += 4)
@@ -116,6 +140,11 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
     c.corner_start = b.add_buffer(kContactEffect, "corners at vertices, start", (vertices + 1) * word);
     c.corner = b.add_buffer(kContactEffect, "corners of pairs", 4 * pairs * word);
     c.active = b.add_buffer(kContactEffect, "active pairs at vertices", vertices * word);
+    with_real(b.plan.precision, [&](auto zero) {
+        const std::vector<glm::vec<4, decltype(zero)>> nowhere(2 * vertices,
+                                                               glm::vec<4, decltype(zero)>(kNowhere));
+        c.place = b.add_buffer<glm::vec<4, decltype(zero)>>(kContactEffect, "places at the search", nowhere);
+    });
 }
 
 std::uint32_t capacity_for(const PlanBuilder& b, std::size_t triangles)
@@ -135,17 +164,44 @@ void gated(PlanBuilder& b, const Bindings<Use>& uses, const typename Bindings<Us
                         gate * sizeof(std::uint32_t));
 }
 
-/// Adds a pass of a search: with the guarantee it runs where `gate` lets it.
+/// Adds a pass of a search, which runs where `gate` lets it.
 template <template <typename> typename Bindings>
 void searching(PlanBuilder& b, std::string_view variant, const Bindings<Use>& uses,
-               const typename Bindings<Use>::Params& params, std::uint32_t count, std::uint64_t gate,
-               std::uint64_t elements = 0)
+               const typename Bindings<Use>::Params& params, std::uint32_t count, std::uint64_t gate)
 {
-    if (wants_guarantee(b.scene))
-        b.dispatch_indirect(kContactEffect, variant, uses, params, count, b.contact->control,
-                            gate * sizeof(std::uint32_t));
-    else
-        b.dispatch(kContactEffect, variant, uses, params, count, elements);
+    b.dispatch_indirect(kContactEffect, variant, uses, params, count, b.contact->control,
+                        gate * sizeof(std::uint32_t));
+}
+
+/// m: how far the corners of a body's triangles are from the opposite sides, at rest: a quarter of them less.
+double altitude_of(const Mesh& mesh)
+{
+    std::vector<double> altitudes;
+    for (const auto& [p, q, r] : mesh.triangles)
+    {
+        const glm::dvec3 a = mesh.positions[p], b = mesh.positions[q], c = mesh.positions[r];
+        const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+        altitudes.push_back(longest > 0 ? glm::length(glm::cross(b - a, c - a)) / longest : 0);
+    }
+    const auto quarter = altitudes.begin() + static_cast<std::ptrdiff_t>(altitudes.size() / 4);
+    std::nth_element(altitudes.begin(), quarter, altitudes.end());
+    return *quarter;
+}
+
+/// m: half the gap; of a surface that meets itself no more than half of what its triangles are higher than
+/// the gap, so that at rest none lists its neighbours, as long as that leaves an eighth of the gap.
+double skin_for(const Scene& scene, double radius)
+{
+    double skin = kMostSkin * 2 * radius;
+    for (const Body& body : scene.bodies)
+    {
+        if (!takes_part(scene, body) || !body.contact.self)
+            continue;
+        const double gap = 2 * radius_of(scene, body), room = 0.5 * (altitude_of(body.mesh) - gap);
+        if (room >= kLeastSkin * gap)
+            skin = std::min(skin, room);
+    }
+    return skin;
 }
 
 std::uint32_t refit_groups(std::uint32_t level)
@@ -153,17 +209,27 @@ std::uint32_t refit_groups(std::uint32_t level)
     return level / std::min<std::uint32_t>(level, TAUT_CONTACT_REFIT);
 }
 
-void record_wake(PlanBuilder& b, const ContactBuffers& c, bool due)
+/// Counts vertices that are not where the last search expected them.
+void record_stray(PlanBuilder& b, const ContactBuffers& c)
+{
+    const kernels::contact_stray::Bindings<Use> uses = {.position = {b.plan.position},
+                                                        .delta = {b.plan.delta},
+                                                        .place = {c.place, 2},
+                                                        .control = {c.control, 0},
+                                                        .lost = {c.lost, 0}};
+    b.dispatch(kContactEffect, "", uses, {b.plan.vertex_count, c.every, c.stray}, b.plan.vertex_count);
+}
+
+void record_wake(PlanBuilder& b, const ContactBuffers& c)
 {
     const auto groups = [](std::uint32_t count) { return (count + kGroupSize - 1) / kGroupSize; };
     std::array<std::uint32_t, TAUT_CONTACT_MOST_LEVELS> levels = {refit_groups(c.leaves)};
     for (std::size_t k = 1; k < levels.size(); ++k)
         levels[k] = levels[k - 1] > 1 ? refit_groups(levels[k - 1]) : 0;
-    const kernels::guarantee_wake::Bindings<Use> uses = {.lost = {c.lost, 0}, .control = {c.control}};
-    b.dispatch("guarantee", "", uses,
-               {1, due, groups(c.triangles), groups(b.plan.vertex_count), levels[0], levels[1], levels[2],
-                levels[3]},
-               1);
+    const kernels::contact_wake::Bindings<Use> uses = {.lost = {c.lost, 0}, .control = {c.control}};
+    b.dispatch(
+        kContactEffect, "", uses,
+        {1, groups(c.triangles), groups(b.plan.vertex_count), levels[0], levels[1], levels[2], levels[3]}, 1);
 }
 
 void record_refit(PlanBuilder& b, const ContactBuffers& c)
@@ -175,10 +241,9 @@ void record_refit(PlanBuilder& b, const ContactBuffers& c)
     const kernels::contact_refit::Bindings<Use> nodes = {.node = {c.node, 2}};
     const std::string_view variant = wants_guarantee(b.scene) ? "guarded" : "leaves";
     std::uint64_t gate = TAUT_CONTACT_GATE_LEVELS;
-    searching(b, variant, leaves, {c.leaves, c.triangles, c.every}, refit_groups(c.leaves), gate,
-              c.triangles);
+    searching(b, variant, leaves, {c.leaves, c.triangles, c.every}, refit_groups(c.leaves), gate);
     for (std::uint32_t level = refit_groups(c.leaves); level > 1; level = refit_groups(level))
-        searching(b, "", nodes, {level, c.triangles, c.every}, refit_groups(level), gate += 4, 2 * level);
+        searching(b, "", nodes, {level, c.triangles, c.every}, refit_groups(level), gate += 4);
 }
 
 void record_lists(PlanBuilder& b, const ContactBuffers& c)
@@ -195,8 +260,8 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     count.lost = {c.lost, 0};
     fill.start = {c.start, 2};
     fill.pair = {c.pair};
-    const kernels::contact_search::Bindings<Use>::Params how = {
-        n, c.leaves, c.every, c.skin, c.reach, c.capacity};
+    const kernels::contact_search::Bindings<Use>::Params how = {n,      c.leaves, c.every,
+                                                                c.skin, c.reach,  c.capacity};
     const bool guarded = wants_guarantee(b.scene);
     searching(b, guarded ? "guarded" : "", count, how, n, TAUT_CONTACT_GATE_TRIANGLES);
     kernels::contact_scan::Bindings<Use> rows = {
@@ -213,8 +278,7 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                        .control = {c.control, 0},
                                                        .side = {c.side},
                                                        .corners = {c.corners, 4}};
-    const std::uint64_t pairs = guarded ? TAUT_CONTACT_GATE_PAIRS : TAUT_CONTACT_PAIR_GROUPS;
-    gated(b, make, {c.capacity, friction_mix_of(b.scene)}, c.capacity, pairs);
+    gated(b, make, {c.capacity, friction_mix_of(b.scene)}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
     const kernels::contact_scan::Bindings<Use> places = {.found = {c.corners, vertices},
                                                          .start = {c.corner_start, vertices}};
     searching(b, "", places, {vertices, 0, vertices}, 1, TAUT_CONTACT_GATE_ONE);
@@ -223,13 +287,16 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                              .start = {c.corner_start, 4},
                                                              .corner = {c.corner, 4},
                                                              .taken = {c.placed, 4}};
-    gated(b, corners, {c.capacity}, c.capacity, pairs);
+    gated(b, corners, {c.capacity}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
     const kernels::contact_sort::Bindings<Use> sort = {.start = {c.corner_start, 2},
                                                        .corner = {c.corner},
                                                        .corners = {c.corners},
                                                        .taken = {c.placed},
                                                        .lost = {c.lost, 0}};
     searching(b, "", sort, {vertices}, vertices, TAUT_CONTACT_GATE_VERTICES);
+    const kernels::contact_stray::Bindings<Use> keep = {
+        .position = {b.plan.position}, .delta = {b.plan.delta}, .place = {c.place, 2}};
+    searching(b, "keep", keep, {vertices, c.every, c.stray}, vertices, TAUT_CONTACT_GATE_VERTICES);
 }
 
 void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
@@ -275,12 +342,17 @@ void prepare_contact(PlanBuilder& b)
     c.capacity = capacity_for(b, leaves.size());
     const std::uint32_t searches = std::min(b.scene.contact.searches, b.plan.substeps);
     c.every = (b.plan.substeps + searches - 1) / searches;
-    double radius = 0;
+    double radius = 0, least = std::numeric_limits<double>::infinity();
     for (const Body& body : b.scene.bodies)
-        radius = std::max(radius, takes_part(b.scene, body) ? radius_of(b.scene, body) : 0);
+        if (takes_part(b.scene, body))
+        {
+            radius = std::max(radius, radius_of(b.scene, body));
+            least = std::min(least, radius_of(b.scene, body));
+        }
     const double time = b.plan.timestep / b.plan.substeps * c.every;
     const double fall = 0.5 * glm::length(b.scene.gravity) * time * time;
-    c.skin = static_cast<float>(kSkin * 2 * radius + fall);
+    c.skin = static_cast<float>(skin_for(b.scene, radius) + fall);
+    c.stray = static_cast<float>(kStray * least);
     c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
     with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
     add_lists(b, c);
@@ -288,13 +360,10 @@ void prepare_contact(PlanBuilder& b)
                       c.taken,   c.triangles, c.capacity, wants_guarantee(b.scene)};
 }
 
-void record_contact_search(PlanBuilder& b, const Moment& moment)
+void record_contact_search(PlanBuilder& b, const Moment&)
 {
-    const bool due = moment.substep % b.contact->every == 0, guarded = wants_guarantee(b.scene);
-    if (!due && !guarded)
-        return;
-    if (guarded)
-        record_wake(b, *b.contact, due);
+    record_stray(b, *b.contact);
+    record_wake(b, *b.contact);
     record_refit(b, *b.contact);
     record_lists(b, *b.contact);
 }

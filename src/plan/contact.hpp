@@ -18,15 +18,16 @@ struct ContactBuffers
     // Of the corners of pairs at each vertex.
     std::uint32_t corners = kNoBuffer, placed = kNoBuffer, corner_start = kNoBuffer, corner = kNoBuffer,
                   active = kNoBuffer;
+    std::uint32_t place = kNoBuffer; ///< of vertices, at the last search
     // Of vertices, with the guarantee (guarantee.hpp).
     std::uint32_t anchor = kNoBuffer, asked = kNoBuffer, asked_next = kNoBuffer;
     std::uint32_t triangles = 0, leaves = 0, capacity = 0;
-    std::uint32_t every = 1;   ///< substeps from one search to the next
-    float skin = 0, reach = 0; ///< m
+    std::uint32_t every = 1;              ///< substeps that a search looks ahead
+    float skin = 0, reach = 0, stray = 0; ///< m
 };
 
 void prepare_contact(PlanBuilder& builder);
-/// The search, in the substeps that begin with one.
+/// The search, where vertices are not where the last one expected them.
 void record_contact_search(PlanBuilder& builder, const Moment& moment);
 void record_contact(PlanBuilder& builder, const Moment& moment);
 

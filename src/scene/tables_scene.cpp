@@ -115,8 +115,9 @@ constexpr Key kContact[] = {
     key<&SceneContact::friction_mix>("friction_mix", "what the coefficients of two surfaces that rub make")
         .words(kFrictionMixes)
         .see("which", "contact.md#what-meets-what"),
-    key<&SceneContact::searches>("searches", "how often a time step looks for what may meet: more where "
-                                             "several layers fall fast; at most once a substep")
+    key<&SceneContact::searches>("searches",
+                                 "how often a time step, at least, looks for what may meet where "
+                                 "surfaces move: more look less far ahead; at most once a substep")
         .range(1, 1000),
     key<&SceneContact::start>("start",
                               "what becomes of surfaces that go through each other at the start: they "
@@ -144,9 +145,7 @@ constexpr Key kBodyContact[] = {
         .unit("m")
         .at_least(0)
         .or_word("scene", -1),
-    key<&BodyContact::friction>("friction", "Coulomb coefficient")
-        .at_least(0)
-        .or_word("scene", -1),
+    key<&BodyContact::friction>("friction", "Coulomb coefficient").at_least(0).or_word("scene", -1),
 };
 
 } // namespace
@@ -163,13 +162,11 @@ constinit const TableOf<BodyContact> kBodyContactTable("body contact", kBodyCont
 std::span<const Table* const> all_tables()
 {
     static constexpr const Table* others[] = {
-        &kSceneTable,    &kAcceptTable,    &kMethodTable,         &kWindTable,
-        &kWindKeyTable,  &kContactTable,   &kBodyContactTable,    &kBodyTable,
-        &kGridTable,     &kNetworkTable,   &kChainTable,          &kSolidBoxTable,
-        &kBallTable,     &kMaterialTable,  &kFabricTable,         &kSolidMaterialTable,
-        &kTransformTable,
-        &kRotateTable,   &kKinematicTable, &kMeshSequenceTable,   &kPinTable,
-        &kPinBoxTable,   &kKeyframeTable,  &kKeyframeRotateTable, &kSpringTable,
+        &kSceneTable,         &kAcceptTable,      &kMethodTable,   &kWindTable,           &kWindKeyTable,
+        &kContactTable,       &kBodyContactTable, &kBodyTable,     &kGridTable,           &kNetworkTable,
+        &kChainTable,         &kSolidBoxTable,    &kBallTable,     &kMaterialTable,       &kFabricTable,
+        &kSolidMaterialTable, &kTransformTable,   &kRotateTable,   &kKinematicTable,      &kMeshSequenceTable,
+        &kPinTable,           &kPinBoxTable,      &kKeyframeTable, &kKeyframeRotateTable, &kSpringTable,
         &kColliderTable,
     };
     static const std::vector<const Table*> tables = [] {

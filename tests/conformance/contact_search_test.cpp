@@ -217,3 +217,67 @@ TEST_CASE("contact_search counts what a list that is too short does not hold, an
         CHECK(std::memcmp(out.at("pair").data(), full.at("pair").data(), out.at("pair").size()) == 0);
     });
 }
+
+namespace {
+
+/// A wavy sheet of 8 x 4 cells in the x-y plane, its cells row after row along x, so that both halves are
+/// nodes of the tree; `folded`: the second half lies on the first.
+ContactNet<float> sheet(bool folded, std::uint32_t patch)
+{
+    ContactNet<float> net;
+    net.body = {{0.01f, 0.2f, 1, 1, ~0u}};
+    for (std::uint32_t i = 0; i <= 8; ++i)
+        for (std::uint32_t j = 0; j <= 4; ++j)
+        {
+            const bool over = folded && i > 4;
+            const float x = 0.04f * float(over ? 8 - i : i), wave = 0.01f * std::sin(25 * x);
+            net.position.emplace_back(x, 0.04f * float(j), wave + (over ? 0.025f : 0.0f), 1.0f);
+            net.delta.emplace_back(1e-3f, 0.0f, 0.0f, 0.0f);
+        }
+    for (std::uint32_t i = 0; i < 8; ++i)
+        for (std::uint32_t j = 0; j < 4; ++j)
+        {
+            const std::uint32_t v = 5 * i + j;
+            net.triangle.push_back({v, v + 5, v + 1, 0, 0});
+            net.triangle.push_back({v + 5, v + 6, v + 1, 0, 0});
+        }
+    share_out(net);
+    for (auto& t : net.triangle)
+        t.owns |= patch << TAUT_CONTACT_OWNS_PATCH;
+    return net;
+}
+
+/// Pairs of a search, and whether their two are of different halves of the sheet.
+std::map<Key, bool> listed(const Buffers& out)
+{
+    std::map<Key, bool> found;
+    const auto pairs = values_of<layout::ContactPair<float>>(out.at("pair"));
+    for (std::uint32_t k = 0; k < words_of(out, "control")[TAUT_CONTACT_LISTED]; ++k)
+        found[{pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d, pairs[k].kind}] =
+            std::max(pairs[k].a, pairs[k].kind == TAUT_CONTACT_EDGES ? pairs[k].b : 0u) / 25 !=
+            std::max(pairs[k].c, pairs[k].d) / 25;
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("contact_search passes over a patch while it faces one way, and over nothing else")
+{
+    const bool folded = GENERATE(false, true);
+    CAPTURE(folded);
+    const Case all = search(sheet(folded, 0), 1 << 12);
+    const std::map<Key, bool> without = listed(run(*test_device("cpu:serial"), all.launches, all.in));
+    CHECK(without.size() > 100); // neighbours are near enough for that
+    look_on_every_device(search(sheet(folded, 6), 1 << 12), [&](const Buffers& out) {
+        const std::map<Key, bool> with = listed(out);
+        CHECK(with.empty() == !folded);
+        std::size_t across = 0, missing = 0;
+        for (const auto& [key, between] : without)
+        {
+            across += between;
+            missing += between && with.count(key) == 0;
+        }
+        CHECK((!folded || (missing == 0 && across > 50)));
+        CHECK((!folded || with.size() < without.size()));
+    });
+}

@@ -28,7 +28,7 @@ TEMPLATE_TEST_CASE("guarantee_anchor bounds vertices by their forecast, and hold
     std::vector<std::uint32_t> start(count + 1, 0); // of corners of pairs
     for (std::uint32_t v = 0; v < count; ++v)
         start[v + 1] = start[v] + TAUT_CONTACT_CROWD + (v % 10 == 5 ? 1 : 0);
-    std::vector<std::uint32_t> control(TAUT_CONTACT_GUARDED_WORDS, 0);
+    std::vector<std::uint32_t> control(TAUT_CONTACT_WORDS, 0);
     control[TAUT_CONTACT_HOLDS] = holds ? 1 : 0;
     const std::uint32_t substeps = 3;
     const float skin = 0.02f;

@@ -25,6 +25,26 @@ struct ContactNet
     glm::dvec3 d(std::uint32_t v) const { return glm::dvec3(delta[v]); }
 };
 
+/// Every vertex and side to the first triangle that has it; leaves for all triangles.
+template <typename Real>
+void share_out(ContactNet<Real>& net)
+{
+    std::set<std::uint32_t> vertices;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
+    for (auto& t : net.triangle)
+    {
+        const std::uint32_t corner[] = {t.a, t.b, t.c};
+        for (std::uint32_t k = 0; k < 3; ++k)
+        {
+            const auto side = std::minmax(corner[k], corner[(k + 1) % 3]);
+            t.owns |= vertices.insert(corner[k]).second ? 1u << k : 0;
+            t.owns |= sides.insert({side.first, side.second}).second ? 1u << (3 + k) : 0;
+        }
+    }
+    while (net.leaves < net.triangle.size())
+        net.leaves *= 2;
+}
+
 /// Strips of ten triangles of sides of some 0.1 m, each strip of the next of three bodies, of which the
 /// second does not meet itself. All meet each other.
 template <typename Real>
@@ -51,20 +71,7 @@ ContactNet<Real> contact_net(std::uint32_t triangles, Random& random, double mot
         const auto last = static_cast<std::uint32_t>(net.position.size() - 1);
         net.triangle.push_back({last - 2, last - 1, last, t / 10 % 3, 0});
     }
-    std::set<std::uint32_t> vertices;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
-    for (auto& t : net.triangle)
-    {
-        const std::uint32_t corner[] = {t.a, t.b, t.c};
-        for (std::uint32_t k = 0; k < 3; ++k)
-        {
-            const auto side = std::minmax(corner[k], corner[(k + 1) % 3]);
-            t.owns |= vertices.insert(corner[k]).second ? 1u << k : 0;
-            t.owns |= sides.insert({side.first, side.second}).second ? 1u << (3 + k) : 0;
-        }
-    }
-    while (net.leaves < triangles)
-        net.leaves *= 2;
+    share_out(net);
     return net;
 }
 

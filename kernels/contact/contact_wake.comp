@@ -1,9 +1,10 @@
-// Whether this substep begins with a search: because one is due, or because a vertex has used up half of what
-// the last one allowed it to stray. Group counts of the passes of a search, or none. One invocation.
+// Whether this substep begins with a search: because a vertex is not where the last one expected it
+// (contact_stray), or has used up half of what the guarantee allows it (guarantee_filter). Group counts of
+// the passes of a search, or none. One invocation.
 //
-// Based on: indirect dispatches of no groups.
-// Departures: none.
-// Bytes: 12 read, 88 written.
+// Based on: Verlet. Computer "Experiments" on Classical Fluids. Physical Review 159, 1967 (lists that last).
+// Departures: indirect dispatches of no groups where they last.
+// Bytes: 16 read, 92 written.
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
@@ -11,7 +12,6 @@
 PARAMS
 {
     uint count;     // 1
-    uint due;       // 1: a search whatever has happened
     uint triangles; // groups over triangles
     uint vertices;  // groups over vertices
     uint level_0;   // groups over the levels of the tree, from the leaves up; 0 beyond the root
@@ -26,7 +26,7 @@ UPDATE(1, uint, control);
 KERNEL(count)
 {
     uint strayed = lost[TAUT_CONTACT_STRAYED];
-    uint open = due != 0u || strayed != control[TAUT_CONTACT_STRAYED_SEEN] ? 1u : 0u;
+    uint open = strayed != control[TAUT_CONTACT_STRAYED_SEEN] ? 1u : 0u;
     control[TAUT_CONTACT_STRAYED_SEEN] = strayed;
     control[TAUT_CONTACT_GATE_TRIANGLES] = open * triangles;
     control[TAUT_CONTACT_GATE_VERTICES] = open * vertices;
@@ -37,4 +37,5 @@ KERNEL(count)
     control[TAUT_CONTACT_GATE_LEVELS + 8] = open * level_2;
     control[TAUT_CONTACT_GATE_LEVELS + 12] = open * level_3;
     control[TAUT_CONTACT_SEARCHED] += open;
+    control[TAUT_CONTACT_SINCE] = open == 0u ? control[TAUT_CONTACT_SINCE] + 1u : 1u;
 }
