@@ -13,8 +13,8 @@
 //
 // Based on: van den Bergen. Efficient Collision Detection of Complex Deformable Models using AABB Trees.
 //   Journal of Graphics Tools 2(4), 1997 (refitting); Volino, Magnenat-Thalmann. Efficient self-collision
-//   detection on smoothly discretized surface animations using geometrical shape regularity. Computer Graphics
-//   Forum 13(3), 1994 (patches that face one way).
+//   detection on smoothly discretized surface animations using geometrical shape regularity. Computer
+//   Graphics Forum 13(3), 1994 (patches that face one way).
 // Departures: directions are fixed, so that those of a node are the bits that its children share. Least and
 //   greatest of numbers and bits are exact, so the order does not matter.
 // Bytes per triangle: 20 + 96 read, 64 written (float).
