@@ -2,19 +2,24 @@
 //
 //   |x + d - x_0 - min(m, n) d_0| > bound,
 //
-// x_0 the place at the last search, d_0 the displacement of its substep, n the substeps that it looked ahead, m
-// those up to the end of this one, d the displacement of this one. While no vertex does, no two have come
-// nearer than the search allowed for by more than twice the bound. KEEP, of a search, sets x_0 and d_0. One
-// invocation per vertex.
+// x_0 the place at the last search, d_0 the displacement of its substep, n the substeps that it looked ahead,
+// m those up to the end of this one, d the displacement of this one. While no vertex does, no two have come
+// nearer than the search allowed for by more than twice the bound. KEEP, of a search, sets x_0 and d_0.
+// GUARD, with the guarantee, whose searches allow for any place on the way to n d_0: half of what
+// guarantee_anchor lets a vertex stray from that is the bound. One invocation per vertex.
 //
 // Based on: Verlet. Computer "Experiments" on Classical Fluids. Physical Review 159, 1967 (lists that last
 //   until something has moved by half of what they hold in reserve).
 // Departures: what moves as expected uses nothing up.
 // Bytes per vertex: 64 read; KEEP 32 read, 32 written (float).
 //! variant keep KEEP=1
+//! variant guarded GUARD=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
+#if GUARD
+#include "shared/guarantee.glsl"
+#endif
 
 PARAMS
 {
@@ -29,8 +34,10 @@ READ(1, rvec4, delta); // m
 WRITE(2, rvec4, place);
 #else
 READ(2, rvec4, place); // two a vertex: x_0, d_0, m
-READ(3, uint, control);
-COUNTERS(4, lost);
+COUNTERS(3, lost);
+#if !GUARD
+READ(4, uint, control);
+#endif
 #endif
 
 KERNEL(count)
@@ -38,6 +45,11 @@ KERNEL(count)
 #if KEEP
     place[2u * i] = position[i];
     place[2u * i + 1u] = delta[i];
+#elif GUARD
+    rvec3 way = rvec3((position[i] - place[2u * i]) + delta[i]);
+    rvec3 forecast = rvec3(place[2u * i + 1u]) * real(substeps);
+    bool stays = beyond_forecast(way, forecast) <= real(bound) + REAL(0.5) * sway() * length(forecast);
+    COUNT_EVENT_IF(!stays, lost, TAUT_CONTACT_STRAYED);
 #else
     real known = real(min(control[TAUT_CONTACT_SINCE] + 1u, substeps));
     rvec3 off = rvec3(((position[i] - place[2u * i]) + delta[i]) - place[2u * i + 1u] * known);

@@ -53,9 +53,10 @@ Json contacts_json(const StepReport& report)
                           {"push", f.push},
                           {"friction", f.friction},
                           {"force", {f.force.x, f.force.y, f.force.z}}});
-    Json json = {
-        {"pairs", c.pairs},       {"candidates", c.candidates},    {"missing", c.missing + c.cut + c.crowded},
-        {"capacity", c.capacity}, {"depth", report.contact_depth}, {"forces", forces}};
+    Json json = {{"pairs", c.pairs},       {"candidates", c.candidates},
+                 {"searches", c.searches}, {"missing", c.missing + c.cut + c.crowded},
+                 {"capacity", c.capacity}, {"depth", report.contact_depth},
+                 {"forces", forces}};
     if (c.guarded)
         json.update(Json{{"filtered", c.filtered}, {"pinched", c.pinched}, {"held", c.held}});
     return json;

@@ -43,7 +43,6 @@ constexpr double kMostSkin = 0.5, kLeastSkin = 0.125;
 /// Of the least radius: how far a vertex may end a substep from where the last search expected it, before
 /// there is another one. Two of them take half of a gap: what is not listed yet cannot have crossed.
 constexpr double kStray = 0.5;
-constexpr float kNowhere = 1e18f; ///< m: where vertices are before the first search
 /// Rows that one group can scan: 128 lanes, two loops of at most half of kMaxLoopTrips each.
 constexpr std::uint32_t kMostMeeting = 1u << 20;
 constexpr std::uint32_t kLeastCapacity = 1u << 12;
@@ -141,9 +140,11 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
     c.corner = b.add_buffer(kContactEffect, "corners of pairs", 4 * pairs * word);
     c.active = b.add_buffer(kContactEffect, "active pairs at vertices", vertices * word);
     with_real(b.plan.precision, [&](auto zero) {
-        const std::vector<glm::vec<4, decltype(zero)>> nowhere(2 * vertices,
-                                                               glm::vec<4, decltype(zero)>(kNowhere));
-        c.place = b.add_buffer<glm::vec<4, decltype(zero)>>(kContactEffect, "places at the search", nowhere);
+        using Vec = glm::vec<4, decltype(zero)>;
+        std::vector<Vec> nowhere(2 * vertices, Vec(0)); // and still
+        for (std::size_t v = 0; v < vertices; ++v)
+            nowhere[2 * v] = Vec(kBeforeSearch);
+        c.place = b.add_buffer<Vec>(kContactEffect, "places at the search", nowhere);
     });
 }
 
@@ -212,12 +213,13 @@ std::uint32_t refit_groups(std::uint32_t level)
 /// Counts vertices that are not where the last search expected them.
 void record_stray(PlanBuilder& b, const ContactBuffers& c)
 {
-    const kernels::contact_stray::Bindings<Use> uses = {.position = {b.plan.position},
-                                                        .delta = {b.plan.delta},
-                                                        .place = {c.place, 2},
-                                                        .control = {c.control, 0},
-                                                        .lost = {c.lost, 0}};
-    b.dispatch(kContactEffect, "", uses, {b.plan.vertex_count, c.every, c.stray}, b.plan.vertex_count);
+    const bool guarded = wants_guarantee(b.scene);
+    kernels::contact_stray::Bindings<Use> uses = {
+        .position = {b.plan.position}, .delta = {b.plan.delta}, .place = {c.place, 2}, .lost = {c.lost, 0}};
+    if (!guarded)
+        uses.control = {c.control, 0};
+    b.dispatch(kContactEffect, guarded ? "guarded" : "", uses, {b.plan.vertex_count, c.every, c.stray},
+               b.plan.vertex_count);
 }
 
 void record_wake(PlanBuilder& b, const ContactBuffers& c)
@@ -352,12 +354,15 @@ void prepare_contact(PlanBuilder& b)
     const double time = b.plan.timestep / b.plan.substeps * c.every;
     const double fall = 0.5 * glm::length(b.scene.gravity) * time * time;
     c.skin = static_cast<float>(skin_for(b.scene, radius) + fall);
-    c.stray = static_cast<float>(kStray * least);
+    // With the guarantee half of what guarantee_anchor allows for beside the forecast.
+    c.stray = static_cast<float>(wants_guarantee(b.scene) ? 0.5 * 0.45 * (2 * least + double(c.skin))
+                                                          : kStray * least);
     c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
     with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
     add_lists(b, c);
-    b.plan.contact = {c.control, c.lost,      c.pair,     c.side,
-                      c.taken,   c.triangles, c.capacity, wants_guarantee(b.scene)};
+    b.plan.contact = {c.control,   c.lost,     c.pair,
+                      c.side,      c.taken,    c.place,
+                      c.triangles, c.capacity, wants_guarantee(b.scene)};
 }
 
 void record_contact_search(PlanBuilder& b, const Moment&)

@@ -7,6 +7,8 @@ namespace taut {
 
 /// Pairs that a list may hold at most.
 inline constexpr std::uint32_t kMostContactPairs = 1u << 21;
+/// m: the coordinates of PlanContact::place of a vertex that makes the next substep begin with a search.
+inline constexpr float kBeforeSearch = 1e18f;
 
 /// m: how far the surface of a body keeps from the middle of its gap to another one.
 double radius_of(const Scene& scene, const Body& body);

@@ -119,6 +119,7 @@ struct PlanContact
     std::uint32_t pair = kNoBuffer;    ///< layout::ContactPair
     std::uint32_t side = kNoBuffer;    ///< layout::ContactSide<real>, a pair
     std::uint32_t taken = kNoBuffer;   ///< multipliers of the last substep, as contact_push leaves them
+    std::uint32_t place = kNoBuffer;   ///< rvec4, two a vertex: place and displacement at the last search
     std::uint32_t triangles = 0, capacity = 0;
     bool guarded = false; ///< the guarantee's counters stand behind those of `lost`
 };

@@ -161,6 +161,7 @@ ContactCounts World::contacts() const
     ContactCounts out{true,
                       words[TAUT_CONTACT_FOUND],
                       words[TAUT_CONTACT_COMPARED],
+                      words[TAUT_CONTACT_SEARCHED],
                       words[TAUT_CONTACT_MISSING],
                       lost[TAUT_CONTACT_CUT],
                       lost[TAUT_CONTACT_CROWDED],

@@ -3,6 +3,7 @@
 // Based on: velocities are those of src/world/at_step.cpp; a change of velocity is a Galilean one.
 // Departures: none.
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/world/world_impl.hpp"
 
 #include <glm/geometric.hpp>
@@ -26,6 +27,16 @@ void require_all(std::span<const glm::dvec3> values, std::size_t count, double l
         if (!(glm::length(values[v]) <= largest)) // no number is not either
             throw Error(ErrorCode::bad_input, who + ": what is given for vertex " + std::to_string(v) +
                                                   " is not finite, or too large for a simulation");
+}
+
+/// The bytes of a vector of four of `value`.
+template <typename Real>
+std::vector<std::byte> four_of(Real value)
+{
+    const glm::vec<4, Real> four(value);
+    std::vector<std::byte> out(sizeof four);
+    std::memcpy(out.data(), &four, sizeof four);
+    return out;
 }
 
 /// Which of the vertices wait, as ranges.
@@ -103,6 +114,10 @@ std::vector<InputWrite> World::Impl::take_places()
                            {first, first + static_cast<std::ptrdiff_t>(range.count * each)},
                            range.first * each});
         }
+    if (!out.empty() && plan.contact.place != kNoBuffer) // lists know of no jumps
+        out.push_back({plan.contact.place, plan.precision == Precision::float64
+                                               ? four_of<double>(kBeforeSearch)
+                                               : four_of<float>(kBeforeSearch)});
     placed = {};
     return out;
 }

@@ -79,8 +79,9 @@ struct DrivenMover
 struct ContactCounts
 {
     bool any = false;             ///< whether any surface may meet another
-    std::uint64_t pairs = 0;      ///< vertices and triangles, and edges, that may meet in the step
+    std::uint64_t pairs = 0;      ///< vertices and triangles, and edges, that may meet, of the last search
     std::uint64_t candidates = 0; ///< triangles that were compared for them, from either side
+    std::uint64_t searches = 0;   ///< substeps that began with a search, over the whole run
     std::uint64_t missing = 0;    ///< pairs that found no place in the list
     std::uint64_t cut = 0;        ///< searches of a triangle that took too many steps and ended early
     std::uint64_t crowded = 0;    ///< vertices with so many pairs that none acted on them

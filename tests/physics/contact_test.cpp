@@ -186,6 +186,31 @@ TEST_CASE("lists that are too short are counted, grow, and then miss nothing")
     CHECK(full.missing == 0);
 }
 
+TEST_CASE("a list lasts while vertices are where they were expected, and not where they are put elsewhere")
+{
+    Scene scene = two_sheets(0.004);
+    const bool guarded = GENERATE(false, true), doubles = GENERATE(false, true);
+    CAPTURE(guarded, doubles);
+    scene.gravity = glm::dvec3(0);
+    scene.contact.searches = 2;
+    scene.contact.guarantee = guarded ? "no_crossing" : "none";
+    scene.method.precision = doubles ? "double" : "float";
+    World world(scene, test_device("cpu:serial"));
+    const auto searches_of = [&](int steps) {
+        const std::uint64_t before = world.contacts().searches;
+        for (int k = 0; k < steps; ++k)
+            world.step();
+        return world.contacts().searches - before;
+    };
+    CHECK(searches_of(5) == 1);
+    world.set_positions(world.positions());
+    CHECK(searches_of(5) == 1);
+    world.set_velocities(std::vector<glm::dvec3>(world.positions().size(), glm::dvec3(0, 3, 0)));
+    const std::uint64_t substeps = 5 * world.plan().substeps, moving = searches_of(5);
+    CHECK(moving >= 8); // half a step ahead, and then on
+    CHECK(moving < substeps / 2);
+}
+
 TEST_CASE("lists that an early search of a step overflows grow, too")
 {
     // They come near and part again within a step: the last of its searches finds less.
