@@ -6,6 +6,7 @@
 #include "support/expect.hpp"
 #include "support/methods.hpp"
 #include "support/sheets.hpp"
+#include "support/thrown_run.hpp"
 #include "support/thrown_sheets.hpp"
 
 #include "taut/judge/judge.hpp"
@@ -21,78 +22,6 @@
 
 using namespace taut;
 
-namespace {
-
-/// Pairs of features that met: in a frame, or on the straight ways between two.
-struct Crossed
-{
-    std::size_t met = 0;
-    ContactCounts counts;
-};
-
-/// The vertices of a scene, and which pairs of them count: of bodies that are to meet each other, or
-/// themselves, and not all held.
-struct Meant
-{
-    const Scene& scene;
-    judging::SceneTriangles all = judging::scene_triangles(scene);
-    std::vector<bool> held = std::vector<bool>(all.body.size(), false);
-
-    explicit Meant(const Scene& of) : scene(of)
-    {
-        std::uint32_t first = 0;
-        for (const Body& body : scene.bodies)
-        {
-            for (const Pin& pin : body.pins)
-                for (const std::uint32_t v : pin.vertices)
-                    held[first + v] = true;
-            first += static_cast<std::uint32_t>(body.mesh.positions.size());
-        }
-    }
-    template <typename A, typename B>
-    bool operator()(const A& a, const B& b) const
-    {
-        const auto is_held = [&](std::uint32_t v) { return held[v]; };
-        if (std::all_of(a.begin(), a.end(), is_held) && std::all_of(b.begin(), b.end(), is_held))
-            return false;
-        return surfaces_meet(scene, all.body[a[0]], all.body[b[0]]);
-    }
-};
-
-std::size_t met_between(const Meant& meant, const judging::Judge& judge,
-                        const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& after)
-{
-    std::size_t met = 0;
-    const judging::Surface& s = judge.surface();
-    for (const judging::Passing& p : judge.between(before, after))
-        met +=
-            (p.edges ? meant(s.edges[p.a], s.edges[p.b]) : meant(std::array{p.a}, s.triangles[p.b])) ? 1 : 0;
-    for (const auto& [t, u] : judging::intersecting_triangles(s, after))
-        met += meant(s.triangles[t], s.triangles[u]) ? 1 : 0;
-    return met;
-}
-
-/// Every step is one substep where `ways`: then ways are straight between frames.
-Crossed run_thrown(const Scene& scene, int steps, bool ways, const std::string& device = "cpu:serial")
-{
-    World world(scene, test_device(device));
-    const Meant meant(world.scene());
-    std::vector<glm::dvec3> before = world.positions();
-    const judging::Judge judge(meant.all.triangles, before);
-    Crossed out;
-    for (int step = 0; step < steps; ++step)
-    {
-        world.step();
-        const std::vector<glm::dvec3> after = world.positions();
-        out.met += met_between(meant, judge, ways ? before : after, after);
-        before = after;
-    }
-    out.counts = world.contacts();
-    return out;
-}
-
-} // namespace
-
 TEST_CASE("thrown sheets never cross with the guarantee, and do without")
 {
     const double origin = GENERATE(0.0, 1.0, 30.0);
@@ -102,9 +31,9 @@ TEST_CASE("thrown sheets never cross with the guarantee, and do without")
     for (std::uint64_t seed = 0; seed < 12; ++seed)
     {
         Scene scene = test::thrown_sheets(1000 + seed, {1, 1, origin, speed, false});
-        met += run_thrown(scene, 30, true).met;
+        met += test::run_thrown(scene, 30, true).met;
         scene.contact.guarantee = "no_crossing";
-        const Crossed guarded = run_thrown(scene, 30, true);
+        const test::Crossed guarded = test::run_thrown(scene, 30, true);
         CAPTURE(seed, guarded.counts.filtered, guarded.counts.held, guarded.counts.pinched);
         CHECK(guarded.met == 0);
         CHECK(guarded.counts.pinched == 0);
@@ -127,9 +56,9 @@ TEST_CASE("thrown sheets never cross with the guarantee, under every other metho
         Scene scene = test::under(test::thrown_sheets(2000 + seed, {1, 1, 0, 40, false}), method);
         // Ways are straight where a step is one substep: explicit methods take several.
         const bool ways = World(scene, test_device("cpu:serial")).plan().substeps == 1;
-        met += run_thrown(scene, 20, ways).met;
+        met += test::run_thrown(scene, 20, ways).met;
         scene.contact.guarantee = "no_crossing";
-        const Crossed guarded = run_thrown(scene, 20, ways);
+        const test::Crossed guarded = test::run_thrown(scene, 20, ways);
         CAPTURE(seed, guarded.counts.filtered, guarded.counts.held, guarded.counts.pinched);
         CHECK(guarded.met == 0);
         CHECK(guarded.counts.pinched == 0);
@@ -191,11 +120,11 @@ TEST_CASE("what a stretched strip throws further than its search looked stops at
     scene = resolve(scene); // of two bodies both have meshes, or neither
     scene.bodies.insert(scene.bodies.begin(), sling);
     scene.method.substeps = 1; // its way is straight
-    const Crossed guarded = run_thrown(scene, 10, true);
+    const test::Crossed guarded = test::run_thrown(scene, 10, true);
     CHECK(guarded.met == 0);
     CHECK(guarded.counts.filtered > 0);
     scene.contact.guarantee = "none";
-    CHECK(run_thrown(scene, 10, true).met > 0);
+    CHECK(test::run_thrown(scene, 10, true).met > 0);
 }
 
 TEST_CASE("layers that fall together are not held up by the guarantee")
@@ -234,7 +163,7 @@ TEST_CASE("a sheet that strikes a held one at any speed ends above it, and gains
     scene.bodies[1].contact.self = true;
     scene.gravity = glm::dvec3(0);
     World world(scene, test_device("cpu:serial"));
-    const Meant meant(world.scene());
+    const test::Meant meant(world.scene());
     const judging::Judge judge(meant.all.triangles, world.positions());
     double energy = measure(world).kinetic_energy;
     const double first = energy;
@@ -268,11 +197,11 @@ TEST_CASE("a held sheet that moves pushes a free one before it")
         guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.004, 0.007})});
     const double speed = GENERATE(1.0, 10.0);
     test::hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.2 * speed, 0}}});
-    const Crossed guarded = run_thrown(resolve(scene), 12, false);
+    const test::Crossed guarded = test::run_thrown(resolve(scene), 12, false);
     CHECK(guarded.met == 0);
     CHECK((guarded.counts.pinched > 0) == (speed > 5)); // from rest it may not follow at once
     scene.contact.guarantee = "none";
-    CHECK((run_thrown(resolve(scene), 12, true).met > 0) == (speed > 5));
+    CHECK((test::run_thrown(resolve(scene), 12, true).met > 0) == (speed > 5));
 }
 
 TEST_CASE("a sheet between two held ones that close is counted as pinched, and the run goes on")
@@ -398,7 +327,7 @@ TEST_CASE("no scene of many crosses with the guarantee", "[.fuzz]")
         scene.contact.guarantee = "no_crossing";
         if (seed % 3 == 0)
             scene.contact.searches = 1;
-        const Crossed guarded = run_thrown(scene, 20, how.substeps == 1);
+        const test::Crossed guarded = test::run_thrown(scene, 20, how.substeps == 1);
         const bool pinched = guarded.counts.pinched > 0; // then nothing is promised of what is next to it
         crossed += guarded.met > 0 && !pinched ? 1 : 0;
         pinches += pinched ? 1 : 0;
