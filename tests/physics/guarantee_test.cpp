@@ -100,26 +100,42 @@ std::string refusal_of(const Scene& scene)
 
 } // namespace
 
-TEST_CASE("what a stretched strip throws further than its search looked stops at the other surface")
+namespace {
+
+/// A corner drawn far down, between two triangles that hold it; between these there is nothing.
+Body sling()
 {
-    Body sling; // a corner drawn far down, between two that hold it; between their triangles there is nothing
-    sling.shape.kind = ShapeKind::mesh;
-    sling.mesh.positions = {{0, 0.9, 0}, {0.5, 1, 0}, {0.6, 1, 0}, {-0.5, 1, 0}, {-0.6, 1, 0}};
-    sling.mesh.triangles = {{0, 1, 2}, {0, 4, 3}};
-    sling.start_positions = sling.mesh.positions;
-    sling.start_positions[0] = {0.003, -0.2, 0.005};
-    sling.material.stretch_stiffness = 1e4;
-    sling.material.thickness = 0.002;
+    Body body;
+    body.shape.kind = ShapeKind::mesh;
+    body.mesh.positions = {{0, 0.9, 0}, {0.5, 1, 0}, {0.6, 1, 0}, {-0.5, 1, 0}, {-0.6, 1, 0}};
+    body.mesh.triangles = {{0, 1, 2}, {0, 4, 3}};
+    body.start_positions = body.mesh.positions;
+    body.start_positions[0] = {0.003, -0.2, 0.005};
+    body.material.stretch_stiffness = 1e4;
+    body.material.thickness = 0.002;
     Pin pin;
     pin.vertices = {1, 2, 3, 4};
-    sling.pins = {pin};
+    body.pins = {pin};
+    return body;
+}
+
+/// A sling and another body, in one substep a step: then its way is straight.
+Scene slung(const Body& other)
+{
+    Scene scene = resolve(guarded_scene({other})); // of two bodies both have meshes, or neither
+    scene.bodies.insert(scene.bodies.begin(), sling());
+    scene.method.substeps = 1;
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("what a stretched strip throws further than its search looked stops at the other surface")
+{
     Body tile = level_sheet(2, 0.08, {0, 0, 0});
     tile.pins = {Pin{}};
     tile.pins[0].edges = {"top", "bottom", "left", "right"};
-    Scene scene = guarded_scene({tile});
-    scene = resolve(scene); // of two bodies both have meshes, or neither
-    scene.bodies.insert(scene.bodies.begin(), sling);
-    scene.method.substeps = 1; // its way is straight
+    Scene scene = slung(tile);
     const test::Crossed guarded = test::run_thrown(scene, 10, true);
     CHECK(guarded.met == 0);
     CHECK(guarded.counts.filtered > 0);
