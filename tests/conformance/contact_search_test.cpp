@@ -168,9 +168,12 @@ TEMPLATE_TEST_CASE("contact_search finds every pair that may meet, once, and non
     const std::uint32_t count = GENERATE(1u, 2u, 63u, 65u, 300u);
     const Meets which = GENERATE(Meets::all, Meets::none, Meets::some);
     const bool guarded = GENERATE(false, true);
-    CAPTURE(count, int(which), guarded);
+    const bool alike = which == Meets::all && GENERATE(false, true);
+    CAPTURE(count, int(which), guarded, alike);
     Random random(2200 + count);
-    const auto net = meeting(contact_net<Real>(count, random, 0.003), which);
+    auto net = meeting(contact_net<Real>(count, random, 0.003), which);
+    if (alike) // then what they may go astray is all that brings them together
+        std::fill(net.delta.begin(), net.delta.end(), glm::vec<4, Real>(0.006, 0.002, -0.003, 0));
     const std::map<Key, Near> wanted = all_pairs(net, which, guarded);
     const std::uint32_t capacity = 1 << 15;
     const double doubt = sizeof(Real) == 8 ? 1e-12 : 1e-5;
