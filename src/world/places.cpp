@@ -114,12 +114,16 @@ std::vector<InputWrite> World::Impl::take_places()
                            {first, first + static_cast<std::ptrdiff_t>(range.count * each)},
                            range.first * each});
         }
-    if (!out.empty() && plan.contact.place != kNoBuffer) // lists know of no jumps
-        out.push_back({plan.contact.place, plan.precision == Precision::float64
-                                               ? four_of<double>(kBeforeSearch)
-                                               : four_of<float>(kBeforeSearch)});
+    if (!out.empty() && plan.contact.place != kNoBuffer)
+        out.push_back(lists_forgotten());
     placed = {};
     return out;
+}
+
+InputWrite World::Impl::lists_forgotten() const
+{
+    return {plan.contact.place, plan.precision == Precision::float64 ? four_of<double>(kBeforeSearch)
+                                                                     : four_of<float>(kBeforeSearch)};
 }
 
 /// Now, for who looks before the next step.

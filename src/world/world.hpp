@@ -210,14 +210,16 @@ public:
     /// for one word, and takes longer lists where these are more than half full: plan() and
     /// position_buffer() change then.
     ContactCounts contacts() const;
-    /// Those that the last step's search listed, in the order of the list.
+    /// Those that the last search listed, in the order of the list.
     std::vector<SurfacePair> contact_pairs() const;
     /// Summed by bodies that push each other, ascending. Waits, as contact_pairs() does.
     std::vector<BodyContactForce> contact_forces() const;
 
     WorldState state() const;
     /// Throws Error{bad_input} when the state is of another plan (also of a cloth torn otherwise) or holds a
-    /// value that is not finite.
+    /// value that is not finite. With contact the next step begins with a search: the world that the state
+    /// is of may have gone on with an older list, which holds the same pairs that act, unless one of them had
+    /// been passed through or the guarantee cuts ways.
     void restore(const WorldState& state);
 
     /// Force on one vertex [N] from now on; needs Scene::external_forces. A value that is not finite

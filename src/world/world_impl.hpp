@@ -86,6 +86,8 @@ struct World::Impl
     template <typename Real>
     void put_places(const Vertices& where, std::span<const glm::dvec3> x);
     std::vector<InputWrite> take_places();
+    /// Of a scene with contact: vertices have jumped, of which its lists know nothing; a search comes next.
+    InputWrite lists_forgotten() const;
     void hand_over_places();
     void set_velocities(const Vertices& where, std::span<const glm::dvec3> v, const char* who);
     template <typename Real>

@@ -194,6 +194,11 @@ void World::restore(const WorldState& state)
                              state.owed.size() == state.delta.size()
                                  ? state.owed
                                  : std::vector<std::byte>(plan.buffers[plan.owed].bytes));
+    if (plan.contact.place != kNoBuffer)
+    {
+        const InputWrite forgotten = impl_->lists_forgotten();
+        impl_->device->write(impl_->buffers[forgotten.buffer], 0, forgotten.bytes);
+    }
     impl_->steps = state.step;
     impl_->guessed = false;
     impl_->push = state.push;
