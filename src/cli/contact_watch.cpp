@@ -112,7 +112,7 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             " pairs of triangles after frame " + std::to_string(most_frame_) + ", the first of " +
             most_bodies_ +
             (at_start_ > 0 ? "; they do so at the start, and contact does not part what has crossed"
-                           : "; raise contact.sweeps, contact.searches or method.substeps");
+                           : "; raise contact.sweeps or method.substeps");
         set_status(crossed, report);
     }
     // Ways are not straight between two frames. Under the guarantee they are known to be clear.
@@ -125,7 +125,7 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             "surfaces that are to meet have passed through each other: vertices and triangles, or edges, "
             "in " +
             std::to_string(passed_) + " places, first before frame " + std::to_string(passed_frame_) +
-            "; raise contact.searches, method.substeps, or shorten timestep";
+            "; raise contact.sweeps, method.substeps, or shorten timestep";
         set_status(passed, report);
     }
     if (at_start_ > 0)

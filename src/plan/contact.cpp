@@ -1,10 +1,11 @@
-// Surfaces that meet: pairs are found `contact.searches` times a step, and pushed apart in every sweep.
+// Surfaces that meet: pairs are found where vertices are not where they were expected, and pushed apart in
+// every sweep.
 //
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014 (contacts as
 //   constraints of positions); Tonge, Benevolenski, Voroshilov. SIGGRAPH 2012 (mass splitting). Each kernel
 //   of kernels/contact says more.
-// Departures: without the guarantee (guarantee.cpp) nothing forbids a crossing; what comes closer between two
-//   searches than the skin allows for is missed (docs/contact.md, "Limits").
+// Departures: without the guarantee (guarantee.cpp) nothing forbids a crossing; what comes closer within a
+//   substep than half a gap is found in the next one (docs/contact.md, "Limits").
 
 #include "taut/plan/contact.hpp"
 
