@@ -1,11 +1,11 @@
 // Where each vertex may be until the next search, whatever happens: surfaces whose pairs are not listed then
 // cannot meet. One invocation per vertex.
 //
-//   |x - (x_0 + s f)| <= |f| / 10 + 0.45 (2 r + skin) for some s in [0, 1],   f = substeps d,
+//   |x - (x_0 + s f)| <= |f| / 10 + room (2 r + skin) for some s in [0, 1],   f = substeps d,
 //
-// x_0 where it is now, d the displacement of the first substep, r the radius of its surface: contact_search
-// lists all pairs that these let meet. Where the list is too short, or a search was cut, all stand still, and
-// so do vertices with more corners of pairs than can be looked at.
+// room TAUT_GUARANTEE_ROOM in percent, x_0 where it is now, d the displacement of the first substep, r the
+// radius of its surface: contact_search lists all pairs that these let meet. Where the list is too short, or
+// a search was cut, all stand still, and so do vertices with more corners of pairs than can be looked at.
 //
 // Based on: Chen, Hsu, Liu, Macklin, Yang, Yuksel. Offset Geometric Contact. SIGGRAPH 2025 (bounds from what
 //   a search has not found).
@@ -38,7 +38,8 @@ KERNEL(count)
     rvec3 d = rvec3(delta[i]);
     real radius = body[uint(rest[i].w)].radius;
     rvec3 forecast = sound_way(rvec3(x), d) * real(substeps);
-    real bound = length(forecast) * sway() + REAL(0.45) * (real(2) * radius + real(skin));
+    real room = real(TAUT_GUARANTEE_ROOM) / real(100);
+    real bound = length(forecast) * sway() + room * (real(2) * radius + real(skin));
     bool crowded = start[i + 1u] - start[i] > TAUT_CONTACT_CROWD;
     bool holds = control[TAUT_CONTACT_HOLDS] != 0u || crowded || !is_sound(rvec3(x), d);
     bool held = x.w == real(0);

@@ -65,6 +65,10 @@
 #define TAUT_CONTACT_HELD 5
 #define TAUT_CONTACT_GUARDED_LOST_WORDS 6
 
+/// With the guarantee: how much of what a search reaches beyond a forecast each of two vertices may use up,
+/// less than half of it. In percent: compilers agree on what 45 / 100 is, in float and in double.
+#define TAUT_GUARANTEE_ROOM 45
+
 /// Trips of a query's loop, and corners of pairs at one vertex, that a device can be trusted with.
 #define TAUT_CONTACT_TRIPS 28000u
 #define TAUT_CONTACT_CROWD 1000u

@@ -1,9 +1,9 @@
 #include "taut/cli/contact_watch.hpp"
 
-#include "taut/cli/look_due.hpp"
 #include "taut/judge/crossings.hpp"
 #include "taut/judge/scene_triangles.hpp"
 #include "taut/plan/contact_scene.hpp"
+#include "taut/report/look_due.hpp"
 #include "taut/report/soundness.hpp"
 
 #include <algorithm>
@@ -11,6 +11,8 @@
 
 namespace taut::cli {
 namespace {
+
+constexpr std::uint64_t kLooks = 16; // on the way
 
 std::string name_of(const Scene& scene, std::uint32_t body)
 {
@@ -42,7 +44,7 @@ void ContactWatch::after(std::uint64_t frame)
             return;
     if (surface_.parts > 1 && before_.size() == positions.size()) // not where cloth has just torn
         look_between(frame, positions);
-    if (look_due(frame, frames_))
+    if (look_due(frame, frames_, kLooks))
         look(frame, positions);
     before_ = std::move(positions);
 }

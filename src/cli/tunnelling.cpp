@@ -1,6 +1,6 @@
 #include "taut/cli/tunnelling.hpp"
 
-#include "taut/cli/look_due.hpp"
+#include "taut/report/look_due.hpp"
 #include "taut/report/warnings.hpp"
 
 namespace taut::cli {
@@ -36,7 +36,7 @@ TunnelWatch::TunnelWatch(const Simulation& simulation, std::uint64_t frames)
 void TunnelWatch::after(std::uint64_t frame)
 {
     const double next = simulation_.time() + simulation_.scene().timestep;
-    if (look_due(frame, frames_) || next - looked_ > watch_.clear_for())
+    if (look_due(frame, frames_, kCrossingLooks) || next - looked_ > watch_.clear_for())
         look(frame);
 }
 

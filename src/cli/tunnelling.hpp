@@ -9,7 +9,7 @@
 
 namespace taut::cli {
 
-/// Shows a run to a CrossingWatch: at its start and end, sixteen times on the way, and before anything can
+/// Shows a run to a CrossingWatch: at its start and end, eight times on the way, and before anything can
 /// have come as far as the middle of a collider.
 class TunnelWatch
 {

@@ -157,19 +157,10 @@ std::uint32_t capacity_for(const PlanBuilder& b, std::size_t triangles)
     return std::min(asked > 0 ? asked : usual, kMostContactPairs);
 }
 
-/// Adds a pass over the pairs that are listed, or over the vertices while there are any.
+/// Adds a pass over as many groups as the control buffer has at `gate`: none where nothing is to be done.
 template <template <typename> typename Bindings>
-void gated(PlanBuilder& b, const Bindings<Use>& uses, const typename Bindings<Use>::Params& params,
-           std::uint32_t count, std::uint64_t gate)
-{
-    b.dispatch_indirect(kContactEffect, "", uses, params, count, b.contact->control,
-                        gate * sizeof(std::uint32_t));
-}
-
-/// Adds a pass of a search, which runs where `gate` lets it.
-template <template <typename> typename Bindings>
-void searching(PlanBuilder& b, std::string_view variant, const Bindings<Use>& uses,
-               const typename Bindings<Use>::Params& params, std::uint32_t count, std::uint64_t gate)
+void gated(PlanBuilder& b, std::string_view variant, const Bindings<Use>& uses,
+           const typename Bindings<Use>::Params& params, std::uint32_t count, std::uint64_t gate)
 {
     b.dispatch_indirect(kContactEffect, variant, uses, params, count, b.contact->control,
                         gate * sizeof(std::uint32_t));
@@ -204,6 +195,15 @@ double skin_for(const Scene& scene, double radius)
             skin = std::min(skin, room);
     }
     return skin;
+}
+
+/// m: how far a vertex may end a substep from where its search expected it; with the guarantee half of what
+/// guarantee_anchor allows for beside the forecast.
+double stray_for(const Scene& scene, double least_radius, double skin)
+{
+    if (wants_guarantee(scene))
+        return 0.5 * (TAUT_GUARANTEE_ROOM / 100.0) * (2 * least_radius + skin);
+    return kStray * least_radius;
 }
 
 std::uint32_t refit_groups(std::uint32_t level)
@@ -244,9 +244,9 @@ void record_refit(PlanBuilder& b, const ContactBuffers& c)
     const kernels::contact_refit::Bindings<Use> nodes = {.node = {c.node, 2}};
     const std::string_view variant = wants_guarantee(b.scene) ? "guarded" : "leaves";
     std::uint64_t gate = TAUT_CONTACT_GATE_LEVELS;
-    searching(b, variant, leaves, {c.leaves, c.triangles, c.every}, refit_groups(c.leaves), gate);
+    gated(b, variant, leaves, {c.leaves, c.triangles, c.every}, refit_groups(c.leaves), gate);
     for (std::uint32_t level = refit_groups(c.leaves); level > 1; level = refit_groups(level))
-        searching(b, "", nodes, {level, c.triangles, c.every}, refit_groups(level), gate += 4);
+        gated(b, "", nodes, {level, c.triangles, c.every}, refit_groups(level), gate += 4);
 }
 
 void record_lists(PlanBuilder& b, const ContactBuffers& c)
@@ -266,14 +266,13 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     const kernels::contact_search::Bindings<Use>::Params how = {n,      c.leaves, c.every,
                                                                 c.skin, c.reach,  c.capacity};
     const bool guarded = wants_guarantee(b.scene);
-    searching(b, guarded ? "guarded" : "", count, how, n, TAUT_CONTACT_GATE_TRIANGLES);
+    gated(b, guarded ? "guarded" : "", count, how, n, TAUT_CONTACT_GATE_TRIANGLES);
     kernels::contact_scan::Bindings<Use> rows = {
         .found = {c.found, n}, .start = {c.start, n}, .compared = {c.compared, n}, .control = {c.control}};
     if (guarded)
         rows.lost = {c.lost, 0};
-    searching(b, guarded ? "guarded_rows" : "rows", rows, {n, c.capacity, vertices}, 1,
-              TAUT_CONTACT_GATE_ONE);
-    searching(b, guarded ? "guarded_fill" : "fill", fill, how, n, TAUT_CONTACT_GATE_TRIANGLES);
+    gated(b, guarded ? "guarded_rows" : "rows", rows, {n, c.capacity, vertices}, 1, TAUT_CONTACT_GATE_ONE);
+    gated(b, guarded ? "guarded_fill" : "fill", fill, how, n, TAUT_CONTACT_GATE_TRIANGLES);
     const kernels::contact_make::Bindings<Use> make = {.pair = {c.pair},
                                                        .position = {b.plan.position, 4},
                                                        .rest = {c.rest, 4},
@@ -281,25 +280,25 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                        .control = {c.control, 0},
                                                        .side = {c.side},
                                                        .corners = {c.corners, 4}};
-    gated(b, make, {c.capacity, friction_mix_of(b.scene)}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
+    gated(b, "", make, {c.capacity, friction_mix_of(b.scene)}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
     const kernels::contact_scan::Bindings<Use> places = {.found = {c.corners, vertices},
                                                          .start = {c.corner_start, vertices}};
-    searching(b, "", places, {vertices, 0, vertices}, 1, TAUT_CONTACT_GATE_ONE);
+    gated(b, "", places, {vertices, 0, vertices}, 1, TAUT_CONTACT_GATE_ONE);
     const kernels::contact_corners::Bindings<Use> corners = {.pair = {c.pair},
                                                              .control = {c.control, 0},
                                                              .start = {c.corner_start, 4},
                                                              .corner = {c.corner, 4},
                                                              .taken = {c.placed, 4}};
-    gated(b, corners, {c.capacity}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
+    gated(b, "", corners, {c.capacity}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
     const kernels::contact_sort::Bindings<Use> sort = {.start = {c.corner_start, 2},
                                                        .corner = {c.corner},
                                                        .corners = {c.corners},
                                                        .taken = {c.placed},
                                                        .lost = {c.lost, 0}};
-    searching(b, "", sort, {vertices}, vertices, TAUT_CONTACT_GATE_VERTICES);
+    gated(b, "", sort, {vertices}, vertices, TAUT_CONTACT_GATE_VERTICES);
     const kernels::contact_stray::Bindings<Use> keep = {
         .position = {b.plan.position}, .delta = {b.plan.delta}, .place = {c.place, 2}};
-    searching(b, "keep", keep, {vertices, c.every, c.stray}, vertices, TAUT_CONTACT_GATE_VERTICES);
+    gated(b, "keep", keep, {vertices, c.every, c.stray}, vertices, TAUT_CONTACT_GATE_VERTICES);
 }
 
 void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
@@ -312,7 +311,7 @@ void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
                                                      .side = {c.side},
                                                      .row = {c.row, 2},
                                                      .acting = {c.active, 4}};
-    gated(b, gap, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    gated(b, "", gap, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
     const kernels::contact_push::Bindings<Use> push = {.pair = {c.pair},
                                                        .position = {b.plan.position, 4},
                                                        .control = {c.control, 0},
@@ -321,7 +320,7 @@ void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
                                                        .acting = {c.active, 4},
                                                        .taken = {c.taken},
                                                        .impulse = {c.impulse}};
-    gated(b, push, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    gated(b, "", push, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
     const kernels::contact_move::Bindings<Use> move = {.start = {c.corner_start, 2},
                                                        .corner = {c.corner},
                                                        .row = {c.row},
@@ -329,7 +328,7 @@ void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
                                                        .position = {b.plan.position},
                                                        .delta = {b.plan.delta},
                                                        .acting = {c.active}};
-    gated(b, move, {b.plan.vertex_count}, b.plan.vertex_count, TAUT_CONTACT_VERTEX_GROUPS);
+    gated(b, "", move, {b.plan.vertex_count}, b.plan.vertex_count, TAUT_CONTACT_VERTEX_GROUPS);
 }
 
 } // namespace
@@ -355,9 +354,7 @@ void prepare_contact(PlanBuilder& b)
     const double time = b.plan.timestep / b.plan.substeps * c.every;
     const double fall = 0.5 * glm::length(b.scene.gravity) * time * time;
     c.skin = static_cast<float>(skin_for(b.scene, radius) + fall);
-    // With the guarantee half of what guarantee_anchor allows for beside the forecast.
-    c.stray = static_cast<float>(wants_guarantee(b.scene) ? 0.5 * 0.45 * (2 * least + double(c.skin))
-                                                          : kStray * least);
+    c.stray = static_cast<float>(stray_for(b.scene, least, static_cast<double>(c.skin)));
     c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
     with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
     add_lists(b, c);

@@ -34,6 +34,8 @@ struct Crossings
 /// What may_tunnel goes by. docs/statuses.md tells how they were chosen.
 inline constexpr double kTunnelHole = 1;     ///< a hole between vertices over the width of a collider
 inline constexpr double kTunnelTravel = 0.5; ///< relative way of a vertex in a substep / a collider's size
+/// Looks at a run on the way, beside those that must not come later (CrossingWatch::clear_for).
+inline constexpr std::uint64_t kCrossingLooks = 8;
 
 /// Watches one run. Needs no device; not thread-safe. Throws nothing but std::bad_alloc. A look costs about
 /// one sweep over the vertices of bodies, and over those groups of triangles that are near a collider or that
