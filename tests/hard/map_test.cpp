@@ -173,6 +173,7 @@ TEST_CASE("F8: every cell of the robustness map is as committed [hard]")
 
 TEST_CASE("F8: the cells end in the same bits on every executor [hard]")
 {
+    REQUIRE(!all_cells().empty()); // all that is asserted where cpu:serial stands alone
     for (const std::string& selector : test_devices())
     {
         if (selector == "cpu:serial" || (short_run() && selector.starts_with("opengl")))
