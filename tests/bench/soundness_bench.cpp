@@ -88,14 +88,14 @@ void measure_row(const char* name, Scene scene, const char* method, const std::s
         motion.push_back(ms_of([&] { judge(budget, world, Judged::motion); }));
         state.push_back(ms_of([&] { judge(budget, world); }));
         const bool due = look_due(static_cast<std::uint64_t>(k) + 1, kFrames, kCrossingLooks);
-        if (!due && world.time() + world.scene().timestep - looked <= watch.clear_for())
+        if (!watch.needed() || (!due && world.time() + world.scene().timestep - looked <= watch.clear_for()))
             continue;
         looked = world.time();
         crossing.push_back(ms_of([&] {
             const std::vector<glm::dvec3> x = world.positions(), v = world.velocities();
             watch.look(static_cast<std::uint64_t>(k), world.time(), world.drive().substep, x, v);
         }));
-        crossings += watch.needed() ? crossing.back() : 0;
+        crossings += crossing.back();
     }
     const std::uint64_t every = frames_between_looks(world.plan(), kFrames);
     const double looks = double(kFrames) / double(every) * median(motion) + kStrainLooks * median(state);

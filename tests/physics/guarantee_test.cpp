@@ -75,16 +75,6 @@ Body level_sheet(std::uint32_t cells, double size, const glm::dvec3& centre)
     return test::level_sheet(cells, size, centre, 0.001);
 }
 
-Scene guarded_scene(std::vector<Body> bodies)
-{
-    Scene scene;
-    scene.bodies = std::move(bodies);
-    scene.contact.between = true;
-    scene.contact.guarantee = "no_crossing";
-    scene.method.substeps = 10;
-    return scene;
-}
-
 std::string refusal_of(const Scene& scene)
 {
     try
@@ -122,7 +112,7 @@ Body sling()
 /// A sling and another body, in one substep a step: then its way is straight.
 Scene slung(const Body& other)
 {
-    Scene scene = resolve(guarded_scene({other})); // of two bodies both have meshes, or neither
+    Scene scene = resolve(test::guarded_scene({other})); // of two bodies both have meshes, or neither
     scene.bodies.insert(scene.bodies.begin(), sling());
     scene.method.substeps = 1;
     return scene;
@@ -145,7 +135,7 @@ TEST_CASE("what a stretched strip throws further than its search looked stops at
 
 TEST_CASE("layers that fall together are not held up by the guarantee")
 {
-    Scene scene = guarded_scene({});
+    Scene scene = test::guarded_scene({});
     for (int k = 0; k < 4; ++k)
     {
         Body sheet = level_sheet(6, 0.12, {0.001 * k, 0.004 * k, 0});
@@ -173,7 +163,7 @@ TEST_CASE("a sheet that strikes a held one at any speed ends above it, and gains
     const double speed = GENERATE(3.0, 30.0, 300.0);
     CAPTURE(speed);
     Scene scene =
-        guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.05, 0.007})});
+        test::guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.05, 0.007})});
     test::hold_all(scene.bodies[0], {});
     scene.bodies[1].velocity = {0, -speed, 0};
     scene.bodies[1].contact.self = true;
@@ -210,7 +200,7 @@ TEST_CASE("a sheet that strikes a held one at any speed ends above it, and gains
 TEST_CASE("a held sheet that moves pushes a free one before it")
 {
     Scene scene =
-        guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.004, 0.007})});
+        test::guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.004, 0.007})});
     const double speed = GENERATE(1.0, 10.0);
     test::hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.2 * speed, 0}}});
     const test::Crossed guarded = test::run_thrown(resolve(scene), 12, false);
@@ -222,8 +212,9 @@ TEST_CASE("a held sheet that moves pushes a free one before it")
 
 TEST_CASE("a sheet between two held ones that close is counted as pinched, and the run goes on")
 {
-    Scene scene = guarded_scene({level_sheet(8, 0.2, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.02, 0.007}),
-                                 level_sheet(8, 0.2, {0.003, 0.04, 0.002})});
+    Scene scene =
+        test::guarded_scene({level_sheet(8, 0.2, {0, 0, 0}), level_sheet(5, 0.1, {0.011, 0.02, 0.007}),
+                             level_sheet(8, 0.2, {0.003, 0.04, 0.002})});
     test::hold_all(scene.bodies[0], {});
     test::hold_all(scene.bodies[2], {{0, glm::dvec3(0)}, {0.2, {0, -0.039, 0}}, {0.3, {0, -0.06, 0}}});
     World world(scene, test_device("cpu:serial"));
@@ -244,7 +235,7 @@ TEST_CASE("a sheet between two held ones that close is counted as pinched, and t
 TEST_CASE("with the guarantee a step whose lists are too short is done again, bit for bit")
 {
     Scene scene =
-        guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.02, 0.007})});
+        test::guarded_scene({level_sheet(10, 0.3, {0, 0, 0}), level_sheet(7, 0.15, {0.011, 0.02, 0.007})});
     // Inputs that change in every step.
     test::hold_all(scene.bodies[0], {{0, glm::dvec3(0)}, {0.2, {0, 0.05, 0}}});
     scene.bodies[1].velocity = {0, -1, 0};
@@ -300,7 +291,7 @@ TEST_CASE("the guarantee is the same bit for bit on every executor")
 TEST_CASE("the guarantee is refused by name where it cannot be given")
 {
     using Catch::Matchers::Contains;
-    Scene alone = guarded_scene({level_sheet(3, 0.1, {0, 0, 0})});
+    Scene alone = test::guarded_scene({level_sheet(3, 0.1, {0, 0, 0})});
     CHECK_THAT(refusal_of(alone), Contains("contact.guarantee") && Contains("no surfaces meet"));
     alone.bodies[0].contact.self = true;
     CHECK(refusal_of(alone).empty());

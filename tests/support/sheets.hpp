@@ -5,6 +5,9 @@
 
 #include "taut/world/world.hpp"
 
+#include <utility>
+#include <vector>
+
 namespace taut::test {
 
 /// A square of cloth that lies level; `radius`: its thickness, m.
@@ -19,6 +22,17 @@ inline Body level_sheet(std::uint32_t cells, double size, const glm::dvec3& cent
     body.transform.rotate_degrees = -90;
     body.transform.translate = centre;
     return body;
+}
+
+/// Bodies that meet and never cross, in ten substeps a step.
+inline Scene guarded_scene(std::vector<Body> bodies)
+{
+    Scene scene;
+    scene.bodies = std::move(bodies);
+    scene.contact.between = true;
+    scene.contact.guarantee = "no_crossing";
+    scene.method.substeps = 10;
+    return scene;
 }
 
 /// A pin of all vertices within 10 m of the origin, which goes as `motion` says.
