@@ -52,7 +52,10 @@ struct ElementForm
 #endif
 };
 
-/// sum w_i |grad_i C|^2 over two, three and four corners; w_i: inverse masses, 1/kg.
+/// sum w_i |grad_i C|^2 over two, three and four corners; w_i: inverse masses, 1/kg. Of four corners no less
+/// than the largest w_i sum |grad_i C|^2 / 64: where the corners that move have hardly a part in C (a hinge
+/// whose wings are held, by the end that is in line with both), dividing by their part alone would send them
+/// far off. With that floor none goes further than 8 |C| / sqrt(sum |grad_i C|^2).
 INLINE real row_weight(ElementRow row, real w0, real w1)
 {
     real weight = w0 * row.s0 + w1 * row.s1;
@@ -66,7 +69,9 @@ INLINE real row_weight(ElementRow row, real w0, real w1, real w2)
 INLINE real row_weight(ElementRow row, real w0, real w1, real w2, real w3)
 {
     real weight = row_weight(row, w0, w1, w2) + w3 * row.s3;
-    return weight;
+    real lightest = max(max(w0, w1), max(w2, w3));
+    real slopes = (row.s0 + row.s1) + (row.s2 + row.s3);
+    return max(weight, lightest * slopes / real(64));
 }
 
 // The arguments that stand for all corners: a kernel calls their positions x0 .. x3, with the inverse mass in

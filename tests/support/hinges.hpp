@@ -82,6 +82,7 @@ inline std::span<const SpecialHinge> special_hinges()
         {{o, e, up, up}, -3.0, {1, 1, 1, 1}},       // folded, rest angle across the border
         {{o, e, up, glm::dvec3(0.5, 1, 1e-3)}, -3.1, {1, 1, 0, 0}}, // nearly folded, wings held
         {{o, e, up, glm::dvec3(0.5, 1, -1e-3)}, 3.1, {0, 0, 1, 1}}, // the other way, edge held
+        {{o, e, glm::dvec3(0.01, 1, 0), glm::dvec3(0.02, -1, 0)}, 0.3, {0, 1, 0, 0}}, // hardly a part in it
     };
     return specials;
 }

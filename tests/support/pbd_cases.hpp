@@ -80,11 +80,15 @@ Request request(const State& s, const Bend<Real>& c, float share)
     if (thin <= 1e-5 * size || masses == 0)
         return out;
     const Dual<12> angle = hinge_angle(x);
-    double weight = 0;
+    double weight = 0, slopes = 0, lightest = 0;
     for (std::size_t i = 0; i < 12; ++i)
-        weight += s.position[out.vertex[i / 3]].w * angle.slope[i] * angle.slope[i];
-    if (weight == 0)
-        return out;
+    {
+        const double w = s.position[out.vertex[i / 3]].w, square = angle.slope[i] * angle.slope[i];
+        weight += w * square;
+        slopes += square;
+        lightest = std::max(lightest, w);
+    }
+    weight = std::max(weight, lightest * slopes / 64); // corners that move have hardly a part in C
     const double k = static_cast<double>(share);
     const double value = std::remainder(angle.value - static_cast<double>(c.rest_angle), 2 * kPi);
     // A thin triangle turns with the rounding of its corners: that many times more of everything.
@@ -117,18 +121,21 @@ Request request(const State& s, const Volume<Real>& c, float share)
         inherited += s.delta_scale[out.vertex[v]];
     }
     const std::array<glm::dvec3, 4> g = volume_slopes(x);
-    double weight = 0, fastest = 0, unsure = 0;
+    double weight = 0, fastest = 0, unsure = 0, slopes = 0, lightest = 0;
     const double turn = size * (size + inherited); // roundings of corners go into products of two edges
     for (std::size_t v = 0; v < 4; ++v)
     {
         const double w = s.position[out.vertex[v]].w, slope = glm::length(g[v]);
         weight += w * slope * slope;
+        slopes += slope * slope;
+        lightest = std::max(lightest, w);
         unsure += 2 * w * slope * turn;
         fastest = std::max(fastest, w * slope);
     }
-    out.degenerate = weight == 0 && masses > 0;
-    if (weight == 0)
+    out.degenerate = fastest == 0 && masses > 0;
+    if (fastest == 0)
         return out;
+    weight = std::max(weight, lightest * slopes / 64); // corners that move have hardly a part in C
     const double k = static_cast<double>(share), rest = static_cast<double>(c.rest_volume);
     const double wanted = (rest - triple(x) / 6) * k / weight;
     const double scale = std::clamp(wanted, -reach / fastest, reach / fastest);
