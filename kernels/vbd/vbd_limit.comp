@@ -2,8 +2,9 @@
 // brought towards the fallback of vbd_rise, by as much as takes the surplus away. With A the kinetic energy
 // at the start and R what the fallback has less of kinetic and elastic energy than the end, after the work
 // of gravity, an energy that is convex on the way is at most s R - A above that at the start when a share s
-// of the way is taken; so s = A / R where R > A. One group per part of a body; every group of a body adds up
-// the sums alike.
+// of the way is taken; so s = (A + B) / R where R > A + B. B is what the substeps before lost, but no more than
+// A: sweeps that are not at their end store in one substep what the next ones give back. One group per part of
+// a body; every group of a body adds up the sums alike, and keeps B alike.
 //
 // Based on: Dinev et al. Stabilizing Integrators for Real-Time Physics. ACM TOG 37(1), 2018: energy is
 //   brought back to what it was by blending two states.
@@ -25,6 +26,7 @@ READ(0, uint, row);      // as in vbd_rise
 READ(1, rvec4, low);     // m
 READ(2, real, sums);     // of vbd_rise
 UPDATE(3, rvec4, delta); // m
+UPDATE(4, real, lost);   // by group, J: B
 
 SHARED(real, sum, 640);
 
@@ -55,7 +57,8 @@ GROUP_KERNEL(64)
     came = held ? rvec3(real(0)) : came;
     real had = real(0.5) * max(sum[9] - sum[1] * dot(came, came), real(0));
     real has = sum[0] + real(0.5) * max(sum[8] - sum[1] * dot(mean, mean), real(0));
-    real share = has > had ? had / has : real(1);
+    real spare = min(lost[mine], had);
+    real share = has > had + spare ? (had + spare) / has : real(1);
     uint at = TAUT_VBD_SUMS * mine + 10u;
     rvec3 way = held ? rvec3(real(0)) : mean + rvec3(sums[at], sums[at + 1u], sums[at + 2u]);
     uint last = group < groups && share < real(1) ? row[own + 2u] : 0u;
@@ -65,4 +68,8 @@ GROUP_KERNEL(64)
     rvec3 still = rvec3(low[v]) + way;
     delta[v] = rvec4(still + (rvec3(d) - still) * share, d.w);
     EACH_END
+    LANES_BEGIN(1)
+    if (group < groups)
+        lost[mine] = min(spare - min(has - had, spare), had);
+    LANES_END
 }

@@ -49,6 +49,7 @@ struct BlockBuffers
     }
     /// Of bodies' sums (vbd_rise, vbd_drift): groups, and where in `row` their table is.
     std::uint32_t groups = 0, table = 0, sums = kNoBuffer;
+    std::uint32_t lost = kNoBuffer; ///< by group: energy that a body lost of late, J (vbd_limit)
     std::vector<std::uint32_t> group_start; ///< first of each body, and the end
     bool loose = false; ///< a body of which nothing is held
     std::uint32_t row = kNoBuffer, ends = kNoBuffer, corners = kNoBuffer;

@@ -88,7 +88,7 @@ void record_limit(PlanBuilder& b)
         return;
     record_rise(b, true);
     const kernels::vbd_limit::Bindings<Use> uses = {
-        .row = {f.row, 1}, .low = {b.plan.low}, .sums = {f.sums, 0}, .delta = {b.plan.delta}};
+        .row = {f.row, 1}, .low = {b.plan.low}, .sums = {f.sums, 0}, .delta = {b.plan.delta}, .lost = {f.lost}};
     b.dispatch("vbd_start", "", uses, {f.groups, f.table, f.row_words()}, f.groups, f.rows);
 }
 
@@ -144,10 +144,14 @@ std::vector<std::uint32_t> guard_table(const PlanBuilder& b, BlockBuffers& f,
 void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
 {
     if (guarded(b))
+    {
         f.sums =
             b.add_buffer("vbd_start", "sums of the rise",
                          (std::uint64_t(f.groups) * std::max(TAUT_VBD_SUMS, TAUT_VBD_DRIFT) + TAUT_VBD_FALL) *
                              b.real_size());
+        f.lost = b.add_buffer("vbd_start", "lost energy", std::max(f.groups, 1u) * b.real_size());
+        b.plan.kept.push_back(f.lost);
+    }
     const std::uint64_t n = b.plan.vertex_count;
     if (adaptive(b) || !f.omega.empty())
         f.support = b.add_buffer<std::uint32_t>("vbd_start", "support", support_of(b));

@@ -9,7 +9,8 @@
 //   Spanned bodies sag by L sqrt(3 e / 8) at a strain of e, so they may have less of it. Solids under xpbd
 //   bend: material of speed of sound c acts as if softer by (c h / edge)^2, so that a bar of length L and
 //   thickness t clamped at its end sags by 3/2 rho g L^4 / (E t^2) times that, 3/2 g h^2 L^4 / (t edge)^2,
-//   too far. Measured in docs/methods.md.
+//   too far. What lands on a few vertices carries all of the body by them. Under vbd a sweep carries what happened at a vertex over about one edge: held bodies take as many
+//   as their waves need. Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
@@ -136,6 +137,7 @@ double thickness_of(const Body& body)
 }
 
 constexpr double kSofter = 0.2;
+constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
 
 /// s: the longest substep in which a held solid sags by no more than is seen too far, or acts as stiff as it
 /// is but for kSofter; 0 where nothing holds it.
@@ -148,6 +150,44 @@ double longest_for_solid(const Body& body, const SweepLoad& load, double gravity
     const double seen = thick * load.edge * std::sqrt(kSeenWay / (1.5 * gravity * length * length * length));
     const double sound = std::sqrt(body.material.youngs_modulus / body.material.density);
     return std::max(seen, load.edge * std::sqrt(kSofter) / sound);
+}
+
+/// s: the longest substep in which a free solid stands on its lowest vertices without leaving more strain above
+/// them than kSweepStrain, or acts as stiff as it is but for kSofter. Boxes stand on a face, balls on a point.
+double longest_for_standing(const Body& body, const SweepLoad& load, const glm::dvec3& gravity)
+{
+    const double g = glm::length(gravity);
+    if (!body.pins.empty() || body.mesh.tetrahedra.empty() || !(body.material.youngs_modulus > 0))
+        return HUGE_VAL;
+    double lowest = -HUGE_VAL, lying = 0;
+    for (const glm::dvec3& p : body.mesh.positions)
+        lowest = std::max(lowest, glm::dot(p, gravity) / g);
+    for (const glm::dvec3& p : body.mesh.positions)
+        lying += glm::dot(p, gravity) / g >= lowest - 0.1 * load.edge ? 1 : 0;
+    const double carried = static_cast<double>(body.mesh.positions.size()) / lying;
+    const double sound = std::sqrt(body.material.youngs_modulus / body.material.density);
+    return std::max(std::sqrt(kSweepStrain * load.edge / (2 * carried * g)),
+                    load.edge * std::sqrt(kSofter) / sound);
+}
+
+/// (m/s)^2 of waves along a body: of a fabric along its stiffer yarns.
+double wave_speed_squared(const Body& body)
+{
+    const Material& m = body.material;
+    if (!(m.density > 0))
+        return 0;
+    if (!body.mesh.tetrahedra.empty())
+        return m.youngs_modulus / m.density;
+    const double along = m.fabric.used ? std::max(m.fabric.warp, m.fabric.weft) : m.stretch_stiffness;
+    return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
+}
+
+/// s: the longest substep in which sweeps over the vertices of a held body carry its waves on; 0 where nothing
+/// holds it.
+double longest_for_waves(const Body& body, const SweepLoad& load, double iterations)
+{
+    const double square = body.pins.empty() ? 0 : wave_speed_squared(body);
+    return square > 0 ? load.edge * std::sqrt(kWave * iterations / square) : 0;
 }
 
 } // namespace
@@ -221,6 +261,12 @@ std::uint32_t automatic_substeps(const Scene& scene)
             const double solid = method.type == "xpbd" ? longest_for_solid(body, load, g) : 0;
             if (solid > 0)
                 most = std::max(most, std::ceil(scene.timestep / (std::sqrt(method.iterations) * solid)));
+            if (method.type == "xpbd" && (!scene.colliders.empty() || scene.contact.between))
+                most = std::max(most, std::ceil(scene.timestep / (std::sqrt(method.iterations) *
+                                                                  longest_for_standing(body, load, scene.gravity))));
+            const double waves = method.type == "vbd" ? longest_for_waves(body, load, method.iterations) : 0;
+            if (waves > 0)
+                most = std::max(most, std::ceil(scene.timestep / waves));
         }
     return static_cast<std::uint32_t>(std::min<double>(most, kMostAutomaticSubsteps));
 }

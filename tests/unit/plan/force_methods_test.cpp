@@ -77,7 +77,7 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     CHECK(dispatches(plan, "vbd_start") == 3 * (2 + 4)); // the guard and the limit are two each
     CHECK(plan.passes.size() == 3 * (2 + 6 + 4 * colours));
     CHECK(plan.constraint_counts().at("vbd_solve") == 81 - 2);
-    CHECK(plan.kept.size() == 1);
+    CHECK(plan.kept.size() == 2); // shares of gravity, lost energy
 
     scene.method.start = "inertial";
     plan = make_plan(scene, apart);
@@ -93,12 +93,12 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4));
     CHECK(dispatches(plan, "plane") == 3); // once a substep
     CHECK(plan.passes.size() == 3 * (2 + 7 + 4 * colours + 1));
-    CHECK(plan.kept.size() == 3);
+    CHECK(plan.kept.size() == 4);
     Scene loose = scene; // momentum is for what nothing holds: two passes, and what contacts pushed
     loose.bodies[0].pins.clear();
     plan = make_plan(loose, apart);
     CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4 + 2));
-    CHECK(plan.kept.size() == 4);
+    CHECK(plan.kept.size() == 5);
 
     DeviceTraits dear; // dispatches that cost much: all colours in one group
     dear.dispatch_ns = 1e9;

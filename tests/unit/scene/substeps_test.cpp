@@ -61,3 +61,50 @@ TEST_CASE("a held solid takes what its stiffness asks for, up to where nobody se
     scene.bodies[0].pins.clear();
     CHECK(substeps(1e10) == 10);
 }
+
+TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[substeps]")
+{
+    Scene scene = test::hanging(12);
+    scene.method.substeps = 0;
+    const auto substeps = [&](const char* method, double stiffness) {
+        scene.method.type = method;
+        scene.bodies[0].material.stretch_stiffness = stiffness;
+        return resolve(scene).method.substeps;
+    };
+    const std::uint32_t soft = substeps("vbd", 1e3), stiff = substeps("vbd", 1e5);
+    CHECK(stiff == Approx(10 * soft).margin(10)); // as the root of the stiffness
+    CHECK(substeps("xpbd", 1e3) == substeps("xpbd", 1e5));
+    scene.method.iterations = 4;
+    CHECK(substeps("vbd", 1e5) == Approx(stiff / 2.0).margin(1));
+    scene.bodies[0].pins.clear();
+    CHECK(substeps("vbd", 1e5) < stiff / 4);
+}
+
+TEST_CASE("a free solid that may come to stand on a point takes more substeps than one on a face", "[substeps]")
+{
+    Scene scene;
+    scene.bodies.resize(1);
+    Body& body = scene.bodies[0];
+    body.shape.kind = ShapeKind::ball;
+    body.shape.ball_cells = 10;
+    body.shape.radius = 0.05;
+    body.material.density = 1100;
+    body.material.youngs_modulus = 1e8;
+    scene.method.type = "xpbd";
+    scene.method.substeps = 0;
+    const auto substeps = [&] { return resolve(scene).method.substeps; };
+    const std::uint32_t falling = substeps();
+    Collider floor;
+    floor.kind = ColliderKind::plane;
+    scene.colliders = {floor};
+    const std::uint32_t on_a_point = substeps();
+    CHECK(on_a_point > 80); // 40 still make energy there (docs/methods.md)
+    CHECK(on_a_point > 2 * falling);
+    body.material.youngs_modulus = 1e4;
+    CHECK(substeps() == falling); // soft: weight strains it more than a sweep leaves
+    body.material.youngs_modulus = 1e8;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {10, 10, 10};
+    body.shape.box_size = {0.1, 0.1, 0.1};
+    CHECK(substeps() < on_a_point / 2);
+}
