@@ -140,20 +140,21 @@ constexpr double kSofter = 0.2;
 constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
 
 /// s: the longest substep in which a held solid sags by no more than is seen too far, or acts as stiff as it
-/// is but for kSofter; 0 where nothing holds it.
+/// is but for kSofter; no limit for others.
 double longest_for_solid(const Body& body, const SweepLoad& load, double gravity)
 {
     const double thick = body.pins.empty() ? 0 : thickness_of(body);
     if (!(thick > 0) || body.mesh.tetrahedra.empty() || !(body.material.youngs_modulus > 0))
-        return 0;
+        return HUGE_VAL;
     const double length = load.reach * load.edge;
     const double seen = thick * load.edge * std::sqrt(kSeenWay / (1.5 * gravity * length * length * length));
     const double sound = std::sqrt(body.material.youngs_modulus / body.material.density);
     return std::max(seen, load.edge * std::sqrt(kSofter) / sound);
 }
 
-/// s: the longest substep in which a free solid stands on its lowest vertices without leaving more strain above
-/// them than kSweepStrain, or acts as stiff as it is but for kSofter. Boxes stand on a face, balls on a point.
+/// s: the longest substep in which a free solid stands on its lowest vertices and leaves no more strain above
+/// them than kSweepStrain, or acts as stiff as it is but for kSofter; no limit for others. Boxes stand on a
+/// face, balls on a point.
 double longest_for_standing(const Body& body, const SweepLoad& load, const glm::dvec3& gravity)
 {
     const double g = glm::length(gravity);
@@ -182,12 +183,12 @@ double wave_speed_squared(const Body& body)
     return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
 }
 
-/// s: the longest substep in which sweeps over the vertices of a held body carry its waves on; 0 where nothing
-/// holds it.
+/// s: the longest substep in which sweeps over the vertices of a held body carry its waves on; no limit where
+/// nothing holds it.
 double longest_for_waves(const Body& body, const SweepLoad& load, double iterations)
 {
     const double square = body.pins.empty() ? 0 : wave_speed_squared(body);
-    return square > 0 ? load.edge * std::sqrt(kWave * iterations / square) : 0;
+    return square > 0 ? load.edge * std::sqrt(kWave * iterations / square) : HUGE_VAL;
 }
 
 } // namespace
@@ -240,34 +241,41 @@ SweepLoad sweep_load(const Body& body)
     return out;
 }
 
-std::uint32_t automatic_substeps(const Scene& scene)
+namespace {
+
+/// s: the longest substep that a body allows a method which sweeps.
+double longest_substep(const Scene& scene, const Body& body, double g)
 {
     const MethodSettings& method = scene.method;
+    const SweepLoad load = sweep_load(body);
+    if (!(load.edge > 0))
+        return HUGE_VAL;
+    const double sweeps = std::sqrt(method.iterations);
+    const double open = 2 * std::max(load.vertices, 1.0) * g; // m/s^2: see "Based on"
+    if (method.type == "vbd")
+        return std::min(sweeps * std::sqrt(kSweepStrain * load.edge / open),
+                        longest_for_waves(body, load, method.iterations));
+    const double strain = is_spanned(body, scene.gravity)
+                              ? std::min(kSweepStrain, 8.0 / 3 * kSeenWay * kSeenWay)
+                              : kSweepStrain;
+    double longest = std::sqrt(strain * load.edge / open);
+    if (method.type == "xpbd")
+        longest = std::min(longest, longest_for_solid(body, load, g));
+    if (method.type == "xpbd" && (!scene.colliders.empty() || scene.contact.between))
+        longest = std::min(longest, longest_for_standing(body, load, scene.gravity));
+    return sweeps * longest;
+}
+
+} // namespace
+
+std::uint32_t automatic_substeps(const Scene& scene)
+{
+    const std::string& method = scene.method.type;
     const double g = glm::length(scene.gravity);
     double most = kLeastSubsteps;
-    const bool sweeps = method.type == "xpbd" || method.type == "pbd" || method.type == "vbd";
-    if (sweeps && g > 0)
+    if ((method == "xpbd" || method == "pbd" || method == "vbd") && g > 0)
         for (const Body& body : scene.bodies)
-        {
-            const SweepLoad load = sweep_load(body);
-            if (!(load.edge > 0))
-                continue;
-            const double open = 2 * std::max(load.vertices, 1.0) * g; // m/s^2: see "Based on"
-            const double strain = method.type != "vbd" && is_spanned(body, scene.gravity)
-                                      ? std::min(kSweepStrain, 8.0 / 3 * kSeenWay * kSeenWay)
-                                      : kSweepStrain;
-            const double longest = std::sqrt(strain * method.iterations * load.edge / open);
-            most = std::max(most, std::ceil(scene.timestep / longest));
-            const double solid = method.type == "xpbd" ? longest_for_solid(body, load, g) : 0;
-            if (solid > 0)
-                most = std::max(most, std::ceil(scene.timestep / (std::sqrt(method.iterations) * solid)));
-            if (method.type == "xpbd" && (!scene.colliders.empty() || scene.contact.between))
-                most = std::max(most, std::ceil(scene.timestep / (std::sqrt(method.iterations) *
-                                                                  longest_for_standing(body, load, scene.gravity))));
-            const double waves = method.type == "vbd" ? longest_for_waves(body, load, method.iterations) : 0;
-            if (waves > 0)
-                most = std::max(most, std::ceil(scene.timestep / waves));
-        }
+            most = std::max(most, std::ceil(scene.timestep / longest_substep(scene, body, g)));
     return static_cast<std::uint32_t>(std::min<double>(most, kMostAutomaticSubsteps));
 }
 

@@ -5,7 +5,8 @@
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("vbd_limit takes the share of a body's way that makes no more energy than it lost of late", "", float, double)
+TEMPLATE_TEST_CASE("vbd_limit takes the share of a way that makes no more energy than was lost", "", float,
+                   double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 65u, 1000u);

@@ -80,7 +80,7 @@ TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[su
     CHECK(substeps("vbd", 1e5) < stiff / 4);
 }
 
-TEST_CASE("a free solid that may come to stand on a point takes more substeps than one on a face", "[substeps]")
+TEST_CASE("a free solid that stands on a point takes more substeps than one on a face", "[substeps]")
 {
     Scene scene;
     scene.bodies.resize(1);
