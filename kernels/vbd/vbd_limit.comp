@@ -2,9 +2,9 @@
 // brought towards the fallback of vbd_rise, by as much as takes the surplus away. With A the kinetic energy
 // at the start and R what the fallback has less of kinetic and elastic energy than the end, after the work
 // of gravity, an energy that is convex on the way is at most s R - A above that at the start when a share s
-// of the way is taken; so s = (A + B) / R where R > A + B. B is what the substeps before lost, but no more than
-// A: sweeps that are not at their end store in one substep what the next ones give back. One group per part of
-// a body; every group of a body adds up the sums alike, and keeps B alike.
+// of the way is taken; so s = (A + B) / R where R > A + B. B is what the substeps before lost, but no more
+// than A: sweeps that are not at their end store in one substep what the next ones give back. One group per
+// part of a body; every group of a body adds up the sums alike, and keeps B alike.
 //
 // Based on: Dinev et al. Stabilizing Integrators for Real-Time Physics. ACM TOG 37(1), 2018: energy is
 //   brought back to what it was by blending two states.

@@ -87,8 +87,11 @@ void record_limit(PlanBuilder& b)
     if (f.sums == kNoBuffer)
         return;
     record_rise(b, true);
-    const kernels::vbd_limit::Bindings<Use> uses = {
-        .row = {f.row, 1}, .low = {b.plan.low}, .sums = {f.sums, 0}, .delta = {b.plan.delta}, .lost = {f.lost}};
+    const kernels::vbd_limit::Bindings<Use> uses = {.row = {f.row, 1},
+                                                    .low = {b.plan.low},
+                                                    .sums = {f.sums, 0},
+                                                    .delta = {b.plan.delta},
+                                                    .lost = {f.lost}};
     b.dispatch("vbd_start", "", uses, {f.groups, f.table, f.row_words()}, f.groups, f.rows);
 }
 

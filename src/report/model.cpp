@@ -211,6 +211,12 @@ std::optional<std::array<double, 2>> AddedElement::stretches(std::span<const glm
     return kind->stretches(std::span(corner).first(kind->corners), values);
 }
 
+double bend_angle(const BendElement& element, std::span<const glm::dvec3> x)
+{
+    const auto hinge = reference::hinge_angle(corners(element, x));
+    return hinge.valid ? reference::angle_difference(hinge.angle, element.rest_angle) : 0;
+}
+
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
 {
     double energy = 0;
@@ -221,12 +227,8 @@ double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
             energy += 0.5 * stretch * stretch / s.compliance;
     }
     for (const BendElement& h : model.hinges)
-    {
-        const auto hinge = reference::hinge_angle(corners(h, x));
-        const double angle = hinge.valid ? reference::angle_difference(hinge.angle, h.rest_angle) : 0;
-        if (angle != 0)
+        if (const double angle = bend_angle(h, x); angle != 0)
             energy += 0.5 * angle * angle / h.compliance;
-    }
     for (const VolumeElement& e : model.volumes)
     {
         const double change = volume_of(e.vertex, x) - e.rest_volume;

@@ -73,6 +73,9 @@ PhysicalModel make_model(const Scene& resolved);
 /// others.
 std::vector<AddedElement> scene_elements(const Scene& resolved);
 
+/// rad, from the rest angle; 0 where a wing has no area.
+double bend_angle(const BendElement& element, std::span<const glm::dvec3> x);
+
 /// J. Rigid elements (compliance 0) have no energy: they count as infinite when they are not at rest
 /// length, so only call it on models without them.
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);

@@ -127,6 +127,25 @@ void add_elements(const PhysicalModel& model, const RunState& state, double acce
             out.energy += e.energy(state.x);
 }
 
+/// Hinges that are bent by more than accept.stretch, as an angle in rad; pbd's have no stiffness. Torn cloth
+/// has other hinges than the model.
+void add_hinges(const PhysicalModel& model, const RunState& state, Strained& out)
+{
+    const std::span<const glm::dvec3> x = state.x;
+    if (method_of(state.scene) == MethodKind::pbd || x.size() != model.mass.size())
+        return;
+    for (const BendElement& e : model.hinges)
+    {
+        const bool held = model.pinned[e.edge0] && model.pinned[e.edge1] && model.pinned[e.wing0] &&
+                          model.pinned[e.wing1];
+        if (!(e.compliance > 0) || model.flows[e.edge0] || held)
+            continue;
+        const double turn = bend_angle(e, x);
+        if (std::abs(turn) > state.scene.accept.stretch)
+            out.energy += 0.5 * turn * turn / e.compliance;
+    }
+}
+
 Strained strained(const PhysicalModel& model, const RunState& state)
 {
     const double accepted = state.scene.accept.stretch;
@@ -134,6 +153,7 @@ Strained strained(const PhysicalModel& model, const RunState& state)
     add_springs(model, state, accepted, out);
     add_volumes(model, state, out);
     add_elements(model, state, accepted, out);
+    add_hinges(model, state, out);
     if (method_of(state.scene) != MethodKind::pbd)
         for (const SolidElement& e : model.solids)
         {

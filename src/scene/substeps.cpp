@@ -9,8 +9,9 @@
 //   Spanned bodies sag by L sqrt(3 e / 8) at a strain of e, so they may have less of it. Solids under xpbd
 //   bend: material of speed of sound c acts as if softer by (c h / edge)^2, so that a bar of length L and
 //   thickness t clamped at its end sags by 3/2 rho g L^4 / (E t^2) times that, 3/2 g h^2 L^4 / (t edge)^2,
-//   too far. What lands on a few vertices carries all of the body by them. Under vbd a sweep carries what happened at a vertex over about one edge: held bodies take as many
-//   as their waves need. Measured in docs/methods.md.
+//   too far. What lands on a few vertices is carried by them alone. Under vbd a sweep carries what happened
+//   at a vertex over about one edge: held bodies take as many as their waves need. Measured in
+//   docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
