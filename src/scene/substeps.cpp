@@ -140,6 +140,24 @@ double thickness_of(const Body& body)
 constexpr double kSofter = 0.2;
 constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
 
+/// (m/s)^2 of waves along a body: of a fabric along its stiffer yarns.
+double wave_speed_squared(const Body& body)
+{
+    const Material& m = body.material;
+    if (!(m.density > 0))
+        return 0;
+    if (!body.mesh.tetrahedra.empty())
+        return m.youngs_modulus / m.density;
+    const double along = m.fabric.used ? std::max(m.fabric.warp, m.fabric.weft) : m.stretch_stiffness;
+    return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
+}
+
+/// s: the longest substep in which a solid acts under xpbd as stiff as it is but for kSofter.
+double longest_for_stiffness(const Body& body, const SweepLoad& load)
+{
+    return load.edge * std::sqrt(kSofter / wave_speed_squared(body));
+}
+
 /// s: the longest substep in which a held solid sags by no more than is seen too far, or acts as stiff as it
 /// is but for kSofter; no limit for others.
 double longest_for_solid(const Body& body, const SweepLoad& load, double gravity)
@@ -149,8 +167,7 @@ double longest_for_solid(const Body& body, const SweepLoad& load, double gravity
         return HUGE_VAL;
     const double length = load.reach * load.edge;
     const double seen = thick * load.edge * std::sqrt(kSeenWay / (1.5 * gravity * length * length * length));
-    const double sound = std::sqrt(body.material.youngs_modulus / body.material.density);
-    return std::max(seen, load.edge * std::sqrt(kSofter) / sound);
+    return std::max(seen, longest_for_stiffness(body, load));
 }
 
 /// s: the longest substep in which a free solid stands on its lowest vertices and leaves no more strain above
@@ -167,21 +184,8 @@ double longest_for_standing(const Body& body, const SweepLoad& load, const glm::
     for (const glm::dvec3& p : body.mesh.positions)
         lying += glm::dot(p, gravity) / g >= lowest - 0.1 * load.edge ? 1 : 0;
     const double carried = static_cast<double>(body.mesh.positions.size()) / lying;
-    const double sound = std::sqrt(body.material.youngs_modulus / body.material.density);
     return std::max(std::sqrt(kSweepStrain * load.edge / (2 * carried * g)),
-                    load.edge * std::sqrt(kSofter) / sound);
-}
-
-/// (m/s)^2 of waves along a body: of a fabric along its stiffer yarns.
-double wave_speed_squared(const Body& body)
-{
-    const Material& m = body.material;
-    if (!(m.density > 0))
-        return 0;
-    if (!body.mesh.tetrahedra.empty())
-        return m.youngs_modulus / m.density;
-    const double along = m.fabric.used ? std::max(m.fabric.warp, m.fabric.weft) : m.stretch_stiffness;
-    return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
+                    longest_for_stiffness(body, load));
 }
 
 /// s: the longest substep in which sweeps over the vertices of a held body carry its waves on; no limit where
