@@ -1,4 +1,4 @@
-// Stiff cloth under vertex block descent with few sweeps: it swings, and makes no energy (docs/methods/vbd.md).
+// Stiff cloth under vertex block descent with few sweeps swings, and makes no energy (docs/methods/vbd.md).
 
 #include "hard/cases.hpp"
 
