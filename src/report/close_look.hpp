@@ -65,7 +65,10 @@ struct LookFound
 /// size.
 glm::dvec3 middle_half(const SolidShape& shape);
 
-/// How long `distance` (m) lasts at `speed` (m/s, doubled) and under `gravity` (m/s^2); s.
+/// m: 2 speed t + 1.5 gravity t^2 / 2, what `speed` (m/s) and `gravity` (m/s^2) may come to in t = `time` (s)
+/// with forces of neighbours beside them.
+double way_over(double time, double speed, double gravity);
+/// s: how long that is less than `distance` (m).
 double time_over(double distance, double speed, double gravity);
 
 /// Keeps what it needs from look to look; not thread-safe. `motions`: of the body's groups.

@@ -59,8 +59,8 @@ public:
               std::span<const glm::dvec3> velocities);
 
     /// s from the last look, until which no element reaches the middle of a collider if its velocity does not
-    /// change by more than its speed (a quarter of its body's at least), twice what gravity makes, and what
-    /// leads vertices: when to look again. Infinite without colliders.
+    /// change by more than its speed (a quarter of its body's at least), half as much again as gravity makes,
+    /// and what leads vertices: when to look again. Infinite without colliders.
     double clear_for() const { return clear_; }
 
     /// Whether there is anything to look at.

@@ -9,9 +9,11 @@
 //   Spanned bodies sag by L sqrt(3 e / 8) at a strain of e, so they may have less of it. Solids under xpbd
 //   bend: material of speed of sound c acts as if softer by (c h / edge)^2, so that a bar of length L and
 //   thickness t clamped at its end sags by 3/2 rho g L^4 / (E t^2) times that, 3/2 g h^2 L^4 / (t edge)^2,
-//   too far. What lands on a few vertices is carried by them alone. Under vbd a sweep carries what happened
-//   at a vertex over about one edge: held bodies take as many as their waves need. Measured in
-//   docs/methods.md.
+//   too far. What lands on a few vertices is carried by them alone, under vbd and implicit_euler too, whose
+//   contacts come after the solve. Cloth and chains that begin beside their pins swing: a pendulum let go at
+//   an angle a from the plumb pulls with 3 - 2 cos a times its weight where it passes below. Under vbd a
+//   sweep carries what happened at a vertex over about one edge: held bodies take as many as their waves
+//   need. Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
@@ -24,6 +26,9 @@
 
 namespace taut {
 namespace {
+
+constexpr double kSofter = 0.2;
+constexpr double kShortArm = 0.05; ///< of a body's size: nearer to its pins it does not swing
 
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
@@ -125,6 +130,25 @@ glm::dvec3 centre_of_mass(const Body& body)
     return mass > 0 ? sum / mass : sum;
 }
 
+/// Weights with which cloth or a chain that is let go pulls at its pins when it passes below them: 1 where it
+/// hangs, 3 where it begins level with them. 1 where nothing holds it, or all round.
+double swing_pull(const Body& body, const glm::dvec3& down)
+{
+    glm::dvec3 pins(0);
+    double count = 0;
+    Extent size;
+    for (const Pin& pin : body.pins)
+        for (const std::uint32_t v : pin.vertices)
+            pins += body.mesh.positions[v], ++count;
+    for (const glm::dvec3& p : body.mesh.positions)
+        size.take(p);
+    if (!(count > 0) || !body.mesh.tetrahedra.empty())
+        return 1;
+    const glm::dvec3 arm = centre_of_mass(body) - pins / count;
+    const double length = glm::length(arm);
+    return length > kShortArm * size.size() ? 3 - 2 * glm::dot(arm, down) / length : 1;
+}
+
 /// m: of a bar of square section its side, by volume over surface.
 double thickness_of(const Body& body)
 {
@@ -137,7 +161,6 @@ double thickness_of(const Body& body)
     return area > 0 ? 4 * volume / area : 0;
 }
 
-constexpr double kSofter = 0.2;
 constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
 
 /// (m/s)^2 of waves along a body: of a fabric along its stiffer yarns.
@@ -196,6 +219,37 @@ double longest_for_waves(const Body& body, const SweepLoad& load, double iterati
     return square > 0 ? load.edge * std::sqrt(kWave * iterations / square) : HUGE_VAL;
 }
 
+/// s: the longest substep in which sweeps carry a body's weight.
+double longest_for_weight(const Scene& scene, const Body& body, const SweepLoad& load, double g)
+{
+    const bool spanned = is_spanned(body, scene.gravity);
+    const double pull = spanned ? 1 : swing_pull(body, scene.gravity / g);
+    const double open = 2 * std::max(load.vertices, 1.0) * pull * g; // m/s^2: see "Based on"
+    const bool sags = spanned && scene.method.type != "vbd";
+    const double strain = sags ? std::min(kSweepStrain, 8.0 / 3 * kSeenWay * kSeenWay) : kSweepStrain;
+    return std::sqrt(strain * load.edge / open);
+}
+
+/// s: the longest substep that a body allows.
+double longest_substep(const Scene& scene, const Body& body, double g)
+{
+    const std::string& method = scene.method.type;
+    const SweepLoad load = sweep_load(body);
+    if (!(load.edge > 0))
+        return HUGE_VAL;
+    const bool meets = !scene.colliders.empty() || scene.contact.between;
+    const double standing = meets ? longest_for_standing(body, load, scene.gravity) : HUGE_VAL;
+    if (method == "implicit_euler")
+        return standing;
+    const double sweeps = std::sqrt(scene.method.iterations);
+    const double weight = longest_for_weight(scene, body, load, g);
+    if (method == "vbd") // whose contacts come once a substep, whatever the sweeps
+        return std::min({sweeps * weight, longest_for_waves(body, load, scene.method.iterations), standing});
+    if (method == "pbd")
+        return sweeps * weight;
+    return sweeps * std::min({weight, longest_for_solid(body, load, g), standing});
+}
+
 } // namespace
 
 bool is_spanned(const Body& body, const glm::dvec3& gravity)
@@ -246,39 +300,12 @@ SweepLoad sweep_load(const Body& body)
     return out;
 }
 
-namespace {
-
-/// s: the longest substep that a body allows a method which sweeps.
-double longest_substep(const Scene& scene, const Body& body, double g)
-{
-    const MethodSettings& method = scene.method;
-    const SweepLoad load = sweep_load(body);
-    if (!(load.edge > 0))
-        return HUGE_VAL;
-    const double sweeps = std::sqrt(method.iterations);
-    const double open = 2 * std::max(load.vertices, 1.0) * g; // m/s^2: see "Based on"
-    if (method.type == "vbd")
-        return std::min(sweeps * std::sqrt(kSweepStrain * load.edge / open),
-                        longest_for_waves(body, load, method.iterations));
-    const double strain = is_spanned(body, scene.gravity)
-                              ? std::min(kSweepStrain, 8.0 / 3 * kSeenWay * kSeenWay)
-                              : kSweepStrain;
-    double longest = std::sqrt(strain * load.edge / open);
-    if (method.type == "xpbd")
-        longest = std::min(longest, longest_for_solid(body, load, g));
-    if (method.type == "xpbd" && (!scene.colliders.empty() || scene.contact.between))
-        longest = std::min(longest, longest_for_standing(body, load, scene.gravity));
-    return sweeps * longest;
-}
-
-} // namespace
-
 std::uint32_t automatic_substeps(const Scene& scene)
 {
     const std::string& method = scene.method.type;
     const double g = glm::length(scene.gravity);
     double most = kLeastSubsteps;
-    if ((method == "xpbd" || method == "pbd" || method == "vbd") && g > 0)
+    if ((method == "xpbd" || method == "pbd" || method == "vbd" || method == "implicit_euler") && g > 0)
         for (const Body& body : scene.bodies)
             most = std::max(most, std::ceil(scene.timestep / longest_substep(scene, body, g)));
     return static_cast<std::uint32_t>(std::min<double>(most, kMostAutomaticSubsteps));

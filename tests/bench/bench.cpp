@@ -1,6 +1,7 @@
-// taut_bench [distance] [recording] [cloth] [opencloth] [solid] [FILE.csv]: prints the tables of
-// docs/bench.md that are named, or all, and, if asked, writes them as CSV. Exit status 1 and one sentence
-// when a rival computes something else, or the file cannot be written.
+// taut_bench [--json] [distance] [recording] [cloth] [opencloth] [solid] [FILE.csv]: prints the tables of
+// docs/bench.md that are named, or all, and, if asked, writes them as CSV. With --json it prints one line, an
+// object, in place of the tables: `taut_bench --json >> MACHINE.jsonl` keeps the history of a machine. Exit
+// status 1 and one sentence when a rival computes something else, or the file cannot be written.
 
 #include "bench.hpp"
 #include "conditions.hpp"
@@ -8,9 +9,13 @@
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/shown.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iterator>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -49,6 +54,23 @@ std::string csv(const std::vector<bench::Row>& rows, const std::string& conditio
     return text;
 }
 
+/// Units as in Row; `ratio`, `to` and `target` of rows that are compared with none are left out.
+std::string json(const std::vector<bench::Row>& rows, const std::string& conditions)
+{
+    nlohmann::ordered_json out = {{"conditions", conditions}, {"rows", nlohmann::ordered_json::array()}};
+    for (const bench::Row& r : rows)
+    {
+        nlohmann::ordered_json row = {
+            {"what", r.what}, {"median_ms", r.milliseconds}, {"best_ms", r.best}, {"error_m", r.error}};
+        if (!r.against.empty())
+            row.update({{"ratio", r.ratio}, {"to", r.against}});
+        if (r.target > 0)
+            row["target"] = r.target;
+        out["rows"].push_back(row);
+    }
+    return out.dump();
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -56,17 +78,26 @@ try
 {
     std::vector<std::string> words(argv + 1, argv + argc);
     std::string file;
+    const bool as_json = std::erase(words, "--json") > 0;
     if (!words.empty() && words.back().find('.') != std::string::npos)
     {
         file = words.back();
         words.pop_back();
     }
     std::vector<bench::Row> rows;
+    for (const std::string& word : words)
+        if (std::none_of(std::begin(kTables), std::end(kTables),
+                         [&](const auto& t) { return word == t.name; }))
+            throw std::runtime_error(
+                "\"" + word + "\" is no table; they are distance, recording, cloth, opencloth and solid");
     for (const auto& [name, make] : kTables)
         if (words.empty() || std::find(words.begin(), words.end(), name) != words.end())
             for (const bench::Row& row : make())
                 rows.push_back(row);
-    print(rows);
+    if (as_json)
+        std::printf("%s\n", json(rows, bench::conditions("taut_bench", argc, argv)).c_str());
+    else
+        print(rows);
     if (!file.empty())
         taut::write_file(file, csv(rows, bench::conditions("taut_bench", argc, argv)));
     return 0;

@@ -3,10 +3,12 @@
 // For each method: a step, a look at the motion, one at the motion and the strains, and one for what passes
 // through colliders (medians of the same run of five seconds, ms), the share of the first two in it, and that
 // of the third in its first 40 frames, a fall, and in all: it looks eight times, and when something may have
-// come as far as a collider's middle.
+// come as far as a collider's middle. Last what the residuals take, which are measured once, where a run
+// ends.
 
 #include "taut/report/crossing.hpp"
 #include "taut/report/look_due.hpp"
+#include "taut/report/residuals.hpp"
 #include "taut/report/soundness.hpp"
 #include "taut/scene/settings.hpp"
 
@@ -99,10 +101,12 @@ void measure_row(const char* name, Scene scene, const char* method, const std::s
     }
     const std::uint64_t every = frames_between_looks(world.plan(), kFrames);
     const double looks = double(kFrames) / double(every) * median(motion) + kStrainLooks * median(state);
-    std::printf("| %s | %s | %.3g | %.3g | %.3g | %.3g | %llu | %.2f %% | %.2f %% | %.2f %% |\n", name,
-                method, median(step), median(motion), median(state), median(crossing),
-                static_cast<unsigned long long>(every), 100 * looks / (kFrames * median(step)), 100 * falls,
-                100 * crossings / steps);
+    const double residuals = ms_of([&] { residuals_ahead(world); });
+    std::printf(
+        "| %s | %s | %.3g | %.3g | %.3g | %.3g | %llu | %.2f %% | %.2f %% | %.2f %% | %.3g | %.2f %% |\n",
+        name, method, median(step), median(motion), median(state), median(crossing),
+        static_cast<unsigned long long>(every), 100 * looks / (kFrames * median(step)), 100 * falls,
+        100 * crossings / steps, residuals, 100 * residuals / steps);
 }
 
 } // namespace
@@ -111,8 +115,8 @@ int main(int argc, char** argv)
 {
     const std::shared_ptr<Device> device = Device::open(argc > 1 ? argv[1] : "cpu:serial", {});
     std::printf("| scene | method | step | motion | strains | crossings | frames from look to look | share "
-                "of looks | of crossings in the fall | of crossings |\n"
-                "|---|---|---|---|---|---|---|---|---|---|\n");
+                "of looks | of crossings in the fall | of crossings | residuals | of residuals |\n"
+                "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const char* method :
          {"xpbd", "pbd", "vbd", "implicit_euler", "implicit_constraints", "mass_spring", "acad"})
         measure_row("cloth 64²", cloth_on_ball(), method, device);

@@ -26,6 +26,9 @@ namespace taut::hard {
 
 using Words = std::set<std::string>;
 
+/// Values of MethodSettings::scheme under pbd.
+inline constexpr const char* kPbdSchemes[] = {"coloured", "node_centric", "constraint_centric"};
+
 /// TAUT_HARD_SHORT (as ctest sets it): OpenGL is left out, and of the robustness map Vulkan runs
 /// only what compares bits.
 inline bool short_run()

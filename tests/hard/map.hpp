@@ -92,8 +92,8 @@ inline constexpr const char* kDataCase = "mesh";
 
 /// Steps of a short run of a case whose short_steps are < 0, and of the executors that do not run whole.
 inline constexpr int kStepsShort = 3;
-/// Of those other executors in a whole run: where the executors of software drivers stop, whose dispatches
-/// cost thousands of times their work. Only the hour of hanging cloth and 100,000 steps at rest are longer.
+/// Steps of a whole run on the executors of drivers, of which dispatches of software cost thousands of times
+/// their work. Only the hour of hanging cloth and 100,000 steps at rest are longer.
 inline constexpr int kStepsElsewhere = 5000;
 /// Positions are hashed after these steps, and after the last.
 inline constexpr int kHashed[] = {1, 3, 10, 30, 100, 300, 1000, 5000, 100000};

@@ -160,9 +160,9 @@ inline constexpr double kHang3 = -0.00256, kHang4 = -0.00285, kHang6 = -0.00285,
 inline constexpr double kHungRubber = -0.014;
 
 /// The answer of what hangs: its lower edge lies where statics put it.
-inline Measured hangs(const Journey& j, double right, double limit = 0.4)
+inline Measured hangs(const Journey& j, double right)
 {
-    return above("error of the lower edge / its way", std::abs(lifted(j) / right - 1), limit);
+    return above("error of the lower edge / its way", std::abs(lifted(j) / right - 1), 0.1);
 }
 
 /// Methods whose stiffness is not the material's: what hangs on springs of theirs misses the length.

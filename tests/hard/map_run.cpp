@@ -99,9 +99,9 @@ void run_scene(const MapCase& c, const Scene& scene, const std::shared_ptr<Devic
     out.hashes = journey.hashes;
     if (!finite(world.positions()) || !finite(world.velocities()))
         out.verdict = "FAIL";
-    else if (journey.last.status != Status::completed)
+    else if (journey.last.status != Status::completed) // judged all the same: by how much it is wrong
         out.verdict = "stops " + std::string(to_string(journey.last.status));
-    if (!judge || !out.verdict.empty())
+    if (!judge || out.verdict == "FAIL")
         return;
     if (c.judge)
     {
@@ -151,7 +151,7 @@ Outcome judged(const MapCase& c, MethodKind method, const std::shared_ptr<Device
         const bool missed =
             std::any_of(out.own.begin(), out.own.end(), [](const Measured& m) { return m.missed(); });
         const bool may = (c.may_report & only(method)) != 0 && !out.own.empty() &&
-                         out.own.front().what != "way of a substep / size"; // none: it stopped before
+                         out.own.front().what != "way of a substep / size";
         if (out.verdict.empty())
             out.verdict = !enough ? "runs" : !missed ? "pass" : may ? "reports" : "FAIL";
     }

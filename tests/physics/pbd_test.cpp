@@ -12,8 +12,6 @@ using namespace taut::hard;
 
 namespace {
 
-constexpr const char* kSchemes[] = {"coloured", "node_centric", "constraint_centric"};
-
 Scene as_pbd(Scene scene, const char* scheme, std::uint32_t iterations, double stretch = 1, double bend = 1)
 {
     scene.method.type = "pbd";
@@ -45,7 +43,7 @@ constexpr double kStepFall = 9.81 / 3600; ///< h^2 g, m
 TEST_CASE("a spring of stiffness k is one of k_eff h^2 / m = k / (1 - k), whatever the iterations (A9)")
 {
     on_every_device([](const auto& device) {
-        for (const char* scheme : kSchemes)
+        for (const char* scheme : kPbdSchemes)
             for (const std::uint32_t iterations : {1u, 4u, 8u})
             {
                 CAPTURE(scheme, iterations);
@@ -96,7 +94,7 @@ TEST_CASE("a soft hanging chain has one length at 1 and at 8 iterations, that of
 TEST_CASE("rest stays at rest under every scheme of PBD (B16)")
 {
     on_every_device([](const auto& device) {
-        for (const char* scheme : kSchemes)
+        for (const char* scheme : kPbdSchemes)
         {
             Scene scene = as_pbd(free_cloth(6), scheme, 4);
             World world(scene, device);
@@ -111,7 +109,7 @@ TEST_CASE("rest stays at rest under every scheme of PBD (B16)")
 TEST_CASE("free fall under PBD is the parabola")
 {
     on_every_device([](const auto& device) {
-        for (const char* scheme : kSchemes)
+        for (const char* scheme : kPbdSchemes)
         {
             Scene scene = as_pbd(free_cloth(3), scheme, 4);
             scene.gravity = {0, -9.81, 0};
@@ -190,7 +188,7 @@ TEST_CASE("pins keep their bits under every scheme, and the two Jacobi schemes g
 {
     on_every_device([](const auto& device) {
         std::vector<WorldState> states;
-        for (const char* scheme : kSchemes)
+        for (const char* scheme : kPbdSchemes)
         {
             Scene scene = as_pbd(test::hanging(7), scheme, 5, 0.9, 0.5);
             scene.bodies[0].material.bending_stiffness = 1e-4;
@@ -226,8 +224,7 @@ double strain_left(const std::shared_ptr<Device>& device, const char* scheme, st
     const auto places = world.positions();
     double worst = 0;
     for (const StretchElement& e : make_model(world.scene()).springs)
-        worst = std::max(worst,
-                         std::abs(glm::distance(places[e.a], places[e.b]) / e.rest_length - 1));
+        worst = std::max(worst, std::abs(glm::distance(places[e.a], places[e.b]) / e.rest_length - 1));
     return worst;
 }
 
@@ -237,7 +234,7 @@ TEST_CASE("coloured and Jacobi iterations come to rest at the same: every length
 {
     on_every_device([](const auto& device) {
         const std::uint32_t many = device->info().executor.starts_with("cpu") ? 1000 : 400;
-        for (const char* scheme : kSchemes)
+        for (const char* scheme : kPbdSchemes)
         {
             const double few = strain_left(device, scheme, 50, 1);
             const double left = strain_left(device, scheme, many, 1);

@@ -11,8 +11,6 @@ using namespace taut::hard;
 
 namespace {
 
-constexpr const char* kSchemes[] = {"coloured", "node_centric", "constraint_centric"};
-
 Body soft(ShapeKind shape, std::uint32_t cells, double size)
 {
     Body body;
@@ -147,7 +145,7 @@ TEST_CASE("as many sweeps keep more volume in substeps than in iterations, and l
     note("pbd volume", *device, "ball, 10 substeps: 1 - mean V/V0", 1 - substeps.mean);
     note("pbd volume", *device, "ball, 10 iterations, Jacobi: 1 - least V/V0", 1 - jacobi.least);
     note("pbd volume", *device, "ball, 10 iterations, Jacobi: 1 - mean V/V0", 1 - jacobi.mean);
-    CHECK(substeps.mean >= 0.987); // the thesis' number, an average
+    CHECK(substeps.mean >= 0.987);  // the thesis' number, an average
     CHECK(substeps.least >= 0.986); // in the worst frame
     CHECK(substeps.least > iterations.least);
     CHECK(jacobi.least < iterations.least);
@@ -156,7 +154,7 @@ TEST_CASE("as many sweeps keep more volume in substeps than in iterations, and l
 TEST_CASE("a solid at rest stays at rest under every scheme of PBD (B16)", "[solid_pbd]")
 {
     on_every_device([](const auto& device) {
-        for (const char* scheme : kSchemes)
+        for (const char* scheme : kPbdSchemes)
         {
             CAPTURE(scheme);
             Scene scene = as_pbd(soft(ShapeKind::ball, 4, 1), scheme, 5);
@@ -173,7 +171,7 @@ TEST_CASE("a solid at rest stays at rest under every scheme of PBD (B16)", "[sol
 TEST_CASE("a vertex pushed through its tetrahedron comes back under every scheme of PBD (B08)", "[solid_pbd]")
 {
     const auto device = test_device("cpu:serial");
-    for (const char* scheme : kSchemes)
+    for (const char* scheme : kPbdSchemes)
     {
         CAPTURE(scheme);
         World world(pushed_through(scheme), device);
@@ -189,7 +187,7 @@ TEST_CASE("a vertex pushed through its tetrahedron comes back under every scheme
 TEST_CASE("a soft body squeezed nearly to a line grows back and is not thrown", "[solid_pbd]")
 {
     const auto device = test_device("cpu:serial");
-    for (const char* scheme : kSchemes)
+    for (const char* scheme : kPbdSchemes)
     {
         CAPTURE(scheme);
         Scene scene = as_pbd(soft(ShapeKind::box, 2, 1), scheme, 10);
@@ -234,7 +232,7 @@ TEST_CASE("the two Jacobi schemes give one state of a solid, with hinges on its 
         for (const double bending : {0.0, 1e-3})
         {
             std::vector<WorldState> states;
-            for (const char* scheme : kSchemes)
+            for (const char* scheme : kPbdSchemes)
             {
                 Body body = soft(ShapeKind::box, 3, 1);
                 body.material.bending_stiffness = bending;

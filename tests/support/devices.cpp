@@ -13,13 +13,16 @@ std::shared_ptr<Device> test_device(const std::string& selector)
     static auto& opened = *new std::map<std::string, std::shared_ptr<Device>>;
     std::shared_ptr<Device>& device = opened[selector];
     if (!device)
-    {
-        OpenOptions options;
-        options.validation = selector.starts_with("vulkan");
-        options.threads = std::max(2u, std::thread::hardware_concurrency());
-        device = Device::open(selector, options);
-    }
+        device = open_test_device(selector);
     return device;
+}
+
+std::shared_ptr<Device> open_test_device(const std::string& selector)
+{
+    OpenOptions options;
+    options.validation = selector.starts_with("vulkan");
+    options.threads = std::max(2u, std::thread::hardware_concurrency());
+    return Device::open(selector, options);
 }
 
 bool environment_has(const char* variable)

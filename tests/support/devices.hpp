@@ -22,6 +22,9 @@ namespace taut {
 /// two threads. Throws what Device::open throws. Call from one thread.
 std::shared_ptr<Device> test_device(const std::string& selector);
 
+/// Another one opened likewise: for a test that runs several at once, a thread each.
+std::shared_ptr<Device> open_test_device(const std::string& selector);
+
 /// Whether an environment variable is there, not empty and not "0".
 bool environment_has(const char* variable);
 

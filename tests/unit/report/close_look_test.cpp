@@ -136,7 +136,7 @@ double may_arrive(const glm::dvec3& p, const glm::dvec3& v, double own, const gl
     for (double t = 0; t < 1; t += 1e-3)
     {
         const glm::dvec3 then = p + v * t;
-        if (glm::length(then - glm::clamp(then, -half, half)) <= own * t + gravity * t * t)
+        if (glm::length(then - glm::clamp(then, -half, half)) <= own * t + 0.75 * gravity * t * t)
             return t;
     }
     return kInfinite;

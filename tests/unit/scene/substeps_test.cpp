@@ -36,6 +36,23 @@ TEST_CASE("what pins on all sides carry takes more substeps than what hangs from
     CHECK(resolve(scene).method.substeps <= 2 * hanging);
 }
 
+TEST_CASE("cloth that begins beside its pins takes more substeps than cloth that hangs from them",
+          "[substeps]")
+{
+    Scene scene = test::hanging(20);
+    scene.method.type = "xpbd";
+    scene.method.substeps = 0;
+    scene.bodies[0].pins = {Pin{}};
+    const auto substeps = [&](const char* edge) {
+        scene.bodies[0].pins[0].edges = {edge};
+        return resolve(scene).method.substeps;
+    };
+    // A pendulum pulls with 3 - 2 cos a times its weight at the lowest point: with 1, 3 and 5.
+    const double hangs = substeps("top"), flag = substeps("left"), falls_over = substeps("bottom");
+    CHECK(flag == Approx(std::sqrt(3.0) * hangs).epsilon(0.1));
+    CHECK(falls_over == Approx(std::sqrt(5.0) * hangs).epsilon(0.1));
+}
+
 TEST_CASE("a held solid takes what its stiffness asks for, up to where nobody sees it sag", "[substeps]")
 {
     Scene scene;
@@ -78,6 +95,28 @@ TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[su
     CHECK(substeps("vbd", 1e5) == Approx(stiff / 2.0).margin(1));
     scene.bodies[0].pins.clear();
     CHECK(substeps("vbd", 1e5) < stiff / 4);
+}
+
+TEST_CASE("where contacts come after the solve a ball takes more substeps on a floor", "[substeps]")
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::ball;
+    body.shape.radius = 0.05;
+    body.material = solid_material();
+    body.material.youngs_modulus = 1e8;
+    scene.bodies = {body};
+    scene.method.substeps = 0;
+    Collider floor;
+    floor.kind = ColliderKind::plane;
+    for (const char* method : {"vbd", "implicit_euler"})
+    {
+        scene.method.type = method;
+        scene.colliders.clear();
+        const std::uint32_t free = resolve(scene).method.substeps;
+        scene.colliders = {floor};
+        CHECK(resolve(scene).method.substeps > 2 * free);
+    }
 }
 
 TEST_CASE("a free solid that stands on a point takes more substeps than one on a face", "[substeps]")
