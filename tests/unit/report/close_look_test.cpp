@@ -128,8 +128,8 @@ Apart apart(const TriangleCorners& at, const glm::dvec3& half)
     return {distance, distance > 0 ? away / distance : away};
 }
 
-/// The first moment at which a point that goes on with `v`, and as fast again in any direction, and falls,
-/// may be in the box; found by small steps up to a second.
+/// The first moment at which a point that goes on with `v`, and as fast again in any direction, and falls
+/// half as much again, may be in the box; found by small steps up to a second.
 double may_arrive(const glm::dvec3& p, const glm::dvec3& v, double own, const glm::dvec3& half,
                   double gravity)
 {
