@@ -65,8 +65,8 @@ struct LookFound
 /// size.
 glm::dvec3 middle_half(const SolidShape& shape);
 
-/// m: 2 speed t + 1.5 gravity t^2 / 2, what `speed` (m/s) and `gravity` (m/s^2) may come to in t = `time` (s)
-/// with forces of neighbours beside them.
+/// m: how far something may get in `time` (s): it goes on with `speed` (m/s), as much again in any direction,
+/// and falls with 1.5 times `gravity` (m/s^2), since neighbours pull.
 double way_over(double time, double speed, double gravity);
 /// s: how long that is less than `distance` (m).
 double time_over(double distance, double speed, double gravity);

@@ -369,8 +369,8 @@ std::vector<SceneIssue> check(const Scene& scene);
 /// The same for a scene whose bodies have meshes already: all values, and indices against the meshes.
 std::vector<SceneIssue> check_resolved(const Scene& scene);
 
-/// Substeps for a resolved scene that names none: under pbd and xpbd so many that sweeps leave a strain of
-/// about 1 % under the scene's weight, at least 10 and at most 1,000; 10 under other methods.
+/// Substeps for a resolved scene that names none, 10 to 1,000: under xpbd, pbd and vbd what weight, mesh and
+/// stiffness ask for, under implicit_euler what solids on colliders do; 10 under others (docs/methods.md).
 std::uint32_t automatic_substeps(const Scene& resolved);
 
 /// Checks, generates or loads every body's mesh, applies transforms, resolves pins; returns a scene

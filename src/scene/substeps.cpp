@@ -131,20 +131,25 @@ glm::dvec3 centre_of_mass(const Body& body)
 }
 
 /// Weights with which cloth or a chain that is let go pulls at its pins when it passes below them: 1 where it
-/// hangs, 3 where it begins level with them. 1 where nothing holds it, or all round.
+/// hangs, 3 where it begins level with them. 1 where nothing holds it, or all round; too much where it is
+/// held so that it cannot swing, as on three sides.
 double swing_pull(const Body& body, const glm::dvec3& down)
 {
-    glm::dvec3 pins(0);
-    double count = 0;
+    glm::dvec3 pins(0); // weighted by mass, as the centre of all is
+    double held = 0;
     Extent size;
     for (const Pin& pin : body.pins)
         for (const std::uint32_t v : pin.vertices)
-            pins += body.mesh.positions[v], ++count;
+        {
+            const double mass = body.vertex_masses.empty() ? 1.0 : body.vertex_masses[v];
+            pins += mass * body.mesh.positions[v];
+            held += mass;
+        }
     for (const glm::dvec3& p : body.mesh.positions)
         size.take(p);
-    if (!(count > 0) || !body.mesh.tetrahedra.empty())
+    if (!(held > 0) || !body.mesh.tetrahedra.empty())
         return 1;
-    const glm::dvec3 arm = centre_of_mass(body) - pins / count;
+    const glm::dvec3 arm = centre_of_mass(body) - pins / held;
     const double length = glm::length(arm);
     return length > kShortArm * size.size() ? 3 - 2 * glm::dot(arm, down) / length : 1;
 }
@@ -195,7 +200,8 @@ double longest_for_solid(const Body& body, const SweepLoad& load, double gravity
 
 /// s: the longest substep in which a free solid stands on its lowest vertices and leaves no more strain above
 /// them than kSweepStrain, or acts as stiff as it is but for kSofter; no limit for others. Boxes stand on a
-/// face, balls on a point.
+/// face, balls on a point. Under vbd and implicit_euler, which soften nothing, the same limit was measured to
+/// do (docs/methods.md): there it is how far a push of the floor gets in a substep.
 double longest_for_standing(const Body& body, const SweepLoad& load, const glm::dvec3& gravity)
 {
     const double g = glm::length(gravity);
@@ -235,7 +241,7 @@ double longest_substep(const Scene& scene, const Body& body, double g)
 {
     const std::string& method = scene.method.type;
     const SweepLoad load = sweep_load(body);
-    if (!(load.edge > 0))
+    if (!(load.edge > 0) || body.kinematic.used) // whose vertices are all led
         return HUGE_VAL;
     const bool meets = !scene.colliders.empty() || scene.contact.between;
     const double standing = meets ? longest_for_standing(body, load, scene.gravity) : HUGE_VAL;

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <iterator>
 #include <stdexcept>
@@ -57,7 +58,11 @@ std::string csv(const std::vector<bench::Row>& rows, const std::string& conditio
 /// Units as in Row; `ratio`, `to` and `target` of rows that are compared with none are left out.
 std::string json(const std::vector<bench::Row>& rows, const std::string& conditions)
 {
-    nlohmann::ordered_json out = {{"conditions", conditions}, {"rows", nlohmann::ordered_json::array()}};
+    char now[32];
+    const std::time_t seconds = std::time(nullptr);
+    std::strftime(now, sizeof now, "%FT%TZ", std::gmtime(&seconds));
+    nlohmann::ordered_json out = {
+        {"time", now}, {"conditions", conditions}, {"rows", nlohmann::ordered_json::array()}};
     for (const bench::Row& r : rows)
     {
         nlohmann::ordered_json row = {
@@ -88,8 +93,12 @@ try
     for (const std::string& word : words)
         if (std::none_of(std::begin(kTables), std::end(kTables),
                          [&](const auto& t) { return word == t.name; }))
-            throw std::runtime_error(
-                "\"" + word + "\" is no table; they are distance, recording, cloth, opencloth and solid");
+        {
+            std::string text = "\"" + word + "\" is no table; they are";
+            for (const auto& table : kTables)
+                text += std::string(" ") + table.name;
+            throw std::runtime_error(text);
+        }
     for (const auto& [name, make] : kTables)
         if (words.empty() || std::find(words.begin(), words.end(), name) != words.end())
             for (const bench::Row& row : make())

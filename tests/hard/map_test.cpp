@@ -4,10 +4,11 @@
 // docs/results/robustness.md, and the commit says why.
 
 #include "hard/map_table.hpp"
+#include "support/on_threads.hpp"
 
 #include <atomic>
+#include <cstdio>
 #include <mutex>
-#include <thread>
 
 namespace taut::hard {
 namespace {
@@ -70,11 +71,7 @@ std::vector<Cell> run_all()
                 next = cells.size();
         }
     };
-    std::vector<std::thread> threads(std::max(1u, std::thread::hardware_concurrency()));
-    for (std::thread& thread : threads)
-        thread = std::thread(work);
-    for (std::thread& thread : threads)
-        thread.join();
+    on_threads(processors(), work);
     return cells;
 }
 
@@ -118,7 +115,7 @@ int steps_elsewhere(const Cell& cell, const std::string& selector)
     if (cell.hard_case->check && cell.outcome.refused()) // by what the check makes, before a step
         return all;
     if (!short_run())
-        return selector.starts_with("cpu") ? all : std::min(all, kStepsElsewhere);
+        return all;
     std::size_t vertices = 0;
     for (const Body& body : cell.hard_case->scene.bodies)
         vertices += body.mesh.positions.size();
@@ -146,37 +143,38 @@ std::string departure(const Cell& cell, const Outcome& there)
     return {};
 }
 
-/// Whatever went other than on cpu:serial, a line a cell. Every so many cells, one thread a processor where
-/// the executor is a driver, which leaves most of one idle.
-std::vector<std::string> departures(const std::string& selector, std::size_t stride)
+/// How the cells went on another executor.
+struct Comparison
+{
+    std::size_t compared = 0;       ///< hashes of positions, and refusals
+    std::vector<std::string> other; ///< what went other than on cpu:serial, a line a cell
+};
+
+/// Every so many cells; one thread a processor where the executor is a driver, which leaves most of one idle.
+Comparison comparison(const std::string& selector, std::size_t stride)
 {
     const std::vector<Cell>& cells = all_cells();
-    std::vector<std::string> out;
+    const bool native = selector.starts_with("cpu");
+    Comparison out;
     std::mutex mutex;
     std::atomic<std::size_t> next = 0;
-    const auto add = [&](const std::string& line) {
-        const std::lock_guard lock(mutex);
-        out.push_back(line);
-    };
-    const auto work = [&] {
+    on_threads(native ? 1 : processors(), [&] {
         const std::shared_ptr<Device> device = open_test_device(selector);
         for (std::size_t k = next.fetch_add(stride); k < cells.size(); k = next.fetch_add(stride))
             if (const int steps = steps_elsewhere(cells[k], selector); steps > 0)
             {
-                const auto there = repeated(*cells[k].hard_case, cells[k].method, device, steps);
+                const Outcome there = repeated(*cells[k].hard_case, cells[k].method, device, steps,
+                                               native ? 0 : kDispatchesElsewhere);
                 const std::string found = departure(cells[k], there);
+                const std::lock_guard lock(mutex);
+                out.compared += there.hashes.size() + (there.refused() ? 1 : 0);
                 if (!found.empty())
-                    add(cells[k].name() + ": " + found);
+                    out.other.push_back(cells[k].name() + ": " + found);
             }
-        if (device->counters().validation_messages > 0)
-            add(std::to_string(device->counters().validation_messages) + " validation messages");
-    };
-    std::vector<std::thread> threads(
-        selector.starts_with("cpu") ? 1 : std::max(1u, std::thread::hardware_concurrency()));
-    for (std::thread& thread : threads)
-        thread = std::thread(work);
-    for (std::thread& thread : threads)
-        thread.join();
+        const std::lock_guard lock(mutex);
+        if (const auto messages = device->counters().validation_messages; messages > 0)
+            out.other.push_back(std::to_string(messages) + " validation messages");
+    });
     return out;
 }
 
@@ -208,7 +206,7 @@ TEST_CASE("F8: every cell of the robustness map is as committed [hard]")
 
 TEST_CASE("F8: the cells end in the same bits on every executor [hard]")
 {
-    REQUIRE(!all_cells().empty()); // all that is asserted where cpu:serial stands alone
+    REQUIRE(!all_cells().empty()); // all that is asserted where no other executor is
     for (const std::string& selector : test_devices())
     {
         if (selector == "cpu:serial" || (short_run() && selector.starts_with("opengl")))
@@ -217,8 +215,12 @@ TEST_CASE("F8: the cells end in the same bits on every executor [hard]")
         // third cell, which is two or three methods of each case.
         const std::size_t stride = short_run() && !selector.starts_with("cpu") ? 3 : 1;
         INFO(selector);
-        for (const std::string& line : departures(selector, stride))
+        const Comparison found = comparison(selector, stride);
+        for (const std::string& line : found.other)
             FAIL_CHECK(line);
+        CHECK(found.compared > 0);
+        if (environment_has("TAUT_NOTES"))
+            std::printf("F8 | %s | %zu hashes and refusals\n", selector.c_str(), found.compared);
     }
 }
 
@@ -236,6 +238,9 @@ TEST_CASE("F8: no row of the robustness map says FAIL [hard]")
     {
         INFO(row.id << " " << row.what << ", " << row.method << ": " << row.criterion);
         CHECK(row.verdict != "FAIL");
+        // A false alarm, if nothing else is wrong. After the few steps of a short run nothing has to be.
+        if (row.verdict.starts_with("stops") && !short_run())
+            CHECK(row.number.value_or(0) > row.limit.value_or(0));
     }
 }
 
