@@ -126,8 +126,8 @@ void put_efforts(std::vector<MapCase>& cases);
 /// Runs a cell and judges it.
 Outcome judged(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device);
 
-/// Runs a cell for so many steps, no more than `dispatches` make (0: any), and only looks at its hashes; of
-/// `check`, at the numbers of as many.
+/// Runs a cell for so many steps and only looks at its hashes; of `check`, at the numbers of as many. Without
+/// one no more steps than `dispatches` make (0: any).
 Outcome repeated(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
                  int steps, std::uint64_t dispatches = 0);
 

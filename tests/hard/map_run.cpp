@@ -176,7 +176,7 @@ Outcome repeated(const MapCase& c, MethodKind method, const std::shared_ptr<Devi
     try
     {
         const Scene scene = scene_for(c, method);
-        if (dispatches > 0)
+        if (dispatches > 0 && !c.check) // a check has worlds of its own, and may refuse before a step
         {
             const std::size_t each = std::max<std::size_t>(World(scene, device).plan().passes.size(), 1);
             steps = std::min(steps, hashed_up_to(static_cast<int>(dispatches / each)));

@@ -69,8 +69,10 @@ TEST_CASE("a skirt of 20,000 triangles, with edges of many lengths, falls alike 
     Body& skirt = scene.bodies.emplace_back();
     skirt.shape.kind = ShapeKind::mesh;
     skirt.shape.file = std::filesystem::absolute(*mesh);
-    skirt.material = {
-        .density = 0.2, .stretch_stiffness = 2000, .bending_stiffness = 1e-5, .thickness = 0.002};
+    skirt.material.density = 0.2;
+    skirt.material.stretch_stiffness = 2000;
+    skirt.material.bending_stiffness = 1e-5;
+    skirt.material.thickness = 0.002;
     skirt.transform = {.rotate_axis = {0, 0, 1}, .rotate_degrees = 180, .scale = 0.01};
     Pin& waist = skirt.pins.emplace_back();
     waist.use_box = true;
