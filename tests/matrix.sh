@@ -47,8 +47,8 @@ part_hard() {
     local program=$root/build/release/tests/test_hard
     [ -x "$program" ] || { echo "$program is not built"; return 1; }
     local run=(env -u TAUT_HARD_SHORT TAUT_REQUIRE_DEVICE="${TAUT_REQUIRE_DEVICE:-1}")
-    # The threads of software Vulkan and OpenGL wait for each other at every dispatch: cells of the map, two of which
-    # run at once, are two to three times faster with one. All else runs with all threads.
+    # The threads of software Vulkan and OpenGL wait for each other at every dispatch; two cells of the map run at
+    # once instead, a thread each. All else runs with all threads.
     "${run[@]}" "$program" "~F8: the cells end*" &&
         "${run[@]}" LP_NUM_THREADS="${LP_NUM_THREADS:-1}" "$program" "F8: the cells end*"
 }

@@ -337,7 +337,7 @@ TEST_CASE("a watch says until when nothing can have reached the middle")
     run.scene.gravity = {0, -10, 0};
     CrossingWatch falling(run.scene);
     falling.look(0, 0, 1e-3, at, still);
-    CHECK(falling.clear_for() == Approx(std::sqrt(0.3 / 0.75)));        // half as much again as 2 m
+    CHECK(falling.clear_for() == Approx(std::sqrt(0.3 / 0.75)));
     run.scene.colliders[0].motion = {{4, {}}, {5, {0, 100, 0}}}; // not yet
     run.scene.gravity = glm::dvec3(0);
     CrossingWatch led(run.scene);
