@@ -2,14 +2,14 @@
 # What the pages conclude is what their tables say, and the tables of a page are the CSV files beside it: exit status 0
 # when all of it holds. In CI.
 #
-#   docs/check.sh [PAGE...]      cloth, solids, hybrid, linear, acad, accuracy; all without
+#   docs/check.sh [PAGE...]      cloth, fabric, solids, hybrid, linear, acad, accuracy; all without
 set -eu
 cd "$(dirname "$0")"
 . ./put.sh
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 bad=0
-[ $# -gt 0 ] || set -- cloth solids hybrid linear acad accuracy
+[ $# -gt 0 ] || set -- cloth fabric solids hybrid linear acad accuracy
 for page in "$@"; do
     case $page in
         accuracy) sh accuracy/check.sh ;;
@@ -19,6 +19,7 @@ for page in "$@"; do
         acad) check_tables methods/acad.md methods/acad || bad=1
             awk -f claims.awk -f methods/acad/claims.awk methods/acad.md methods/acad/compress.csv \
             ../tests/bench/results/acad.csv ;;
+        fabric) awk -f claims.awk -f fabric/claims.awk fabric.md fabric/overhang.csv ;;
         hybrid) awk -f claims.awk -f hybrid/claims.awk hybrid.md ../tests/bench/results/split.csv ;;
         linear) awk -f claims.awk -f linear/claims.awk linear.md ../tests/bench/results/linear_*.csv ;;
         *) check_tables "$page.md" "$page" || bad=1

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Writes the table of docs/fabric.md anew: how far the middle of one sheet sags on four meshes.
+# Writes the tables of docs/fabric.md anew: how far the middle of one sheet sags on four meshes, and the angle at
+# which strips hang that the cantilever test saw at 41.5 degrees.
 #
 #   docs/fabric/update.sh build/release/taut
 set -eu
@@ -70,3 +71,41 @@ awk -F, '
     cat "$scratch/rows"
 } > "$scratch/sag.md"
 put "$page" sag "$scratch/sag.md"
+
+# overhang DIAGONALS CELLS: degrees by which the tips of the three strips lie below their edges; CELLS to a centimetre,
+# of which one is held.
+overhang()
+{
+    "$program" run examples/scenes/fabric/overhang.json --device cpu --no-picture --every 180 --out "$scratch/run" \
+        --set "bodies[0].grid.cells=[$((5 * $2)),$2]" "bodies[1].grid.cells=[$((4 * $2)),$2]" \
+        "bodies[2].grid.cells=[$((9 * $2 / 2)),$2]" "bodies[0].grid.diagonals=$1" "bodies[1].grid.diagonals=$1" \
+        "bodies[2].grid.diagonals=$1" > /dev/null 2>&1 || [ $? -eq 1 ]
+    awk -v n="$2" '
+        $1 == "v" { x[k] = $2; y[k++] = $3 }
+        function angle(columns,    row, fall, way) {
+            for (row = 0; row <= n; ++row) {
+                fall += y[first + row * (columns + 1) + n] - y[first + row * (columns + 1) + columns]
+                way += x[first + row * (columns + 1) + columns] - x[first + row * (columns + 1) + n]
+            }
+            first += (n + 1) * (columns + 1)
+            return atan2(fall, way) * 45 / atan2(1, 1)
+        }
+        END { printf "%.1f,%.1f,%.1f\n", angle(5 * n), angle(4 * n), angle(4.5 * n) }
+    ' "$(ls "$scratch"/run/*.obj | tail -1)"
+    rm -r "$scratch/run"
+}
+
+{
+    echo diagonals,cells,warp,weft,bias
+    for diagonals in alternating uniform; do
+        for cells in 2 4 8; do
+            echo "$diagonals,$cells,$(overhang $diagonals $cells)"
+        done
+    done
+} > docs/fabric/overhang.csv
+{
+    echo "| diagonals | cells a centimetre | warp, 4 cm | weft, 3 cm | bias, 3.5 cm |"
+    echo "|---|---:|---:|---:|---:|"
+    awk -F, 'NR > 1 { printf "| %s | %d | %s° | %s° | %s° |\n", $1, $2, $3, $4, $5 }' docs/fabric/overhang.csv
+} > "$scratch/overhang.md"
+put "$page" overhang "$scratch/overhang.md"

@@ -111,7 +111,7 @@ bool any_stretch(const Scene& scene)
 bool any_bending(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
-        return b.material.bending_stiffness > 0 && !b.mesh.triangles.empty();
+        return resists_bending(b.material) && !b.mesh.triangles.empty();
     });
 }
 

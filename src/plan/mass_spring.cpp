@@ -142,7 +142,7 @@ bool wants_kick(const Scene& scene)
     return wants_kick_after(scene) ||
            std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
                return has_springs(b) || !b.elements.empty() ||
-                      (b.material.bending_stiffness > 0 && !b.mesh.triangles.empty());
+                      (resists_bending(b.material) && !b.mesh.triangles.empty());
            });
 }
 

@@ -45,7 +45,7 @@ std::vector<StretchElement> stretch_elements(const Body& body);
 /// Whether there may be any.
 bool has_springs(const Body& body);
 
-/// Hinges of a resolved body in the order of mesh_hinges; none when bending_stiffness is 0. Hinges with a
+/// Hinges of a resolved body in the order of mesh_hinges; none when nothing resists bending. Hinges with a
 /// zero edge or a zero-area triangle at rest have no angle: left out, and counted in `dropped`.
 std::vector<BendElement> bend_elements(const Body& body, std::size_t* dropped = nullptr);
 

@@ -25,6 +25,9 @@ void check_beside(const Material& material, const Checker& out)
     if (material.plastic_yield != 0)
         refuse("plastic_yield", material.plastic_yield, "",
                ", which has no springs that could keep a strain; leave one of the two out");
+    if (material.bending_stiffness != 0 && material.fabric.bending.used)
+        refuse("bending_stiffness", material.bending_stiffness, " N m",
+               " with bending rigidities of its own; leave one of the two out");
     if (material.stretch_damping != 0)
         out.warning("stretch_damping",
                     "is " + shown(material.stretch_damping) +
@@ -46,10 +49,63 @@ void check_shear(const Fabric& fabric, const Checker& out)
                               shown(most, 4) + " N/m however stiff it is in shear");
 }
 
+/// One of the two numbers of a pair without the other says nothing.
+void check_pair(const char* key, const glm::dvec2& pair, const Checker& out)
+{
+    if ((pair.x > 0) != (pair.y > 0))
+        out.error(key, "is [" + shown(pair.x) + ", " + shown(pair.y) +
+                           "]; give both warp and weft, or leave it out");
+}
+
+/// Moduli, and rigidities, come from one place.
+void check_sources(const Fabric& fabric, const Checker& out)
+{
+    if (fabric.kes.used && fabric.fast.used)
+        out.error("", "has readings of both \"kes\" and \"fast\"; keep one");
+    const bool kes = fabric.kes.used && fabric.kes.bending.x > 0;
+    const bool fast = fabric.fast.used && fabric.fast.length.x > 0;
+    if (fabric.peirce.used && (kes || fast))
+        out.error("peirce", std::string("stands beside ") + (kes ? "\"kes.bending\"" : "\"fast.length\"") +
+                                ", which says how the fabric bends, too; keep one");
+}
+
 } // namespace
+
+void check_fabric_bending(const FabricBending& bending, const Checker& out)
+{
+    if (!(bending.warp > 0) || !(bending.weft > 0) || !(bending.bias > 0))
+        return;
+    const double least = (bending.warp + bending.weft) / 4, most = largest_bias(bending);
+    if (bending.bias_of == "sheet" && bending.bias <= least)
+        out.error("bias", "is " + shown(bending.bias) +
+                              " N m; a sheet of these rigidities of warp and weft has " + shown(least, 4) +
+                              " N m with no resistance to twist: above that would be right");
+    if (bending.bias_of == "strip" && bending.bias > most)
+        out.warning("bias", "is " + shown(bending.bias) +
+                                " N m; no strip bends as hard that twists as freely "
+                                "as warp and weft let it: " +
+                                shown(most, 4) + " N m is taken, 1.9 of their harmonic mean");
+}
+
+void check_kes(const KesReadings& kes, const Checker& out)
+{
+    check_pair("shear", kes.shear, out);
+    check_pair("bending", kes.bending, out);
+}
+
+void check_fast(const FastReadings& fast, const Checker& out)
+{
+    check_pair("length", fast.length, out);
+    const bool good = fast.extension_20.x > fast.extension_5.x && fast.extension_20.y > fast.extension_5.y;
+    if (!good && fast.extension_20.x > 0 && fast.extension_20.y > 0)
+        out.error("extension_20", "is [" + shown(fast.extension_20.x) + ", " + shown(fast.extension_20.y) +
+                                      "] %; the strain at 20 gf/cm must be above that at 5 gf/cm, [" +
+                                      shown(fast.extension_5.x) + ", " + shown(fast.extension_5.y) + "] %");
+}
 
 void check_fabric(const Fabric& fabric, const Checker& out)
 {
+    check_sources(fabric, out);
     if (!(fabric.warp > 0) || !(fabric.weft > 0))
         return; // their ranges have told
     const double most = std::sqrt(fabric.warp / fabric.weft);
@@ -80,6 +136,10 @@ void check_fabric_body(const Body& body, const Checker& out)
                                      "poissons_ratio say");
     if (body.shape.kind == ShapeKind::grid && body.shape.network.used)
         out.error("material.fabric", "stands beside a network of springs; leave one of the two out");
+    if (body.material.fabric.grain_of == "texture" && body.shape.kind == ShapeKind::grid)
+        out.error("material.fabric.grain_of",
+                  "is \"texture\" of a grid, which has no texture coordinates; take "
+                  "\"direction\" and a grain, or a mesh file that has some");
     if (body.shape.kind == ShapeKind::grid && body.shape.diagonals == "uniform")
         out.warning("grid.diagonals",
                     "is \"uniform\" beside a fabric: triangles that all lean one way cannot shear "

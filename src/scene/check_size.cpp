@@ -70,7 +70,7 @@ void check_size(const Body& body, bool twice, const Checker& out)
                                                    shown(std::sqrt(most), 2) + " m would be right" + right);
     // Areas come in squares too: gradients of volumes and angles.
     else if (const double fine = std::sqrt(std::sqrt(least / rounding));
-             longest < fine && (!body.mesh.tetrahedra.empty() || body.material.bending_stiffness > 0))
+             longest < fine && (!body.mesh.tetrahedra.empty() || resists_bending(body.material)))
         out.warning(size_field(body.shape.kind),
                     is + ": the square of an area is below what a " + (twice ? "double" : "float") +
                         " holds to its last digit, and a run may end with values that are not finite; " +

@@ -1,9 +1,26 @@
 #pragma once
-// Woven cloth by the moduli of its two yarn directions: what a scene says of it, and the matrix that follows.
+// Woven cloth by the moduli of its two yarn directions: what a scene says of it, and the matrices that
+// follow.
+
+#include "taut/scene/fabric_readings.hpp"
 
 #include <glm/vec3.hpp>
 
+#include <string>
+
 namespace taut {
+
+/// Bending rigidities by the direction in which the sheet curves.
+struct FabricBending
+{
+    bool used = false; ///< false: of one rigidity (Material::bending_stiffness), or none
+    double warp = 0;   ///< N m, where the warp yarns curve, > 0
+    double weft = 0;   ///< N m, where the weft yarns curve, > 0
+    double bias = 0; ///< N m, at 45 degrees to both; 0: as smooth as can be, (sqrt(warp) + sqrt(weft))^2 / 4
+    /// What `bias` was measured on: a narrow "strip" whose sides are free, as a cantilever is, or a wide
+    /// "sheet" that curves one way only, as between the clamps of KES-FB2.
+    std::string bias_of = "strip";
+};
 
 /// Moduli of a sheet per width: Pa times its thickness. Strains are those of warp and weft and the sine of
 /// the angle by which the two shear (docs/fabric.md).
@@ -16,7 +33,14 @@ struct Fabric
     double bias = 0;   ///< N/m, Young's modulus at 45 degrees to the grain; 0: from `shear`
     double poissons_ratio =
         0; ///< across, of a strip that is pulled along the grain; its square < warp / weft
+    FabricBending bending;
+    KesReadings kes; ///< apply_readings() turns these three into the values above
+    FastReadings fast;
+    PeirceReadings peirce;
+    /// Where the warp lies: along `grain`, or along the second coordinate (v) of the mesh file's "texture".
+    std::string grain_of = "direction";
     glm::dvec3 grain{0, 1, 0}; ///< along the warp, in the frame of the shape; projected onto each triangle
+    double grain_degrees = 0;  ///< the warp is turned by this, counter-clockwise as triangles are
 };
 
 /// C of the energy e^T C e / 2 an area, e = (warp strain, weft strain, shear), N/m.
@@ -32,5 +56,28 @@ double shear_modulus(const Fabric& fabric);
 /// Plane stress: the inverse of [[1 / warp, -nu / warp], [-nu / warp, 1 / weft]], and the shear modulus.
 /// Positive definite for moduli above 0 and nu^2 < warp / weft.
 FabricMatrix fabric_matrix(const Fabric& fabric);
+
+/// D of the energy k^T D k / 2 an area, k = (curvature along the warp, along the weft, twist), N m; no
+/// coupling of the first two.
+struct FabricRigidity
+{
+    double d11 = 0, d22 = 0, d33 = 0;
+
+    /// N m, of a wide sheet that curves in one direction only, `square` = cos^2 of its angle to the warp:
+    /// d11 c^4 + d33 c^2 s^2 + d22 s^4.
+    double along(double square) const;
+};
+
+/// d33 follows from `bias`: of a strip, which twists as it bends, 1 / (1 / bias - (1 / warp + 1 / weft) / 4),
+/// with a bias of at most 1.9 times the harmonic mean of the two (twice is the bound of any sheet; a tenth of
+/// the fabrics that Feng et al. 2022 measured lie beyond it); of a sheet 4 bias - warp - weft.
+FabricRigidity fabric_rigidity(const FabricBending& bending);
+
+/// N m, the largest bias that a strip of a fabric can have: 1.9 times the harmonic mean of warp and weft.
+double largest_bias(const FabricBending& bending);
+
+/// Puts what instruments read in the place of values that are 0: moduli, and with the density [kg/m^2] the
+/// rigidities of bending lengths. Twice is as once.
+void apply_readings(Fabric& fabric, double density);
 
 } // namespace taut

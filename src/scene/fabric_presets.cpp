@@ -5,7 +5,7 @@
 namespace taut {
 namespace {
 
-constexpr Fabric moduli(double warp, double weft, double poissons_ratio, double shear)
+Fabric moduli(double warp, double weft, double poissons_ratio, double shear)
 {
     Fabric out;
     out.used = true;
@@ -24,7 +24,7 @@ constexpr std::string_view kClyde = "Clyde, Teran, Tamstorf 2017, as C-IPC's mat
 constexpr std::string_view kWang =
     "Wang, O'Brien, Ramamoorthi 2011, as ARCSim's materials quote it, at small strain; coupling not measured";
 
-constexpr FabricPreset kPresets[] = {
+const FabricPreset kPresets[] = {
     {"penava_cotton", 0.150, moduli(10350, 3950, 0.243, 67), kPenava},
     {"penava_wool", 0.235, moduli(12400, 4630, 0.277, 24), kPenava},
     {"penava_polyester", 0.165, moduli(1300, 2940, 0.381, 32), kPenava},

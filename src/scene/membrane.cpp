@@ -4,8 +4,11 @@
 #include "taut/scene/membrane.hpp"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace taut::scene_file {
 namespace {
@@ -44,27 +47,108 @@ std::array<double, 8> membrane_values(const std::array<glm::dvec3, 3>& x, const 
             matrix.c11 * area, matrix.c12 * area, matrix.c22 * area, matrix.c33 * area};
 }
 
+std::vector<glm::dvec3> warp_directions(const Body& body)
+{
+    std::vector<glm::dvec3> out;
+    for (const Body::Elements& list : body.elements)
+        if (list.kind == kMembrane)
+            for (std::size_t t = 0; t < list.vertices.size() / 3; ++t)
+            {
+                const auto x = [&](std::size_t corner) {
+                    return body.mesh.positions[list.vertices[3 * t + corner]];
+                };
+                out.push_back((x(1) - x(0)) * list.values[8 * t] + (x(2) - x(0)) * list.values[8 * t + 2]);
+            }
+    return out;
+}
+
+namespace {
+
+std::string named(const Body& body, std::size_t triangle)
+{
+    const auto& t = body.mesh.triangles[triangle];
+    return "triangle " + std::to_string(triangle) + " of the body (vertices " + std::to_string(t[0]) + ", " +
+           std::to_string(t[1]) + ", " + std::to_string(t[2]) + ')';
+}
+
+/// The warp of each triangle of one body, before it is projected onto the triangle.
+class Grain
+{
+public:
+    explicit Grain(const Body& body)
+        : body_(body),
+          fabric_(body.material.fabric),
+          turn_(glm::radians(fabric_.grain_degrees))
+    {
+        const std::vector<Keyframe> turn = {
+            {0, glm::dvec3(0), body.transform.rotate_axis, body.transform.rotate_degrees, glm::dvec3(0)}};
+        direction_ = pose(turn, 0, fabric_.grain);
+    }
+
+    /// Nothing, once `out` knows why.
+    std::optional<glm::dvec3> of(std::size_t triangle, const Checker& out) const
+    {
+        const std::array<glm::dvec3, 3> x = corners(body_.mesh, triangle);
+        const bool texture = fabric_.grain_of == "texture";
+        const std::optional<glm::dvec3> along = texture ? by_texture(triangle, x, out) : direction_;
+        if (!along)
+            return {};
+        if (stands_on(*along, x))
+        {
+            out.error("grain", "is " + shown(*along) + ", which is within a degree of the normal of " +
+                                   named(body_, triangle) +
+                                   "; give a direction that lies in no triangle's normal, in the frame "
+                                   "of the shape");
+            return {};
+        }
+        const glm::dvec3 normal = unit_normal(x);
+        const glm::dvec3 warp = glm::normalize(*along - glm::dot(*along, normal) * normal);
+        return std::cos(turn_) * warp + std::sin(turn_) * glm::cross(normal, warp);
+    }
+
+private:
+    /// Where the second texture coordinate grows and the first does not.
+    std::optional<glm::dvec3> by_texture(std::size_t triangle, const std::array<glm::dvec3, 3>& x,
+                                         const Checker& out) const
+    {
+        const auto refuse = [&](const std::string& why) {
+            out.error("grain_of", "is \"texture\", and " + why +
+                                      "; give every face texture coordinates, or take \"direction\"");
+            return std::nullopt;
+        };
+        if (body_.mesh.texture.empty())
+            return refuse("the mesh has no texture coordinates");
+        const auto& uv = body_.mesh.texture[triangle];
+        const glm::dvec2 d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
+        const double area = d1.x * d2.y - d2.x * d1.y;
+        if (!std::isfinite(area))
+            return refuse(named(body_, triangle) + " has none");
+        if (!(std::abs(area) > 1e-12 * std::max(glm::dot(d1, d1), glm::dot(d2, d2))))
+            return refuse("those of " + named(body_, triangle) + " have no area");
+        return ((x[2] - x[0]) * d1.x - (x[1] - x[0]) * d2.x) / area;
+    }
+
+    const Body& body_;
+    const Fabric& fabric_;
+    glm::dvec3 direction_{0};
+    double turn_;
+};
+
+} // namespace
+
 void add_membrane(Body& body, const Checker& out)
 {
-    const Fabric& fabric = body.material.fabric;
-    const FabricMatrix matrix = fabric_matrix(fabric);
-    const std::vector<Keyframe> turn = {
-        {0, glm::dvec3(0), body.transform.rotate_axis, body.transform.rotate_degrees, glm::dvec3(0)}};
-    const glm::dvec3 grain = pose(turn, 0, fabric.grain);
+    apply_readings(body.material.fabric, body.material.density); // of a program; those of a file were
+    check_fabric(body.material.fabric, out);
+    const FabricMatrix matrix = fabric_matrix(body.material.fabric);
+    const Grain grain(body);
     Body::Elements list{kMembrane, {}, {}};
     for (std::size_t t = 0; t < body.mesh.triangles.size(); ++t)
     {
-        const std::array<glm::dvec3, 3> x = corners(body.mesh, t);
-        if (stands_on(grain, x))
-            return out.error("grain",
-                             "is " + shown(fabric.grain) + ", which is within a degree of the normal of " +
-                                 "triangle " + std::to_string(t) + " of the body (vertices " +
-                                 std::to_string(body.mesh.triangles[t][0]) + ", " +
-                                 std::to_string(body.mesh.triangles[t][1]) + ", " +
-                                 std::to_string(body.mesh.triangles[t][2]) +
-                                 "); give a direction that lies in no triangle's normal, in the frame "
-                                 "of the shape");
-        const std::array<double, 8> values = membrane_values(x, grain, matrix);
+        const std::optional<glm::dvec3> warp = grain.of(t, out);
+        if (!warp)
+            return;
+        const std::array<double, 8> values = membrane_values(corners(body.mesh, t), *warp, matrix);
         list.vertices.insert(list.vertices.end(), body.mesh.triangles[t].begin(),
                              body.mesh.triangles[t].end());
         list.values.insert(list.values.end(), values.begin(), values.end());

@@ -18,7 +18,12 @@ std::array<double, 8> membrane_values(const std::array<glm::dvec3, 3>& x, const 
                                       const FabricMatrix& matrix);
 
 /// Adds the elements of a body whose material has a fabric. The mesh is in world space; `grain` is turned as
-/// the body is. An error names the first triangle that the grain stands on (within a degree).
+/// the body is. An error names the first triangle that the grain stands on (within a degree) or that has no
+/// texture coordinates where the grain follows them.
 void add_membrane(Body& body, const Checker& out);
+
+/// Of each triangle of a resolved body with a fabric, in the order of the mesh: a unit vector along the warp
+/// at rest.
+std::vector<glm::dvec3> warp_directions(const Body& body);
 
 } // namespace taut::scene_file

@@ -1,6 +1,7 @@
 #pragma once
 // Meshes of triangles and tetrahedra as values, their readers, writers and checks.
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -17,6 +18,9 @@ struct Mesh
 {
     std::vector<glm::dvec3> positions; ///< m
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    /// Texture coordinates of the corners of each triangle, of the mesh file; not finite where a face has
+    /// none. Empty: the file has none, or the mesh is generated.
+    std::vector<std::array<glm::dvec2, 3>> texture;
     /// Edges that belong to no triangle: the links of a chain.
     std::vector<std::array<std::uint32_t, 2>> links;
     double link_width = 0; ///< m, width of cloth that a link stands for

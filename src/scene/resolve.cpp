@@ -284,6 +284,11 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
 
 } // namespace
 
+bool resists_bending(const Material& material)
+{
+    return material.bending_stiffness > 0 || (material.fabric.used && material.fabric.bending.used);
+}
+
 Material solid_material()
 {
     Material material;

@@ -28,7 +28,7 @@ struct Material
     double density = 0.2;           ///< kg/m^2, of solids kg/m^3, > 0
     double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
     Fabric fabric;                  ///< cloth by its yarns; stretch_stiffness must be 0 beside it
-    double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect
+    double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect, or fabric.bending
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
     double stretch_damping = 0;     ///< s, >= 0: a spring of stiffness k has the damper k * stretch_damping
     double strain_limit = 0;        ///< (l - L)/L that no spring may pass, >= 0; 0 = no strain_limit effect
@@ -63,6 +63,9 @@ struct Material
 
 /// Defaults of bodies with tetrahedra: soft rubber.
 Material solid_material();
+
+/// Whether the material resists being bent: by one rigidity, or by those of its fabric's directions.
+bool resists_bending(const Material& material);
 
 /// Springs of a grid of its own, in place of its edges: structural to the side neighbours, shear to the
 /// diagonal ones, bend to the second ones along rows and columns (Provot 1995).

@@ -66,6 +66,7 @@ void read_fabric(const Field& material, Material& out)
     if (const auto name = fabric->find("preset"); name && !material.find("density"))
         if (const FabricPreset* preset = find_fabric_preset(name->text()))
             out.density = preset->density;
+    apply_readings(out.fabric, out.density);
 }
 bool has_fabric(const Material& material) { return material.fabric.used; }
 

@@ -162,12 +162,12 @@ constinit const TableOf<BodyContact> kBodyContactTable("body contact", kBodyCont
 std::span<const Table* const> all_tables()
 {
     static constexpr const Table* others[] = {
-        &kSceneTable,         &kAcceptTable,      &kMethodTable,   &kWindTable,           &kWindKeyTable,
-        &kContactTable,       &kBodyContactTable, &kBodyTable,     &kGridTable,           &kNetworkTable,
-        &kChainTable,         &kSolidBoxTable,    &kBallTable,     &kMaterialTable,       &kFabricTable,
-        &kSolidMaterialTable, &kTransformTable,   &kRotateTable,   &kKinematicTable,      &kMeshSequenceTable,
-        &kPinTable,           &kPinBoxTable,      &kKeyframeTable, &kKeyframeRotateTable, &kSpringTable,
-        &kColliderTable,
+        &kSceneTable, &kAcceptTable, &kMethodTable, &kWindTable, &kWindKeyTable, &kContactTable,
+        &kBodyContactTable, &kBodyTable, &kGridTable, &kNetworkTable, &kChainTable, &kSolidBoxTable,
+        &kBallTable, &kMaterialTable, &kFabricTable, &kFabricBendingTable, &kKesTable, &kFastTable,
+        &kPeirceTable, &kSolidMaterialTable, &kTransformTable, &kRotateTable, &kKinematicTable,
+        &kMeshSequenceTable, &kPinTable, &kPinBoxTable, &kKeyframeTable, &kKeyframeRotateTable,
+        &kSpringTable, &kColliderTable,
     };
     static const std::vector<const Table*> tables = [] {
         std::vector<const Table*> all(std::begin(others), std::end(others));

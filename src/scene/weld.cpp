@@ -150,6 +150,8 @@ Mesh clean(const RawMesh& raw, double weld_distance, MeshFindings& findings, std
         for (const std::uint32_t corner : triangle)
             used[corner] = true;
         mesh.triangles.push_back(triangle);
+        if (!raw.texture.empty())
+            mesh.texture.push_back(raw.texture[t]);
     }
 
     std::vector<std::uint32_t> number(raw.positions.size(), 0);

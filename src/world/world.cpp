@@ -230,7 +230,7 @@ Scene resolved(const Scene& scene)
 bool has_constraints(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
-        return b.material.stretch_stiffness > 0 || b.material.bending_stiffness > 0 || !b.springs.empty() ||
+        return b.material.stretch_stiffness > 0 || resists_bending(b.material) || !b.springs.empty() ||
                !b.elements.empty();
     });
 }
