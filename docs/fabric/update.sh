@@ -72,12 +72,20 @@ awk -F, '
 } > "$scratch/sag.md"
 put "$page" sag "$scratch/sag.md"
 
-# overhang DIAGONALS CELLS: degrees by which the tips of the three strips lie below their edges; CELLS to a centimetre,
-# of which one is held.
+# overhang MODEL DIAGONALS CELLS: degrees by which the tips of the three strips lie below their edges; CELLS to a
+# centimetre, of which one is held.
 overhang()
 {
+    model=$1
+    shift
+    case $model in
+        hinge) own="method.type=implicit_euler method.substeps=4 method.linear_iterations=1000" ;;
+        plate) own="method.type=xpbd method.substeps=1000" ;;
+    esac
     "$program" run examples/scenes/fabric/overhang.json --device cpu --no-picture --every 180 --out "$scratch/run" \
-        --set "bodies[0].grid.cells=[$((5 * $2)),$2]" "bodies[1].grid.cells=[$((4 * $2)),$2]" \
+        --set $own method.precision=double "bodies[0].material.bending_model=$model" \
+        "bodies[1].material.bending_model=$model" "bodies[2].material.bending_model=$model" \
+        "bodies[0].grid.cells=[$((5 * $2)),$2]" "bodies[1].grid.cells=[$((4 * $2)),$2]" \
         "bodies[2].grid.cells=[$((9 * $2 / 2)),$2]" "bodies[0].grid.diagonals=$1" "bodies[1].grid.diagonals=$1" \
         "bodies[2].grid.diagonals=$1" > /dev/null 2>&1 || [ $? -eq 1 ]
     awk -v n="$2" '
@@ -96,16 +104,18 @@ overhang()
 }
 
 {
-    echo diagonals,cells,warp,weft,bias
-    for diagonals in alternating uniform; do
-        for cells in 2 4 8; do
-            echo "$diagonals,$cells,$(overhang $diagonals $cells)"
+    echo model,diagonals,cells,warp,weft,bias
+    for model in hinge plate; do
+        for diagonals in alternating uniform; do
+            for cells in 2 4; do
+                echo "$model,$diagonals,$cells,$(overhang $model $diagonals $cells)"
+            done
         done
     done
 } > docs/fabric/overhang.csv
 {
-    echo "| diagonals | cells a centimetre | warp, 4 cm | weft, 3 cm | bias, 3.5 cm |"
-    echo "|---|---:|---:|---:|---:|"
-    awk -F, 'NR > 1 { printf "| %s | %d | %s° | %s° | %s° |\n", $1, $2, $3, $4, $5 }' docs/fabric/overhang.csv
+    echo "| model | diagonals | cells a centimetre | warp, 4 cm | weft, 3 cm | bias, 3.5 cm |"
+    echo "|---|---|---:|---:|---:|---:|"
+    awk -F, 'NR > 1 { printf "| %s | %s | %d | %s° | %s° | %s° |\n", $1, $2, $3, $4, $5, $6 }' docs/fabric/overhang.csv
 } > "$scratch/overhang.md"
 put "$page" overhang "$scratch/overhang.md"

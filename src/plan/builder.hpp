@@ -75,6 +75,7 @@ struct MomentumBuffers; // momentum.cpp
 
 struct Acad;
 struct ContactBuffers; // contact.hpp
+struct PlateBuffers;
 struct Plasticity;
 struct ImplicitConstraints;
 struct ImplicitEuler; // implicit_euler.cpp
@@ -176,6 +177,7 @@ public:
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp
     std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
     std::shared_ptr<Plasticity> plasticity; ///< plasticity.hpp
+    std::shared_ptr<PlateBuffers> plate;    ///< plate.hpp
     std::shared_ptr<MomentumBuffers> momentum; ///< momentum.hpp
     std::shared_ptr<ContactBuffers> contact; ///< contact.hpp
 

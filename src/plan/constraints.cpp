@@ -10,6 +10,7 @@
 #include "taut/plan/constraints.hpp"
 
 #include "taut/plan/coloured_set.hpp"
+#include "taut/plan/plate.hpp"
 #include "taut/plan/records.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -177,7 +178,7 @@ ConstraintGraph body_graph(const PlanBuilder& b, std::size_t body, std::uint32_t
 void add_set(PlanBuilder& b, ConstraintSet& set, std::vector<std::uint32_t> table, const SetOptions& options,
              std::uint32_t each)
 {
-    if (options.multipliers && (b.plan.iterations > 1 || b.options.residuals))
+    if (options.multipliers && (b.plan.iterations > 1 || b.options.residuals || options.keeps))
         set.multipliers = b.add_buffer(set.kind, set.kind + " multipliers",
                                        std::uint64_t(set.count) * each * b.real_size());
     add_colour_table(b, set, std::move(table));
@@ -251,7 +252,10 @@ void prepare_distance(PlanBuilder& b)
     prepare_springs(b, {"distance", true, ColouringOptions{}.hub_degree});
 }
 
-void prepare_bending(PlanBuilder& b) { prepare_hinges(b, {"bending", true}); }
+void prepare_bending(PlanBuilder& b)
+{
+    prepare_hinges(b, {"bending", true, 0, wants_plate(b.scene)}); // plates go by the moments
+}
 
 void record_distance(PlanBuilder& b, const Moment& moment)
 {

@@ -21,6 +21,7 @@ struct SetOptions
     std::string_view kind; ///< of the ConstraintSet, and the effect that pays for its buffers
     bool multipliers = false;
     std::uint32_t hub_degree = 0; ///< springs: as ColouringOptions::hub_degree
+    bool keeps = false;           ///< multipliers of one iteration, too: something reads them afterwards
 };
 
 /// Colours the springs (or hinges) of all bodies, adds their records as buffers and the set to the plan;

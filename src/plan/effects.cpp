@@ -20,6 +20,7 @@
 #include "taut/plan/motion.hpp"
 #include "taut/plan/pbd.hpp"
 #include "taut/plan/plasticity.hpp"
+#include "taut/plan/plate.hpp"
 #include "taut/plan/pressure.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/solid_constraints.hpp"
@@ -214,6 +215,7 @@ constexpr Effect kEffectsAfter[] = {
     {"motion", Stage::finish, has_bodies, nullptr, record_finish},
     {"plasticity", Stage::after, wants_plasticity, prepare_plasticity, record_plasticity,
      kMassSpring | only(MethodKind::xpbd) | only(MethodKind::implicit_euler) | kVbd},
+    {"plate", Stage::after, wants_plate, prepare_plate, record_plate, only(MethodKind::xpbd)},
     {"tearing", Stage::after, wants_tearing, prepare_tearing, record_tearing},
     {"vbd_start", Stage::after, any_blocks, nullptr, record_vbd_share, kVbd},
     {"spring_force", Stage::after, [](const Scene& s) { return any_stretch(s) && wants_forces_after(s); },

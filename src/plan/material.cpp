@@ -9,6 +9,7 @@
 //   right triangles then has 1/2 B kappa^2 (1 - 1/n) per area; the factor 3 often seen triples it.
 #include "taut/plan/material.hpp"
 
+#include "taut/plan/plate_hinges.hpp"
 #include "taut/plan/topology.hpp"
 #include "taut/scene/membrane.hpp"
 
@@ -208,6 +209,12 @@ private:
 std::vector<BendElement> bend_elements(const Body& body, std::size_t* dropped)
 {
     std::vector<BendElement> out;
+    if (is_plate(body))
+    {
+        for (const PlateHinge& h : plate_hinges(body, dropped))
+            out.push_back(h.element);
+        return out;
+    }
     std::size_t lost = 0;
     const HingeRigidity rigidity(body);
     if (rigidity.any())

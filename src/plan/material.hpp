@@ -46,7 +46,8 @@ std::vector<StretchElement> stretch_elements(const Body& body);
 bool has_springs(const Body& body);
 
 /// Hinges of a resolved body in the order of mesh_hinges; none when nothing resists bending. Hinges with a
-/// zero edge or a zero-area triangle at rest have no angle: left out, and counted in `dropped`.
+/// zero edge or a zero-area triangle at rest have no angle: left out, and counted in `dropped`. Of a plate
+/// those of plate_hinges(), whose energy is a bound from above.
 std::vector<BendElement> bend_elements(const Body& body, std::size_t* dropped = nullptr);
 
 /// Signed angle between two triangles at the edge x0-x1 with wings x2 and x3: 0 when flat, in (-pi, pi].

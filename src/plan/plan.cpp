@@ -5,6 +5,7 @@
 #include "taut/plan/contact_scene.hpp"
 #include "taut/plan/effect_names.hpp"
 #include "taut/plan/plasticity.hpp"
+#include "taut/plan/plate.hpp"
 #include "taut/plan/pressure.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -36,6 +37,7 @@ void check_settings(const Scene& scene, const DeviceTraits& traits)
     check_solids(scene);
     check_pressure(scene);
     check_plasticity(scene);
+    check_plate(scene);
     check_added_elements(scene);
     check_contact(scene);
     if (method.check != nullptr)

@@ -309,6 +309,8 @@ double EnergyBudget::rounding(Precision precision, double substep) const
     for (const BendElement& e : shared_->hinges)
         if (e.compliance > 0)
             out += 0.5 * strain * strain / e.compliance;
+    for (const PlateHinge& h : shared_->plates)
+        out += 0.5 * strain * strain / h.element.compliance;
     return out;
 }
 

@@ -207,7 +207,8 @@ LoadResidual measure_load_residual(const World& world)
     const bool sweeps = kind == MethodKind::xpbd;
     if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps) ||
         !view.model.surfaces.empty() || has_effect(view, "attachment") || // both join far vertices
-        any_rigid(view.model) || !view.model.added.empty())               // forces that are on no record
+        any_rigid(view.model) || !view.model.added.empty() ||
+        !view.model.plates.empty()) // forces that are on no record
         return {};
     std::optional<Substep> last = last_substep(view);
     if (!last)

@@ -64,11 +64,16 @@ void measure_energy(const View& view, StepReport& out)
     for (const DistanceRecord& c : view.distance)
         if (c.compliance > 0)
             out.potential_energy += 0.5 * std::pow(view.length(c) - c.rest_length, 2) / c.compliance;
-    for (const BendingRecord& c : view.bending)
-        if (c.compliance > 0)
-            out.potential_energy +=
-                0.5 * std::pow(reference::angle_difference(view.angle(c).angle, c.rest_angle), 2) /
-                c.compliance;
+    if (view.model.plates.empty())
+        for (const BendingRecord& c : view.bending)
+        {
+            if (c.compliance > 0)
+                out.potential_energy +=
+                    0.5 * std::pow(reference::angle_difference(view.angle(c).angle, c.rest_angle), 2) /
+                    c.compliance;
+        }
+    else // records have bounds on their energy
+        out.potential_energy += bending_energy(view.model, view.x);
     for (const VolumeElement& e : view.model.volumes)
         if (e.compliance > 0)
             out.potential_energy +=

@@ -1,9 +1,9 @@
 #include "taut/report/model.hpp"
 
-#include "taut/plan/stability.hpp"
 #include "taut/report/element_rates.hpp"
 #include "taut/report/hinge.hpp"
 #include "taut/report/looks.hpp"
+#include "taut/report/plate_energy.hpp"
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
@@ -45,14 +45,25 @@ void append_vertices(PhysicalModel& model, const Body& body)
 void append_elements(PhysicalModel& model, const Body& body, std::uint32_t first)
 {
     std::size_t dropped = 0;
-    for (BendElement h : bend_elements(body, &dropped))
+    const auto moved = [first](BendElement h) {
+        for (std::uint32_t* v : {&h.edge0, &h.edge1, &h.wing0, &h.wing1})
+            *v += first;
+        return h;
+    };
+    if (is_plate(body))
     {
-        h.edge0 += first;
-        h.edge1 += first;
-        h.wing0 += first;
-        h.wing1 += first;
-        model.hinges.push_back(h);
+        const auto before = static_cast<std::uint32_t>(2 * model.plates.size());
+        for (PlateHinge h : plate_hinges(body, &dropped))
+        {
+            h.element = moved(h.element);
+            for (std::uint32_t& n : h.neighbour)
+                n += before;
+            model.plates.push_back(h);
+        }
     }
+    else
+        for (const BendElement& h : bend_elements(body, &dropped))
+            model.hinges.push_back(moved(h));
     model.dropped_hinges += dropped;
     const auto append = [first](auto elements, auto& out) {
         for (auto& e : elements)
@@ -217,6 +228,15 @@ double bend_angle(const BendElement& element, std::span<const glm::dvec3> x)
     return hinge.valid ? reference::angle_difference(hinge.angle, element.rest_angle) : 0;
 }
 
+double bending_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
+{
+    double energy = plate_energy(model.plates, x);
+    for (const BendElement& h : model.hinges)
+        if (const double angle = bend_angle(h, x); angle != 0)
+            energy += 0.5 * angle * angle / h.compliance;
+    return energy;
+}
+
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
 {
     double energy = 0;
@@ -226,9 +246,7 @@ double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
         if (stretch != 0)
             energy += 0.5 * stretch * stretch / s.compliance;
     }
-    for (const BendElement& h : model.hinges)
-        if (const double angle = bend_angle(h, x); angle != 0)
-            energy += 0.5 * angle * angle / h.compliance;
+    energy += bending_energy(model, x);
     for (const VolumeElement& e : model.volumes)
     {
         const double change = volume_of(e.vertex, x) - e.rest_volume;
@@ -266,6 +284,18 @@ double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
 
 namespace {
 
+/// `torque`: J, along the angle's gradients.
+template <typename Add>
+void add_torque(const BendElement& h, const reference::HingeAngle<double>& hinge, double torque, Add add)
+{
+    const std::uint32_t vertex[4] = {h.edge0, h.edge1, h.wing0, h.wing1};
+    for (std::size_t c = 0; c < 4; ++c)
+    {
+        const Vec<double>& g = hinge.gradient[c];
+        add(vertex[c], torque * glm::dvec3(g.x, g.y, g.z));
+    }
+}
+
 /// Calls add(vertex, force) with what each compliant element does to each of its vertices.
 template <typename Add>
 void each_force(const PhysicalModel& model, std::span<const glm::dvec3> x, Add add)
@@ -285,14 +315,12 @@ void each_force(const PhysicalModel& model, std::span<const glm::dvec3> x, Add a
         const auto hinge = reference::hinge_angle(corners(h, x));
         if (!hinge.valid || !(h.compliance > 0))
             continue;
-        const double torque = -reference::angle_difference(hinge.angle, h.rest_angle) / h.compliance;
-        const std::uint32_t vertex[4] = {h.edge0, h.edge1, h.wing0, h.wing1};
-        for (std::size_t c = 0; c < 4; ++c)
-        {
-            const Vec<double>& g = hinge.gradient[c];
-            add(vertex[c], torque * glm::dvec3(g.x, g.y, g.z));
-        }
+        add_torque(h, hinge, -reference::angle_difference(hinge.angle, h.rest_angle) / h.compliance, add);
     }
+    const std::vector<double> moments = plate_moments(model.plates, x);
+    for (std::size_t k = 0; k < moments.size(); ++k)
+        if (const auto hinge = reference::hinge_angle(corners(model.plates[k].element, x)); hinge.valid)
+            add_torque(model.plates[k].element, hinge, -moments[k], add);
     for (const VolumeElement& e : model.volumes)
     {
         if (!(e.compliance > 0))
@@ -345,54 +373,6 @@ void add_force_sizes(const PhysicalModel& model, std::span<const glm::dvec3> x, 
     for (std::size_t i = 0; i < x.size(); ++i)
         out[i] += glm::length(surface[i]) + model.mass[i] * glm::length(model.gravity);
     each_force(model, x, [&](std::uint32_t v, const glm::dvec3& f) { out[v] += glm::length(f); });
-}
-
-double total_weight(const PhysicalModel& model)
-{
-    double mass = 0;
-    for (std::size_t i = 0; i < model.mass.size(); ++i)
-        mass += model.pinned[i] ? 0 : model.mass[i];
-    return mass * glm::length(model.gravity);
-}
-
-std::size_t rigid_element_count(const PhysicalModel& model)
-{
-    const auto rigid = [](const auto& element) { return !(element.compliance > 0); };
-    return static_cast<std::size_t>(std::count_if(model.springs.begin(), model.springs.end(), rigid) +
-                                    std::count_if(model.hinges.begin(), model.hinges.end(), rigid) +
-                                    std::count_if(model.volumes.begin(), model.volumes.end(), rigid) +
-                                    std::count_if(model.surfaces.begin(), model.surfaces.end(), rigid));
-}
-
-double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x)
-{
-    const std::size_t count = model.mass.size();
-    const std::vector<double> thin = stiffness_rows(model.springs, model.hinges, count, x);
-    std::vector<double> thick(count, 0.0);
-    for (const VolumeElement& e : model.volumes)
-        reference::add_stiffness(e, x, thick);
-    for (const SolidElement& e : model.solids)
-        reference::add_stiffness(e, x, thick);
-    for (const SurfaceElement& e : model.surfaces)
-        reference::add_stiffness(e, x, thick);
-    for (const GasElement& gas : model.gases)
-        add_stiffness(gas, x, thick);
-    double most = 0;
-    for (std::size_t v = 0; v < count; ++v)
-        if (!model.pinned[v])
-            most = std::max(most, (thin[v] + kStiffening * thick[v]) / model.mass[v]);
-    return std::sqrt(most);
-}
-
-std::size_t element_cost(const PhysicalModel& model)
-{
-    std::size_t out = model.springs.size() + 12 * model.hinges.size() + 6 * model.volumes.size() +
-                      10 * model.solids.size() + model.mass.size();
-    for (const SurfaceElement& e : model.surfaces)
-        out += 3 * e.triangles.size();
-    for (const GasElement& gas : model.gases)
-        out += 3 * gas.triangles.size();
-    return out;
 }
 
 } // namespace taut

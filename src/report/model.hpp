@@ -5,6 +5,7 @@
 
 #include "taut/elements/element.hpp"
 #include "taut/plan/material.hpp"
+#include "taut/plan/plate_hinges.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/surface.hpp"
 #include "taut/report/gas.hpp"
@@ -51,6 +52,7 @@ struct PhysicalModel
     std::vector<glm::dvec3> velocity;         ///< m/s; 0 where pinned
     std::vector<StretchElement> springs;
     std::vector<BendElement> hinges;
+    std::vector<PlateHinge> plates;           ///< hinges of plates; none of them is in `hinges`
     std::vector<VolumeElement> volumes;       ///< tetrahedra whose volume is held
     std::vector<SolidElement> solids;         ///< elastic tetrahedra
     std::vector<SurfaceElement> surfaces;     ///< whose volume within is held
@@ -79,6 +81,8 @@ double bend_angle(const BendElement& element, std::span<const glm::dvec3> x);
 /// J. Rigid elements (compliance 0) have no energy: they count as infinite when they are not at rest
 /// length, so only call it on models without them.
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
+/// J, the part of hinges and plates.
+double bending_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
 /// J, 0 at the origin.
 double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
 /// J, of all gases (gas.hpp).

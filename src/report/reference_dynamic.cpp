@@ -155,6 +155,8 @@ bool starts_inside(const PhysicalModel& model)
 
 std::string refusal(const PhysicalModel& model, const DynamicOptions& options, double element_steps)
 {
+    if (!model.plates.empty())
+        return "there are plates, which the dynamic reference does not model";
     if (!model.added.empty())
         return "there are membranes, or elements of its own: the dynamic reference knows their energy only";
     if (const std::size_t rigid = rigid_element_count(model); rigid > 0)

@@ -314,6 +314,8 @@ std::string refusal(const PhysicalModel& model, const std::vector<glm::dvec3>& s
                std::to_string(model.mass.size()) + " vertices";
     if (const std::size_t rigid = rigid_element_count(model); rigid > 0)
         return std::to_string(rigid) + " elements are rigid (compliance 0): they have no energy to minimise";
+    if (!model.plates.empty())
+        return "there are plates, which the static reference does not model";
     if (!model.added.empty())
         return "there are membranes, or elements of its own: the static reference knows their energy only";
     if (!model.surfaces.empty())

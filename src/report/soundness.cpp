@@ -3,6 +3,7 @@
 #include "taut/plan/methods.hpp"
 #include "taut/report/is_finite.hpp"
 #include "taut/report/looks.hpp"
+#include "taut/report/plate_energy.hpp"
 #include "taut/report/volume.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -144,6 +145,11 @@ void add_hinges(const PhysicalModel& model, const RunState& state, Strained& out
         if (std::abs(turn) > state.scene.accept.stretch)
             out.energy += 0.5 * turn * turn / e.compliance;
     }
+    const bool turned = std::any_of(model.plates.begin(), model.plates.end(), [&](const PlateHinge& h) {
+        return std::abs(bend_angle(h.element, x)) > state.scene.accept.stretch;
+    });
+    if (turned)
+        out.energy += plate_energy(model.plates, x);
 }
 
 Strained strained(const PhysicalModel& model, const RunState& state)

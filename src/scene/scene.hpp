@@ -29,6 +29,10 @@ struct Material
     double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
     Fabric fabric;                  ///< cloth by its yarns; stretch_stiffness must be 0 beside it
     double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect, or fabric.bending
+    /// Of cloth that bends: "hinge", one at each edge by itself, or "plate", hinges whose triangles couple
+    /// them, which converges to a plate on every mesh (docs/effects/plate.md).
+    std::string bending_model = "hinge";
+    double bending_poissons_ratio = 0; ///< of a plate, (-1, 1): how far it curves across where it is bent
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
     double stretch_damping = 0;     ///< s, >= 0: a spring of stiffness k has the damper k * stretch_damping
     double strain_limit = 0;        ///< (l - L)/L that no spring may pass, >= 0; 0 = no strain_limit effect

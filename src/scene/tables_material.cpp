@@ -48,6 +48,8 @@ constexpr Key kCreep =
         .or_word("at once", kUnbounded);
 constexpr Key kPlasticLimit =
     key<&Material::plastic_limit>("plastic_limit", "strain that may stay in all").unit("(a strain)").above(0);
+constexpr std::string_view kBendingModels[] = {"hinge", "plate"};
+
 constexpr Key kDensity = key<&Material::density>("density", "mass of an area").above(0);
 
 void begin_fabric(Material& material)
@@ -87,6 +89,15 @@ constexpr Key kMaterial[] = {
     key<&Material::bending_stiffness>("bending_stiffness", "plate rigidity; 0: no bending effect")
         .unit("N m")
         .at_least(0),
+    key<&Material::bending_model>("bending_model",
+                                  "hinges that know nothing of each other, or hinges coupled within "
+                                  "triangles, which converge to a plate; under xpbd")
+        .words(kBendingModels)
+        .see("plate", "effects/plate.md"),
+    key<&Material::bending_poissons_ratio>("bending_poissons_ratio",
+                                           "of a plate: how far it curves across where it is bent")
+        .above(-1)
+        .below(1),
     kThickness,
     key<&Material::stretch_damping>("stretch_damping", "a spring of stiffness k has a damper of k times this")
         .unit("s")

@@ -168,6 +168,8 @@ inline constexpr Tolerance kTolerances[] = {
     {"surface_volume_apply", 8, "up to 8 terms of a sum in a tree, a quotient, two products"},
     {"pressure", 8, "up to 8 terms of a sum in a tree, two quotients, four products, a sum"},
     {"plastic_spring", 8, "difference, root, quotients; a quotient of polynomials, products, sums"},
+    {"plate_turn", 8, "four products and a sum"},
+    {"plate_rest", 8, "three products, two sums"},
     {"plastic_solid", 64,
      "F from nine products and a matrix more; rotations twice, cube roots; against the largest"},
     {"hinge_rows", 8, "as bending; a product with a length, three dot products"},

@@ -121,6 +121,17 @@ inline Scene woven(const std::string& method)
     return scene;
 }
 
+/// The same cloth, which bends as a plate, along the warp more than across.
+inline Scene plate(Scene scene)
+{
+    Material& material = scene.bodies[0].material;
+    material.bending_stiffness = 0;
+    material.bending_model = "plate";
+    material.bending_poissons_ratio = 0.25;
+    material.fabric.bending = {true, 0.0078125, 0.001953125, 0, "strip"};
+    return scene;
+}
+
 /// Every method that is not xpbd, in its forms.
 inline std::map<std::string, Scene> method_scenes()
 {
@@ -174,6 +185,7 @@ inline std::map<std::string, Scene> method_scenes()
         {"woven_matrix_free",
          with(woven("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
         {"woven_vbd", woven("vbd")},
+        {"plate", plate(woven("xpbd"))},
         {"vbd", with(swing("vbd"), [](Settings& m) { m.iterations = 4; })},
         {"vbd_accelerated", with(swing("vbd"),
                                  [](Settings& m) {
