@@ -9,9 +9,9 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 # install_prefix compiles each alone.
 set(taut_public_headers
     elements/element.hpp
-    scene/scene.hpp scene/contact.hpp scene/fabric.hpp scene/method_kind.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
+    scene/scene.hpp scene/contact.hpp scene/fabric.hpp scene/fabric_readings.hpp scene/method_kind.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
     scene/frame_source.hpp
-    plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/solid.hpp plan/surface.hpp
+    plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/plate_hinges.hpp plan/solid.hpp plan/surface.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp
     linear/device_matrix.hpp linear/stencil.hpp linear/preconditioner.hpp linear/aggregation.hpp linear/multigrid.hpp
     linear/cg.hpp linear/small.hpp linear/solve.hpp

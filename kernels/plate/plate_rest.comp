@@ -8,7 +8,7 @@
 //
 // Based on: plate_turn.comp.
 // Departures: none.
-// Bytes per hinge: 32 + 16 + 24 read, 12 written (float).
+// Bytes per hinge: 4 + 16 + 28 + 24 read, 12 written (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/plate_rule.h"

@@ -13,7 +13,7 @@
 // Departures: turns b at both sides of an edge stand for Morley's one. They follow the moment, not the angle:
 //   of a hinge that one sweep does not solve the angle says nothing of the moment, and turns by it would
 //   store energy that nothing paid for.
-// Bytes per hinge: 36 read, 8 written (float).
+// Bytes per hinge: 4 + 24 + 4 + 4 + 8 read, 8 written (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/compliance.glsl"

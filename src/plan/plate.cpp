@@ -5,8 +5,8 @@
 
 #include "taut/plan/plate.hpp"
 
-#include "taut/kernels/plate_turn.hpp"
 #include "taut/kernels/plate_rest.hpp"
+#include "taut/kernels/plate_turn.hpp"
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/plate_hinges.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -101,20 +102,35 @@ bool wants_plate(const Scene& scene)
 
 void check_plate(const Scene& scene)
 {
+    const bool tears = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                   [](const Body& body) { return body.material.tear_strain > 0; });
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     {
-        if (!is_plate(scene.bodies[k]))
+        const Body& body = scene.bodies[k];
+        if (!is_plate(body))
             continue;
-        const std::string where =
-            "bodies[" + std::to_string(k) + "].material.bending_model is \"plate\", but ";
+        const auto refuse = [k](ErrorCode code, const std::string& why) {
+            throw Error(code,
+                        "bodies[" + std::to_string(k) + "].material.bending_model is \"plate\", but " + why);
+        };
         if (scene.method.type != "xpbd")
-            throw Error(ErrorCode::unsupported, where + "method \"" + scene.method.type +
-                                                    "\" has hinges alone; set it to \"hinge\", or take xpbd");
-        if (scene.bodies[k].material.tear_strain > 0)
-            throw Error(ErrorCode::unsupported, where +
-                                                    "the body can tear, and a tear plans the scene anew and "
-                                                    "would forget its turns; set tear_strain to 0, or the "
-                                                    "model to \"hinge\"");
+            refuse(ErrorCode::unsupported, "method \"" + scene.method.type +
+                                               "\" has hinges alone; set it to \"hinge\", or take xpbd");
+        if (tears)
+            refuse(ErrorCode::unsupported,
+                   "a body of the scene can tear, and a tear plans the scene anew and "
+                   "would forget the turns; set tear_strain to 0, or the model to "
+                   "\"hinge\"");
+        if (std::isinf(body.material.bending_stiffness))
+            refuse(ErrorCode::unsupported, "bending_stiffness is infinite; give a finite one");
+        try
+        {
+            plate_hinges(body);
+        }
+        catch (const Error& error)
+        {
+            refuse(error.code(), error.what());
+        }
     }
 }
 

@@ -15,7 +15,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +25,14 @@ namespace taut {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
+using Matrix = std::array<std::array<double, 3>, 3>;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// What one triangle has of its edges; edge i goes from corner i to the next.
 struct Plate
 {
-    bool flat = false, held = false;
-    std::array<double, 3> length{}; ///< m
-    glm::dmat3 compliance{0};       ///< rad^2/J, of turns of the triangle's end
+    bool has_area = false, held = false;
+    Matrix stiffness{}; ///< J/rad^2, against turns at its edges
     std::array<std::uint32_t, 3> hinge = {kNone, kNone, kNone};
     std::array<std::uint32_t, 3> side{};
     std::array<double, 3> sign{}; ///< of the hinge's angle as the triangle sees it
@@ -42,17 +41,11 @@ struct Plate
 /// D of k^T D k / 2 an area, k = (curvature along u, along v, twist once), N m.
 glm::dmat3 rigidity_of(const Material& material)
 {
-    const double nu = material.bending_poissons_ratio;
-    FabricRigidity d{material.bending_stiffness, material.bending_stiffness,
-                     2 * (1 - nu) * material.bending_stiffness};
-    if (!(material.bending_stiffness > 0))
-    {
-        d = fabric_rigidity(material.fabric.bending);
-        if (material.fabric.bending.bias == 0)
-            d.d33 *= 1 - nu;
-    }
-    const double across = nu * std::sqrt(d.d11 * d.d22);
-    return {{d.d11, across, 0}, {across, d.d22, 0}, {0, 0, d.d33}};
+    const double nu = material.bending_poissons_ratio, one = material.bending_stiffness;
+    FabricRigidity d{one, one, 2 * (1 - nu) * one, nu * one};
+    if (!(one > 0))
+        d = fabric_rigidity(material.fabric.bending, nu);
+    return {{d.d11, d.d12, 0}, {d.d12, d.d22, 0}, {0, 0, d.d33}};
 }
 
 /// Along the warp where there is one.
@@ -65,28 +58,27 @@ glm::dvec3 first_axis(const Body& body, const std::vector<glm::dvec3>& warp, std
     return glm::normalize(x[c[1]] - x[c[0]]);
 }
 
-/// A S^T D^-1 S over the products of the lengths, S the inverse of the rows (n_u^2, n_v^2, n_u n_v).
-void fill_compliance(const Body& body, const glm::dvec3& u, std::size_t t, const glm::dmat3& softness,
-                     Plate& out)
+/// K = L R D R^T L / A, L the lengths and R the rows (n_u^2, n_v^2, n_u n_v). As a product it keeps its sign
+/// on slivers, whose compliance would be a difference of large numbers.
+void fill_stiffness(const Body& body, const glm::dvec3& u, std::size_t t, const glm::dmat3& rigidity,
+                    Plate& out)
 {
     const auto& x = body.mesh.positions;
     const Corners& c = body.mesh.triangles[t];
     const glm::dvec3 up = glm::cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]]);
     const double area = glm::length(up) / 2;
     const glm::dvec3 v = glm::cross(up / (2 * area), u);
-    glm::dmat3 rows;
+    std::array<glm::dvec3, 3> rows;
     for (int i = 0; i < 3; ++i)
     {
         const glm::dvec3 edge = x[c[(i + 1) % 3]] - x[c[i]];
-        out.length[i] = glm::length(edge);
-        const double nu = glm::dot(edge, v) / out.length[i], nv = -glm::dot(edge, u) / out.length[i];
-        rows[i] = {nu * nu, nv * nv, nu * nv};
+        const double length = glm::length(edge);
+        const double nu = glm::dot(edge, v) / length, nv = -glm::dot(edge, u) / length;
+        rows[i] = glm::dvec3(nu * nu, nv * nv, nu * nv) * length;
     }
-    const glm::dmat3 s = glm::inverse(glm::transpose(rows));
-    out.compliance = area * glm::transpose(s) * softness * s;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            out.compliance[i][j] /= out.length[i] * out.length[j];
+            out.stiffness[i][j] = glm::dot(rows[i], rigidity * rows[j]) / area;
 }
 
 std::vector<Plate> plates_of(const Body& body)
@@ -96,17 +88,17 @@ std::vector<Plate> plates_of(const Body& body)
     for (const Pin& pin : body.pins)
         for (const std::uint32_t v : pin.vertices)
             held[v] = true;
-    const glm::dmat3 softness = glm::inverse(rigidity_of(body.material));
+    const glm::dmat3 rigidity = rigidity_of(body.material);
     const std::vector<glm::dvec3> warp =
         body.material.fabric.used ? scene_file::warp_directions(body) : std::vector<glm::dvec3>();
     std::vector<Plate> out(body.mesh.triangles.size());
     for (std::size_t t = 0; t < out.size(); ++t)
     {
         const Corners& c = body.mesh.triangles[t];
-        out[t].flat = glm::length(glm::cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]])) > 0;
+        out[t].has_area = glm::length(glm::cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]])) > 0;
         out[t].held = held[c[0]] && held[c[1]] && held[c[2]];
-        if (out[t].flat && !out[t].held)
-            fill_compliance(body, first_axis(body, warp, t), t, softness, out[t]);
+        if (out[t].has_area && !out[t].held)
+            fill_stiffness(body, first_axis(body, warp, t), t, rigidity, out[t]);
     }
     return out;
 }
@@ -139,7 +131,7 @@ void enter(const Body& body, const Hinge& h, std::uint32_t hinge, std::uint32_t 
 
 /// Largest eigenvalue of the matrix scaled to a unit diagonal: one more than the largest root t of
 /// t^3 - (a^2 + b^2 + c^2) t - 2 a b c, with a, b, c beside the diagonal.
-double largest_scaled(const std::array<std::array<double, 3>, 3>& k, std::size_t n)
+double largest_scaled(const Matrix& k, std::size_t n)
 {
     const auto scaled = [&](std::size_t i, std::size_t j) { return k[i][j] / std::sqrt(k[i][i] * k[j][j]); };
     if (n == 1)
@@ -155,24 +147,53 @@ double largest_scaled(const std::array<std::array<double, 3>, 3>& k, std::size_t
     return 1 + t;
 }
 
-/// The inverse of the compliance of the edges that have a hinge: their moments alone are not 0.
-std::array<std::array<double, 3>, 3> stiffness_of(const Plate& plate, const std::vector<int>& edges)
+/// Of the edges that have a hinge, in their order: those without one turn freely (Schur's complement).
+Matrix stiffness_of(const Plate& plate, const std::vector<int>& edges)
 {
-    glm::dmat3 c(1);
+    constexpr double kLeast = 1e-9; // of a diagonal: what rounding leaves of slivers must not turn its sign
+    Matrix k = plate.stiffness;
+    for (int free = 0; free < 3; ++free)
+    {
+        if (plate.hinge[free] != kNone)
+            continue;
+        const Matrix before = k;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                k[i][j] -= before[i][free] * before[free][j] / std::max(before[free][free], 1e-300);
+    }
+    Matrix out{};
     for (std::size_t i = 0; i < edges.size(); ++i)
         for (std::size_t j = 0; j < edges.size(); ++j)
-            c[int(i)][int(j)] =
-                plate.compliance[edges[i]][edges[j]] * plate.sign[edges[i]] * plate.sign[edges[j]];
-    // Scaled, so that the unit rows of edges that are missing do not matter.
-    const double scale = c[0][0];
+            out[i][j] = k[edges[i]][edges[j]] * plate.sign[edges[i]] * plate.sign[edges[j]];
     for (std::size_t i = 0; i < edges.size(); ++i)
-        for (std::size_t j = 0; j < edges.size(); ++j)
-            c[int(i)][int(j)] /= scale;
-    c = glm::inverse(c) / scale;
-    std::array<std::array<double, 3>, 3> out{};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            out[i][j] = c[i][j];
+        out[i][i] = std::max(out[i][i], 0.0) + kLeast * plate.stiffness[edges[i]][edges[i]];
+    return out;
+}
+
+/// By columns of the unit matrix (Gauss, symmetric and positive definite: no pivots).
+Matrix inverse_of(Matrix k, std::size_t n)
+{
+    Matrix out{};
+    for (std::size_t i = 0; i < n; ++i)
+        out[i][i] = 1;
+    for (std::size_t p = 0; p < n; ++p)
+    {
+        const double pivot = k[p][p];
+        for (std::size_t j = 0; j < n; ++j)
+        {
+            k[p][j] /= pivot;
+            out[p][j] /= pivot;
+        }
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            const double factor = i == p ? 0 : k[i][p];
+            for (std::size_t j = 0; j < n; ++j)
+            {
+                k[i][j] -= factor * k[p][j];
+                out[i][j] -= factor * out[p][j];
+            }
+        }
+    }
     return out;
 }
 
@@ -185,7 +206,7 @@ void add_side(const Plate& plate, std::vector<PlateHinge>& out, std::vector<std:
             edges.push_back(i);
     if (edges.empty() || plate.held)
         return;
-    const auto k = stiffness_of(plate, edges);
+    const Matrix k = stiffness_of(plate, edges), c = inverse_of(k, edges.size());
     const double most = largest_scaled(k, edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i)
     {
@@ -193,7 +214,7 @@ void add_side(const Plate& plate, std::vector<PlateHinge>& out, std::vector<std:
         PlateHinge& h = out[plate.hinge[edge]];
         const std::uint32_t side = plate.side[edge];
         soft[plate.hinge[edge]][side] = 1 / (most * k[i][i]);
-        h.softness += plate.compliance[edge][edge];
+        h.softness += c[i][i];
         h.pull[side][0] = 1 - 1 / most;
         std::size_t next = 0;
         for (std::size_t j = 0; j < edges.size(); ++j)
@@ -201,8 +222,7 @@ void add_side(const Plate& plate, std::vector<PlateHinge>& out, std::vector<std:
             if (j == i)
                 continue;
             h.neighbour[2 * side + next] = 2 * plate.hinge[edges[j]] + plate.side[edges[j]];
-            h.coupling[2 * side + next] =
-                plate.compliance[edge][edges[j]] * plate.sign[edge] * plate.sign[edges[j]];
+            h.coupling[2 * side + next] = c[i][j];
             h.pull[side][++next] = -k[i][j] / (most * k[i][i]);
         }
     }
@@ -212,8 +232,8 @@ void add_side(const Plate& plate, std::vector<PlateHinge>& out, std::vector<std:
 
 bool is_plate(const Body& body)
 {
-    return body.material.bending_model == "plate" && body.mesh.tetrahedra.empty() &&
-           resists_bending(body.material);
+    return body.material.bending_model == "plate" && body.mesh.tetrahedra.empty() && !body.kinematic.used &&
+           !body.mesh.triangles.empty() && resists_bending(body.material);
 }
 
 std::vector<PlateHinge> plate_hinges(const Body& body, std::size_t* dropped)
@@ -233,7 +253,7 @@ std::vector<PlateHinge> plate_hinges(const Body& body, std::size_t* dropped)
     {
         const std::size_t first = triangle.at(sorted({h.edge0, h.edge1, h.wing0}));
         const std::size_t second = triangle.at(sorted({h.edge0, h.edge1, h.wing1}));
-        if (!plates[first].flat || !plates[second].flat)
+        if (!plates[first].has_area || !plates[second].has_area)
         {
             ++lost;
             continue;

@@ -114,8 +114,8 @@ public:
         out_.device = device_->info();
         out_.kind = options.kind == CostKind::automatic ? cost_kind(scene_) : options.kind;
         out_.vertices = model_.mass.size();
-        out_.constraints = model_.springs.size() + model_.hinges.size() + model_.volumes.size() +
-                           model_.solids.size() + model_.surfaces.size();
+        out_.constraints = model_.springs.size() + model_.hinges.size() + model_.plates.size() +
+                           model_.volumes.size() + model_.solids.size() + model_.surfaces.size();
         out_.timestep = scene_.timestep;
         out_.basis = options.basis;
         out_.rest_tolerance = options.rest_tolerance;

@@ -87,7 +87,8 @@ void measure_residuals(const View& view, StepReport& out)
     const MethodKind kind = method_of(view.world.scene());
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
         measure_implicit_residual(view, out);
-    const bool by_multipliers = kind == MethodKind::xpbd && kept;
+    // Rest angles of plates are those of the next substep by now.
+    const bool by_multipliers = kind == MethodKind::xpbd && kept && view.model.plates.empty();
     if (!by_multipliers || limited)
         return;
     const std::vector<glm::dvec3> moved = view.world.displacements(), guess = view.world.predictions();

@@ -53,8 +53,8 @@ double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x
 
 std::size_t element_cost(const PhysicalModel& model)
 {
-    std::size_t out = model.springs.size() + 12 * model.hinges.size() + 6 * model.volumes.size() +
-                      10 * model.solids.size() + model.mass.size();
+    std::size_t out = model.springs.size() + 12 * (model.hinges.size() + model.plates.size()) +
+                      6 * model.volumes.size() + 10 * model.solids.size() + model.mass.size();
     for (const SurfaceElement& e : model.surfaces)
         out += 3 * e.triangles.size();
     for (const GasElement& gas : model.gases)

@@ -37,6 +37,13 @@ void check_ball(const Shape& shape, const Checker& out)
 void check_cloth(const Material& material, const Checker& out)
 {
     check_fabric_beside(material, out);
+    if (material.bending_model == "plate" && !resists_bending(material))
+        out.warning("bending_model", "is \"plate\" of cloth that does not resist bending; give it a "
+                                     "bending_stiffness (N m), or a fabric that bends");
+    if (material.bending_model == "hinge" && material.bending_poissons_ratio != 0)
+        out.warning("bending_poissons_ratio", "is " + shown(material.bending_poissons_ratio) +
+                                                  " of hinges, which have none of their own; it is for "
+                                                  "bending_model \"plate\"");
     if (!(material.tear_strain > 0))
         return;
     const std::string beside = " beside tear_strain " + shown(material.tear_strain);

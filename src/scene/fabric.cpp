@@ -23,7 +23,7 @@ FabricMatrix fabric_matrix(const Fabric& fabric)
 double FabricRigidity::along(double square) const
 {
     const double across = 1 - square;
-    return d11 * square * square + d33 * square * across + d22 * across * across;
+    return d11 * square * square + (d33 + 2 * d12) * square * across + d22 * across * across;
 }
 
 double largest_bias(const FabricBending& bending)
@@ -32,15 +32,23 @@ double largest_bias(const FabricBending& bending)
     return kShare * 2 / (1 / bending.warp + 1 / bending.weft);
 }
 
-FabricRigidity fabric_rigidity(const FabricBending& bending)
+FabricRigidity fabric_rigidity(const FabricBending& bending, double nu)
 {
     const double warp = bending.warp, weft = bending.weft;
+    const bool strips = bending.bias_of == "strip";
+    const double held = strips ? 1 - nu * nu : 1;
+    FabricRigidity out{warp / held, weft / held, 0, nu * std::sqrt(warp * weft) / held};
+    const double even = 2 * (1 - nu) * std::sqrt(out.d11 * out.d22);
     if (!(bending.bias > 0))
-        return {warp, weft, 2 * std::sqrt(warp * weft)};
-    if (bending.bias_of == "sheet")
-        return {warp, weft, 4 * bending.bias - warp - weft};
-    const double bias = std::min(bending.bias, largest_bias(bending));
-    return {warp, weft, 1 / (1 / bias - (1 / warp + 1 / weft) / 4)};
+        out.d33 = even;
+    else if (!strips)
+        out.d33 = std::max(4 * bending.bias - out.d11 - out.d22 - 2 * out.d12, 1e-3 * even);
+    else
+    {
+        const double untwisted = (1 / warp + 1 / weft - 2 * nu / std::sqrt(warp * weft)) / 4;
+        out.d33 = 1 / (1 / std::min(bending.bias, 0.95 / untwisted) - untwisted);
+    }
+    return out;
 }
 
 } // namespace taut

@@ -57,27 +57,29 @@ double shear_modulus(const Fabric& fabric);
 /// Positive definite for moduli above 0 and nu^2 < warp / weft.
 FabricMatrix fabric_matrix(const Fabric& fabric);
 
-/// D of the energy k^T D k / 2 an area, k = (curvature along the warp, along the weft, twist), N m; no
-/// coupling of the first two.
+/// D of the energy k^T D k / 2 an area, k = (curvature along the warp, along the weft, twist), N m.
 struct FabricRigidity
 {
-    double d11 = 0, d22 = 0, d33 = 0;
+    double d11 = 0, d22 = 0, d33 = 0, d12 = 0;
 
     /// N m, of a wide sheet that curves in one direction only, `square` = cos^2 of its angle to the warp:
-    /// d11 c^4 + d33 c^2 s^2 + d22 s^4.
+    /// d11 c^4 + (d33 + 2 d12) c^2 s^2 + d22 s^4.
     double along(double square) const;
 };
 
-/// d33 follows from `bias`: of a strip, which twists as it bends, 1 / (1 / bias - (1 / warp + 1 / weft) / 4),
-/// with a bias of at most 1.9 times the harmonic mean of the two (twice is the bound of any sheet; a tenth of
-/// the fabrics that Feng et al. 2022 measured lie beyond it); of a sheet 4 bias - warp - weft.
-FabricRigidity fabric_rigidity(const FabricBending& bending);
+/// Of rigidities that were measured on strips with free sides, which curve across as well: warp = d11 (1 -
+/// nu^2), weft likewise, d12 = nu sqrt(d11 d22), and d33 = 1 / (1 / bias - (1 / warp + 1 / weft - 2 nu /
+/// sqrt(warp weft)) / 4), with a bias of at most 1.9 times the harmonic mean of the two (twice, without nu,
+/// is the bound of any sheet; a tenth of the fabrics that Feng et al. 2022 measured lie beyond it). Of sheets
+/// warp = d11, weft = d22 and d33 = 4 bias - d11 - d22 - 2 d12. Without a bias d33 = 2 (1 - nu) sqrt(d11
+/// d22). nu in (-1, 1).
+FabricRigidity fabric_rigidity(const FabricBending& bending, double poissons_ratio = 0);
 
 /// N m, the largest bias that a strip of a fabric can have: 1.9 times the harmonic mean of warp and weft.
 double largest_bias(const FabricBending& bending);
 
 /// Puts what instruments read in the place of values that are 0: moduli, and with the density [kg/m^2] the
-/// rigidities of bending lengths. Twice is as once.
+/// rigidities of bending lengths. Idempotent.
 void apply_readings(Fabric& fabric, double density);
 
 } // namespace taut

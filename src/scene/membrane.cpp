@@ -50,15 +50,18 @@ std::array<double, 8> membrane_values(const std::array<glm::dvec3, 3>& x, const 
 std::vector<glm::dvec3> warp_directions(const Body& body)
 {
     std::vector<glm::dvec3> out;
-    for (const Body::Elements& list : body.elements)
-        if (list.kind == kMembrane)
-            for (std::size_t t = 0; t < list.vertices.size() / 3; ++t)
-            {
-                const auto x = [&](std::size_t corner) {
-                    return body.mesh.positions[list.vertices[3 * t + corner]];
-                };
-                out.push_back((x(1) - x(0)) * list.values[8 * t] + (x(2) - x(0)) * list.values[8 * t + 2]);
-            }
+    const auto list = std::find_if(body.elements.rbegin(), body.elements.rend(), [](const Body::Elements& e) {
+        return e.kind == kMembrane; // the last one: it came when the body was resolved
+    });
+    if (list == body.elements.rend())
+        return out;
+    for (std::size_t t = 0; t < list->vertices.size() / 3; ++t)
+    {
+        const auto x = [&](std::size_t corner) {
+            return body.mesh.positions[list->vertices[3 * t + corner]];
+        };
+        out.push_back((x(1) - x(0)) * list->values[8 * t] + (x(2) - x(0)) * list->values[8 * t + 2]);
+    }
     return out;
 }
 

@@ -14,6 +14,8 @@ namespace taut::scene_file {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+const std::array<glm::dvec2, 3> kNoTextureAtAll = {glm::dvec2(kNoTexture), glm::dvec2(kNoTexture),
+                                                   glm::dvec2(kNoTexture)};
 
 std::size_t property_named(const PlyElement& element, std::string_view name)
 {
@@ -49,6 +51,8 @@ void read_vertices(PlyValues& values, const PlyElement& element, RawMesh& mesh,
         if (i == kNone || element.properties[i].list)
             values.fail("the element \"vertex\" must have the numbers x, y and z");
     mesh.positions.reserve(element.count);
+    if (uv[0] != kNone) // vertices of an element before this one have none
+        texture.resize(mesh.positions.size(), glm::dvec2(kNoTexture));
     for (std::size_t v = 0; v < element.count; ++v)
     {
         glm::dvec3 p(0);
@@ -72,6 +76,8 @@ void read_vertices(PlyValues& values, const PlyElement& element, RawMesh& mesh,
         if (uv[0] != kNone)
             texture.push_back(t);
     }
+    if (!texture.empty())
+        texture.resize(mesh.positions.size(), glm::dvec2(kNoTexture));
 }
 
 void read_corners(PlyValues& values, const PlyProperty& property, std::size_t vertex_count,
@@ -140,10 +146,15 @@ void read_faces(PlyValues& values, const PlyElement& element, RawMesh& mesh,
                 read_texture(values, element.properties[i], corner_texture);
             else
                 values.skip(element.properties[i]);
-        add_face(mesh, corners);
         if (uv != kNone || !texture.empty())
+        {
+            mesh.texture.resize(mesh.triangles.size(), kNoTextureAtAll);
             add_face_texture(corners, texture, corner_texture, mesh);
+        }
+        add_face(mesh, corners);
     }
+    if (!mesh.texture.empty())
+        mesh.texture.resize(mesh.triangles.size(), kNoTextureAtAll);
 }
 
 } // namespace

@@ -74,7 +74,7 @@ constexpr Key kFabric[] = {
         .ranges("its square below `warp` / `weft`"),
     object<&Fabric::bending>("bending",
                              "bending rigidities by direction, in place of the material's "
-                             "`bending_stiffness`; without any of the two, readings or 0",
+                             "`bending_stiffness`; without either, from readings, else 0",
                              kFabricBendingTable)
         .when<has_bending>(),
     object<&Fabric::kes>("kes", "moduli as Kawabata's instruments print them", kKesTable).when<has_kes>(),

@@ -36,6 +36,7 @@ constexpr Key kKes[] = {
     key<&KesReadings::linearity>("linearity", "LT; the modulus at small strain is 3 LT - 2 of the secant's")
         .called(kPair)
         .above(0.667)
+        .because("below, a parabola falls at first; leave it out for the secant modulus")
         .ranges("above 0.667 each"),
     key<&KesReadings::shear>("shear", "G; the mean of both counts; 0: another key says it")
         .called(kPair)

@@ -94,14 +94,22 @@ TEST_CASE("rigidities by direction: isotropic, of a strip and of a sheet")
         CHECK(even.along(square) == Approx(2));
     CHECK(fabric_rigidity({true, 2, 2, 2, "strip"}).d33 == Approx(4)); // as an even sheet twists
     CHECK(fabric_rigidity({true, 2, 2, 2, "sheet"}).d33 == Approx(4));
-    const FabricRigidity woven = fabric_rigidity({true, 4, 1, 1.2, "sheet"});
+    const FabricRigidity woven = fabric_rigidity({true, 4, 1, 1.5, "sheet"});
     CHECK(woven.along(1) == 4);
     CHECK(woven.along(0) == 1);
-    CHECK(woven.along(0.5) == Approx(1.2));
+    CHECK(woven.along(0.5) == Approx(1.5));
+    CHECK(fabric_rigidity({true, 4, 1, 1.5, "sheet"}, 0.2).along(0.5) == Approx(1.5));
     // A strip at 45 degrees twists as it bends, and so is softer than the sheet.
     const FabricRigidity strip = fabric_rigidity({true, 4, 1, 1.2, "strip"});
     CHECK(1 / (1 / strip.d33 + (1 / 4.0 + 1) / 4) == Approx(1.2));
     CHECK(strip.along(0.5) > 1.2);
+    // Strips curve across as they bend: compliances of strips are those that were measured.
+    const FabricRigidity wide = fabric_rigidity({true, 4, 1, 1.2, "strip"}, 0.3);
+    const double det = wide.d11 * wide.d22 - wide.d12 * wide.d12;
+    CHECK(det / wide.d22 == Approx(4));
+    CHECK(det / wide.d11 == Approx(1));
+    const double across = -wide.d12 / det, s11 = wide.d22 / det, s22 = wide.d11 / det;
+    CHECK(1 / ((s11 + s22 + 2 * across) / 4 + 1 / wide.d33) == Approx(1.2));
     CHECK(std::isfinite(fabric_rigidity({true, 4, 1, 100, "strip"}).d33));
     CHECK(fabric_rigidity({true, 4, 1, 100, "strip"}).d33 > 0);
 }

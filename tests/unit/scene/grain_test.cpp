@@ -113,3 +113,25 @@ TEST_CASE("a warp that no texture gives is refused by name, and texture that nob
         {"warp": 1000, "weft": 900, "shear": 50, "grain_of": "texture"}}}]})");
     CHECK(refusal(grid).find("which has no texture coordinates") != std::string::npos);
 }
+
+TEST_CASE("a PLY of several lists of vertices and faces has texture where it has one, and none elsewhere")
+{
+    const Temporary folder;
+    const std::string list = "property float x\nproperty float y\nproperty float z\n";
+    const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n" + list +
+                             "property float s\nproperty float t\nelement vertex 1\n" + list +
+                             "element face 1\nproperty list uchar int vertex_indices\nelement face 1\n"
+                             "property list uchar float texcoord\nproperty list uchar int vertex_indices\n"
+                             "end_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0\n3 0 1 2\n"
+                             "6 0 0 1 1 0 1 3 0 2 3\n";
+    const Mesh mesh = read_mesh(folder.write("lists.ply", text), 0);
+    REQUIRE(mesh.triangles.size() == 2);
+    REQUIRE(mesh.texture.size() == 2);
+    CHECK(mesh.texture[0][2] == glm::dvec2(1, 1));
+    CHECK(mesh.texture[1][1] == glm::dvec2(1, 1));
+    const std::string wrong = "ply\nformat ascii 1.0\nelement vertex 3\n" + list +
+                              "property float s\nproperty float t\nelement vertex 1\n" + list +
+                              "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                              "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0\n3 1 2 3\n";
+    CHECK(std::isnan(read_mesh(folder.write("wrong.ply", wrong), 0).texture.at(0)[2].x));
+}
