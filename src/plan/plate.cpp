@@ -10,7 +10,6 @@
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/plate_hinges.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/scene/keys.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"

@@ -10,7 +10,7 @@ struct PlateBuffers
 {
     std::uint32_t count = 0;                          ///< hinges of plates
     std::uint32_t hinges = kNoBuffer;                 ///< the method's own, of all bodies
-    std::uint32_t multipliers = kNoBuffer; ///< of these, J s^2
+    std::uint32_t multipliers = kNoBuffer;            ///< of these hinges, J s^2
     std::uint32_t record = kNoBuffer;                 ///< where in them each hinge of a plate is
     std::uint32_t neighbour = kNoBuffer;              ///< four a hinge
     std::uint32_t rule = kNoBuffer;                   ///< TAUT_PLATE_RULE a hinge
@@ -20,8 +20,8 @@ struct PlateBuffers
 /// Whether any body bends as a plate.
 bool wants_plate(const Scene& resolved);
 
-/// Throws Error{unsupported} naming a body that would, under methods that have no such thing, or where cloth
-/// can tear.
+/// Throws Error{unsupported} naming a body that would, under methods that have no such thing, where cloth can
+/// tear, with an infinite rigidity, and with an edge of more than two triangles.
 void check_plate(const Scene& resolved);
 
 /// After the effects that own the hinges: changes rest angles in place from then on. They and the turns

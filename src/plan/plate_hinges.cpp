@@ -1,7 +1,6 @@
 // Based on: Hellan 1967, Herrmann 1967, Johnson, On the Convergence of a Mixed Finite-Element Method for
-// Plate
-//   Bending Problems, 1973: moments that are constant in a triangle and continuous along normals; Arnold,
-//   Brezzi 1985: the same displacements as Morley's triangle; Neunteufel, Schoeberl, The
+//   Plate Bending Problems, 1973: moments that are constant in a triangle and continuous along normals;
+//   Arnold, Brezzi 1985: the same displacements as Morley's triangle; Neunteufel, Schoeberl, The
 //   Hellan-Herrmann-Johnson Method for Nonlinear Shells, 2019: the angle between triangles is the curvature
 //   at the edge.
 // Departures: moments are eliminated, so that hinges with a matrix of compliances are left; the turns within

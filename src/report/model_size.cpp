@@ -31,10 +31,16 @@ std::size_t rigid_element_count(const PhysicalModel& model)
 double frequency_bound(const PhysicalModel& model, std::span<const glm::dvec3> x)
 {
     const std::size_t count = model.mass.size();
-    std::vector<BendElement> hinges = model.hinges;
-    for (const PlateHinge& h : model.plates)
-        hinges.push_back(h.element);
-    const std::vector<double> thin = stiffness_rows(model.springs, hinges, count, x);
+    std::vector<double> thin = stiffness_rows(model.springs, model.hinges, count, x);
+    if (!model.plates.empty())
+    {
+        std::vector<BendElement> bounds;
+        for (const PlateHinge& h : model.plates)
+            bounds.push_back(h.element);
+        const std::vector<double> more = stiffness_rows({}, bounds, count, x);
+        for (std::size_t v = 0; v < count; ++v)
+            thin[v] += more[v];
+    }
     std::vector<double> thick(count, 0.0);
     for (const VolumeElement& e : model.volumes)
         reference::add_stiffness(e, x, thick);
