@@ -1,9 +1,9 @@
 // What instruments read becomes moduli and rigidities in SI units; numbers worked out by hand from the
 // definitions of the tests (docs/fabric.md).
 
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
-#include "taut/runtime/base/error.hpp"
 #include "taut/scene/scene.hpp"
 
 #include <cmath>
@@ -20,19 +20,6 @@ std::string text(const std::string& fabric, const std::string& beside = "")
 }
 
 Fabric read(const std::string& fabric) { return parse_scene(text(fabric)).bodies[0].material.fabric; }
-
-std::string refusal(const std::string& json)
-{
-    try
-    {
-        resolve(parse_scene(json));
-    }
-    catch (const Error& error)
-    {
-        return error.what();
-    }
-    return "nothing";
-}
 
 const std::string kKes = R"("kes": {"extension": [4, 10], "linearity": [0.8, 1], "shear": [1, 0.6],
                             "bending": [0.1, 0.05]})";

@@ -1,8 +1,8 @@
 // Fabrics in scene files: moduli, the elements that they become, and what is refused.
 
+#include "refusal.hpp"
 #include "support/catch.hpp"
 
-#include "taut/runtime/base/error.hpp"
 #include "taut/scene/fabric_presets.hpp"
 #include "taut/scene/scene.hpp"
 
@@ -23,19 +23,6 @@ std::string text(const std::string& material, const std::string& body = R"("grid
 std::string fabric(const std::string& keys, const std::string& beside = "")
 {
     return R"({"fabric": {)" + keys + "}" + beside + "}";
-}
-
-std::string refusal(const std::string& json)
-{
-    try
-    {
-        resolve(parse_scene(json));
-    }
-    catch (const Error& error)
-    {
-        return error.what();
-    }
-    return "nothing";
 }
 
 const std::string kGood = R"("warp": 5000, "weft": 2500, "poissons_ratio": 0.3, "shear": 60)";

@@ -1,9 +1,9 @@
 // Where the warp of a fabric lies: along a direction or along the texture of a mesh file, and turned.
 
 #include "support/catch.hpp"
+#include "refusal.hpp"
 #include "temporary.hpp"
 
-#include "taut/runtime/base/error.hpp"
 #include "taut/scene/membrane.hpp"
 
 #include <glm/geometric.hpp>
@@ -32,19 +32,6 @@ Scene scene(const std::string& file, const std::string& keys, const std::string&
                        R"(, "material": {"fabric":
         {"warp": 1000, "weft": 900, "shear": 50)" +
                        keys + "}}}]}");
-}
-
-std::string refusal(const Scene& scene)
-{
-    try
-    {
-        resolve(scene);
-    }
-    catch (const Error& error)
-    {
-        return error.what();
-    }
-    return "nothing";
 }
 
 const std::string kTexture = R"(, "grain_of": "texture")";
