@@ -12,7 +12,8 @@
 // Departures: nearest points and normal are found anew in every sweep; the gap at the start is taken along
 //   the normal of the first sweep, with its weights. Edges only count while neither end is nearest: there a
 //   vertex and a triangle are as near.
-// Bytes per pair: 20 + 24 + 32 a corner read, 24 + 32 written (float).
+// Bytes per pair: 20 + 32 + 32 a corner read, 16 + 32 written (float).
+//! lanes
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
@@ -29,54 +30,61 @@ READ(1, rvec4, position); // w = inverse mass
 READ(2, rvec4, delta);    // m, since the start of the substep
 READ_ONE(3, StepValues, step_values);
 READ(4, uint, control);
-UPDATE(5, ContactSide, side);
+UPDATE(5, rvec4, side); // both rows of a ContactSide
 WRITE(6, rvec4, row); // two a pair: the weights of its corners, 0 if it is not active; slip m, w = C m
 COUNTERS(7, acting); // pairs at each vertex
 
-KERNEL(capacity)
+INLINE Closest closest_of(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3)
 {
-    if (i < control[TAUT_CONTACT_LISTED])
+    Closest answer = pair_at(rvec3(real(0)), real(0), real(0), real(0), real(0));
+    if (ANY(!edges))
+        answer = closest_vertex_triangle(e1, e2, e3);
+    if (ANY(edges))
+        answer = closest_of_two(edges, answer, closest_edges(e1, e2, e3));
+    return answer;
+}
+
+KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
+{
+    ContactPair p = pair[i];
+    rvec4 x0 = position[p.a];
+    rvec4 x1 = position[p.b];
+    rvec4 x2 = position[p.c];
+    rvec4 x3 = position[p.d];
+    rvec4 d0 = delta[p.a];
+    rvec3 d1 = rvec3(delta[p.b] - d0);
+    rvec3 d2 = rvec3(delta[p.c] - d0);
+    rvec3 d3 = rvec3(delta[p.d] - d0);
+    rbool edges = p.kind == TAUT_CONTACT_EDGES;
+    Closest now = closest_of(edges, rvec3(x1 - x0) + d1, rvec3(x2 - x0) + d2, rvec3(x3 - x0) + d3);
+    rvec4 kept = side[2u * i];
+    rvec3 normal = rvec3(kept);
+    real size = sqrt(now.squared);
+    rbool through = now.inside && dot(now.way, normal) < real(0);
+    real gap = SELECT(through, -size, size);
+    normal = SELECT(size > real(0), now.way / gap, normal);
+    rvec3 slip = (d1 * now.weight_b + d2 * now.weight_c) + d3 * now.weight_d;
+    real allowed = kept.w;
+    if (first_sweep != 0u)
     {
-        ContactPair p = pair[i];
-        rvec4 x0 = position[p.a];
-        rvec4 x1 = position[p.b];
-        rvec4 x2 = position[p.c];
-        rvec4 x3 = position[p.d];
-        rvec4 d0 = delta[p.a];
-        rvec4 d1 = delta[p.b];
-        rvec4 d2 = delta[p.c];
-        rvec4 d3 = delta[p.d];
-        rvec3 e1 = rvec3((x1 - x0) + (d1 - d0));
-        rvec3 e2 = rvec3((x2 - x0) + (d2 - d0));
-        rvec3 e3 = rvec3((x3 - x0) + (d3 - d0));
-        Closest now = closest_vertex_triangle(e1, e2, e3);
-        if (p.kind == TAUT_CONTACT_EDGES)
-            now = closest_edges(e1, e2, e3);
-        ContactSide s = side[i];
-        rvec3 normal = rvec3(s.normal_x, s.normal_y, s.normal_z);
-        real size = sqrt(now.squared);
-        bool through = now.inside && dot(now.way, normal) < real(0);
-        if (size > real(0))
-            normal = now.way / (through ? -size : size);
-        real gap = through ? -size : size;
-        rvec4 b = now.weight;
-        rvec3 slip = (rvec3(d1 - d0) * b.y + rvec3(d2 - d0) * b.z) + rvec3(d3 - d0) * b.w;
-        real before = gap - dot(normal, slip);
-        if (first_sweep != 0u)
-            s.allowed = min(s.rest_gap, before + step_values[0].depenetration);
-        real value = gap - s.allowed;
-        real masses = (x0.w * b.x * b.x + x1.w * b.y * b.y) + (x2.w * b.z * b.z + x3.w * b.w * b.w);
-        bool acts = value < real(0) && masses > real(0) && (p.kind == TAUT_CONTACT_VERTEX || now.inside);
-        b = acts ? b : rvec4(real(0));
-        s.normal_x = normal.x;
-        s.normal_y = normal.y;
-        s.normal_z = normal.z;
-        side[i] = s;
-        row[2u * i] = b;
-        row[2u * i + 1u] = rvec4(slip, value);
-        COUNT_EVENT_IF(b.x != real(0), acting, p.a);
-        COUNT_EVENT_IF(b.y != real(0), acting, p.b);
-        COUNT_EVENT_IF(b.z != real(0), acting, p.c);
-        COUNT_EVENT_IF(b.w != real(0), acting, p.d);
+        rvec4 rest = side[2u * i + 1u];
+        allowed = min(real(rest.x), (gap - dot(normal, slip)) + step_values[0].depenetration);
     }
+    real value = gap - allowed;
+    real m0 = x0.w * now.weight_a * now.weight_a;
+    real m1 = x1.w * now.weight_b * now.weight_b;
+    real m2 = x2.w * now.weight_c * now.weight_c;
+    real m3 = x3.w * now.weight_d * now.weight_d;
+    rbool acts = value < real(0) && (m0 + m1) + (m2 + m3) > real(0) && (!edges || now.inside);
+    real wa = SELECT(acts, now.weight_a, real(0));
+    real wb = SELECT(acts, now.weight_b, real(0));
+    real wc = SELECT(acts, now.weight_c, real(0));
+    real wd = SELECT(acts, now.weight_d, real(0));
+    side[2u * i] = rvec4(normal, allowed);
+    row[2u * i] = rvec4(wa, wb, wc, wd);
+    row[2u * i + 1u] = rvec4(slip, value);
+    COUNT_EVENT_IF(wa != real(0), acting, p.a);
+    COUNT_EVENT_IF(wb != real(0), acting, p.b);
+    COUNT_EVENT_IF(wc != real(0), acting, p.c);
+    COUNT_EVENT_IF(wd != real(0), acting, p.d);
 }

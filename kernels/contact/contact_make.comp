@@ -6,7 +6,7 @@
 //
 // Based on: Mueller. Ten Minute Physics 15, 2022 (a surface thicker than its edges are long does not swell).
 // Departures: the distance at rest is that of the features, not of vertices.
-// Bytes per pair: 20 + 32 a corner read, 24 written, 4 a corner counted (float).
+// Bytes per pair: 20 + 32 a corner read, 32 written, 4 a corner counted (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
@@ -79,6 +79,8 @@ KERNEL(capacity)
         result.allowed = gap;
         result.rest_gap = gap;
         result.friction = mixed(first.friction, second.friction);
+        result.unused_x = real(0);
+        result.unused_y = real(0);
         side[i] = result;
         COUNT_EVENT(corners, p.a);
         COUNT_EVENT(corners, p.b);

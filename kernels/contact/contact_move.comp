@@ -6,7 +6,7 @@
 //
 // Based on: Tonge et al. 2012, as contact_push says.
 // Departures: none.
-// Bytes per vertex: 8 + 36 a corner + 32 read, 20 written (float).
+// Bytes per vertex: 12 + 36 a corner + 32 read, 20 written (float).
 #include "shared/portable.glsl"
 #include "shared/contact_rows.h"
 
@@ -21,14 +21,14 @@ READ(2, real, row);       // as contact_gap leaves it: 8 a pair, the first 4 the
 READ(3, rvec4, impulse);  // kg m, of each pair
 READ(4, rvec4, position); // w = inverse mass
 UPDATE(5, rvec4, delta);  // m
-WRITE(6, uint, acting);
+UPDATE(6, uint, acting);   // pairs of the vertex that act: where none does, impulses are not looked at
 
 KERNEL(count)
 {
     rvec3 sum = rvec3(real(0));
     uint first = start[i];
     uint end = start[i + 1u];
-    if (end - first > TAUT_CONTACT_CROWD)
+    if (end - first > TAUT_CONTACT_CROWD || acting[i] == 0u)
         end = first;
     for (uint k = first; k < end; ++k)
     {

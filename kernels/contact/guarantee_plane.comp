@@ -18,6 +18,7 @@
 // Departures: directions are certified by all four corners; rounding has a margin; planes may move with what
 //   is held.
 // Bytes per pair: 20 + 48 a corner read, 32 written (float).
+//! lanes
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
@@ -38,89 +39,115 @@ WRITE(5, rvec4, row); // two a pair: n, w = m, of edges -m; rooms, m, 1e30 of he
 COUNTERS(6, lost);
 COUNTERS(7, asked); // corners that have to keep to their planes
 
-/// The way of a corner in the substep; w as of the position.
-INLINE rvec4 way_of(uint v)
-{
-    return rvec4(rvec3(delta[v]) - rvec3(low[v]), position[v].w);
-}
-
-/// From corner a to corner b.
-INLINE rvec3 between_corners(uint a, uint b)
-{
-    return (rvec3(position[b]) - rvec3(position[a])) + (rvec3(low[b]) - rvec3(low[a]));
-}
-
 /// The plane's height after `held` corners of the first (least) and the second (most) have pushed it.
 INLINE real pushed(real plane, real first, real second, real margin)
 {
     return min(max(plane, second + margin), first - margin);
 }
 
-KERNEL(capacity)
+INLINE Closest nearest_of(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3)
 {
-    if (i < control[TAUT_CONTACT_LISTED])
+    Closest answer = pair_at(rvec3(real(0)), real(0), real(0), real(0), real(0));
+    if (ANY(!edges))
+        answer = closest_vertex_triangle(e1, e2, e3);
+    if (ANY(edges))
+        answer = closest_of_two(edges, answer, closest_edges(e1, e2, e3));
+    return answer;
+}
+
+/// The way between the nearest points, else the widest of the other directions.
+INLINE Separator widest_of(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3, real enough)
+{
+    rvec3 way = nearest_of(edges, e1, e2, e3).way;
+    Separator best = separator_along(way, e1, e2, e3, edges);
+    rbool narrow = !(best.gap > enough);
+    if (ANY(narrow && edges))
     {
-        ContactPair p = pair[i];
-        bool edges = p.kind == TAUT_CONTACT_EDGES;
-        rvec3 e1 = between_corners(p.a, p.b);
-        rvec3 e2 = between_corners(p.a, p.c);
-        rvec3 e3 = between_corners(p.a, p.d);
-        rvec4 d0 = way_of(p.a);
-        rvec4 d1 = way_of(p.b);
-        rvec4 d2 = way_of(p.c);
-        rvec4 d3 = way_of(p.d);
-        real far = max(max(greatest_of(rvec3(position[p.a])), greatest_of(rvec3(position[p.b]))),
-                       max(greatest_of(rvec3(position[p.c])), greatest_of(rvec3(position[p.d]))));
-        real size = max(greatest_of(e1), max(greatest_of(e2), greatest_of(e3)));
-        real motion = max(max(greatest_of(rvec3(d0)), greatest_of(rvec3(d1))),
-                          max(greatest_of(rvec3(d2)), greatest_of(rvec3(d3))));
-        real m = real(8) * rounding_unit() * (far + real(4) * (size + motion));
-        Closest near = closest_vertex_triangle(e1, e2, e3);
-        if (edges)
-            near = closest_edges(e1, e2, e3);
-        Separator s = separator_along(near.way, e1, e2, e3, edges);
-        if (!(s.gap > real(2) * m) && edges)
-            s = wider_of(s, separator_of_edges(near.way, e1, e2, e3));
-        if (!(s.gap > real(2) * m) && !edges)
-            s = wider_of(s, separator_of_vertex(near.way, e1, e2, e3));
-        rvec3 n = s.normal;
-        rvec4 ahead = rvec4(dot(n, rvec3(d0)), dot(n, rvec3(d1)), dot(n, rvec3(d2)), dot(n, rvec3(d3)));
-        // How much each of the two comes nearer.
-        real first = max(real(0), -(edges ? min(ahead.x, ahead.y) : ahead.x));
-        real second = max(real(0), max(max(ahead.z, ahead.w), edges ? real(0) : ahead.y));
-        real sum = first + second;
-        real share = sum > real(0) ? min(max(second / sum, REAL(0.05)), REAL(0.95)) : real(0.5);
-        bool tight = !(s.gap > real(2) * m);
-        bool apart = s.gap > REAL(0.75) * m;
-        real plane = tight ? real(0.5) * (s.low + s.high)
-                           : (s.high + m) + share * (s.gap - real(2) * m);
-        // Where held corners end.
-        rvec4 end = s.height + ahead;
-        real none = REAL(1e30);
-        real held_first = d0.w > real(0) ? none : end.x;
-        real held_second = max(d2.w > real(0) ? -none : end.z, d3.w > real(0) ? -none : end.w);
-        if (d1.w == real(0))
-        {
-            held_first = edges ? min(held_first, end.y) : held_first;
-            held_second = edges ? held_second : max(held_second, end.y);
-        }
-        real keep = tight ? real(0) : m;
-        bool clear = held_second + keep <= plane && held_first - keep >= plane;
-        real now = clear ? plane : pushed(plane, held_first, held_second, m);
-        rvec4 side = rvec4(real(1), edges ? real(1) : real(-1), real(-1), real(-1));
-        rvec4 room = side * (s.height - rvec4(now)) - rvec4(m);
-        room = tight && clear ? rvec4(real(-0.5) * m) : room;
-        room = apart ? room : rvec4(-none);
-        row[2u * i] = rvec4(n, edges ? -m : m);
-        row[2u * i + 1u] = rvec4(d0.w > real(0) ? room.x : none, d1.w > real(0) ? room.y : none,
-                                 d2.w > real(0) ? room.z : none, d3.w > real(0) ? room.w : none);
-        real end_low = edges ? min(end.x, end.y) : end.x;
-        real end_high = edges ? max(end.z, end.w) : max(end.y, max(end.z, end.w));
-        bool asks = !(apart && end_low - end_high > real(2) * m);
-        COUNT_EVENT_IF(asks, asked, p.a);
-        COUNT_EVENT_IF(asks, asked, p.b);
-        COUNT_EVENT_IF(asks, asked, p.c);
-        COUNT_EVENT_IF(asks, asked, p.d);
-        COUNT_EVENT_IF(asks && held_second + keep > held_first - keep, lost, TAUT_CONTACT_PINCHED);
+        Separator other = separator_of_edges(way, e1, e2, e3);
+        best = separator_of_two(narrow && edges && other.gap > best.gap, best, other);
     }
+    if (ANY(narrow && !edges))
+    {
+        Separator other = separator_of_vertex(way, e1, e2, e3);
+        best = separator_of_two(narrow && !edges && other.gap > best.gap, best, other);
+    }
+    return best;
+}
+
+KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
+{
+    ContactPair p = pair[i];
+    rbool edges = p.kind == TAUT_CONTACT_EDGES;
+    rvec4 x0 = position[p.a];
+    rvec4 x1 = position[p.b];
+    rvec4 x2 = position[p.c];
+    rvec4 x3 = position[p.d];
+    rvec4 l0 = low[p.a];
+    rvec4 l1 = low[p.b];
+    rvec4 l2 = low[p.c];
+    rvec4 l3 = low[p.d];
+    rvec3 d0 = rvec3(delta[p.a] - l0);
+    rvec3 d1 = rvec3(delta[p.b] - l1);
+    rvec3 d2 = rvec3(delta[p.c] - l2);
+    rvec3 d3 = rvec3(delta[p.d] - l3);
+    rvec3 e1 = rvec3((x1 - x0) + (l1 - l0));
+    rvec3 e2 = rvec3((x2 - x0) + (l2 - l0));
+    rvec3 e3 = rvec3((x3 - x0) + (l3 - l0));
+    rbool free0 = x0.w > real(0);
+    rbool free1 = x1.w > real(0);
+    rbool free2 = x2.w > real(0);
+    rbool free3 = x3.w > real(0);
+    real far = max(max(greatest_of(rvec3(x0)), greatest_of(rvec3(x1))),
+                   max(greatest_of(rvec3(x2)), greatest_of(rvec3(x3))));
+    real size = max(greatest_of(e1), max(greatest_of(e2), greatest_of(e3)));
+    real motion = max(max(greatest_of(d0), greatest_of(d1)), max(greatest_of(d2), greatest_of(d3)));
+    real m = real(8) * rounding_unit() * (far + real(4) * (size + motion));
+    Separator s = widest_of(edges, e1, e2, e3, real(2) * m);
+    rvec3 n = s.normal;
+    real ahead0 = dot(n, d0);
+    real ahead1 = dot(n, d1);
+    real ahead2 = dot(n, d2);
+    real ahead3 = dot(n, d3);
+    // How much each of the two comes nearer.
+    real first = max(real(0), -SELECT(edges, min(ahead0, ahead1), ahead0));
+    real second = max(real(0), max(max(ahead2, ahead3), SELECT(edges, real(0), ahead1)));
+    real sum = first + second;
+    rbool meet = sum > real(0);
+    real of_second = second / SELECT(meet, sum, real(1));
+    real share = SELECT(meet, min(max(of_second, REAL(0.05)), REAL(0.95)), real(0.5));
+    rbool tight = !(s.gap > real(2) * m);
+    rbool apart = s.gap > REAL(0.75) * m;
+    real plane = SELECT(tight, real(0.5) * (s.low + s.high), (s.high + m) + share * (s.gap - real(2) * m));
+    // Where held corners end.
+    real end1 = s.height_b + ahead1;
+    real end2 = s.height_c + ahead2;
+    real end3 = s.height_d + ahead3;
+    real none = REAL(1e30);
+    real held_first = SELECT(free0, none, ahead0);
+    real held_second = max(SELECT(free2, -none, end2), SELECT(free3, -none, end3));
+    held_first = SELECT(edges && !free1, min(held_first, end1), held_first);
+    held_second = SELECT(edges || free1, held_second, max(held_second, end1));
+    real keep = SELECT(tight, real(0), m);
+    rbool clear = held_second + keep <= plane && held_first - keep >= plane;
+    real now = SELECT(clear, plane, pushed(plane, held_first, held_second, m));
+    real side = SELECT(edges, real(1), real(-1)); // of corner b
+    rbool parts = tight && clear;
+    real parting = real(-0.5) * m;
+    real room0 = SELECT(parts, parting, -now - m);
+    real room1 = SELECT(parts, parting, side * (s.height_b - now) - m);
+    real room2 = SELECT(parts, parting, (now - s.height_c) - m);
+    real room3 = SELECT(parts, parting, (now - s.height_d) - m);
+    row[2u * i] = rvec4(n, SELECT(edges, -m, m));
+    row[2u * i + 1u] = rvec4(SELECT(free0, SELECT(apart, room0, -none), none),
+                             SELECT(free1, SELECT(apart, room1, -none), none),
+                             SELECT(free2, SELECT(apart, room2, -none), none),
+                             SELECT(free3, SELECT(apart, room3, -none), none));
+    real end_low = SELECT(edges, min(ahead0, end1), ahead0);
+    real end_high = SELECT(edges, max(end2, end3), max(end1, max(end2, end3)));
+    rbool asks = !(apart && end_low - end_high > real(2) * m);
+    COUNT_EVENT_IF(asks, asked, p.a);
+    COUNT_EVENT_IF(asks, asked, p.b);
+    COUNT_EVENT_IF(asks, asked, p.c);
+    COUNT_EVENT_IF(asks, asked, p.d);
+    COUNT_EVENT_IF(asks && held_second + keep > held_first - keep, lost, TAUT_CONTACT_PINCHED);
 }

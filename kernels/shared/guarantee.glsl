@@ -19,16 +19,16 @@ real rounding_unit()
 }
 
 /// Whether `finish` will take the displacement d of a vertex at x.
-bool is_sound(rvec3 x, rvec3 d)
+INLINE rbool is_sound(rvec3 x, rvec3 d)
 {
     real size = abs(d.x) + abs(d.y) + abs(d.z) + abs(x.x) + abs(x.y) + abs(x.z);
     return size < REAL(1e18);
 }
 
 /// The displacement of a vertex at x, or none where it will not be taken.
-rvec3 sound_way(rvec3 x, rvec3 d)
+INLINE rvec3 sound_way(rvec3 x, rvec3 d)
 {
-    return is_sound(x, d) ? d : rvec3(real(0));
+    return SELECT(is_sound(x, d), d, rvec3(real(0)));
 }
 
 /// Beside its forecast a vertex may go so much further from it, times the forecast.
@@ -38,66 +38,77 @@ real sway()
 }
 
 /// From the line of a forecast, which begins at 0, to p.
-real beyond_forecast(rvec3 p, rvec3 forecast)
+INLINE real beyond_forecast(rvec3 p, rvec3 forecast)
 {
     real squared = dot(forecast, forecast);
-    real share = squared > real(0) ? min(max(dot(p, forecast) / squared, real(0)), real(1)) : real(0);
+    real share = SELECT(squared > real(0), min(max(dot(p, forecast) / squared, real(0)), real(1)), real(0));
     return length(p - forecast * share);
 }
 
 /// Whether a way that ends at p keeps to the bound of guarantee_anchor; below 0 there is none to keep to.
-bool keeps_to(rvec3 p, rvec3 forecast, real bound)
+INLINE rbool keeps_to(rvec3 p, rvec3 forecast, real bound)
 {
     return bound >= real(0) && beyond_forecast(p, forecast) <= bound;
 }
 
-real greatest_of(rvec3 v)
+INLINE real greatest_of(rvec3 v)
 {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-/// A direction from the second of a pair to the first, and the heights of the corners along it, the first
-/// corner at 0.
+/// A direction from the second of a pair to the first, and the heights of the corners along it, that of the
+/// corner a being 0.
 struct Separator
 {
     rvec3 normal; // unit, or 0
-    rvec4 height; // m
-    real low;     // of the first, m
-    real high;    // of the second, m
-    real gap;     // low - high, m
+    real height_b, height_c, height_d; // m
+    real low;  // of the first, m
+    real high; // of the second, m
+    real gap;  // low - high, m
 };
 
-/// The pair along an axis, the way round that parts it further.
-INLINE Separator separator_along(rvec3 axis, rvec3 e1, rvec3 e2, rvec3 e3, bool edges)
+INLINE Separator separator_of_two(rbool second, Separator a, Separator b)
 {
-    real size = length(axis);
-    rvec3 normal = size > real(0) ? axis / size : rvec3(real(0));
-    rvec4 h = rvec4(real(0), dot(normal, e1), dot(normal, e2), dot(normal, e3));
-    real least = min(h.z, h.w);
-    real most = max(h.z, h.w);
-    real first_low = edges ? min(real(0), h.y) : real(0);
-    real first_high = edges ? max(real(0), h.y) : real(0);
-    real second_low = edges ? least : min(h.y, least);
-    real second_high = edges ? most : max(h.y, most);
-    bool ahead = first_low - second_high >= second_low - first_high;
     Separator answer;
-    answer.normal = ahead ? normal : -normal;
-    answer.height = ahead ? h : -h;
-    answer.low = ahead ? first_low : -first_high;
-    answer.high = ahead ? second_high : -second_low;
-    answer.gap = answer.low - answer.high;
+    answer.normal = SELECT(second, b.normal, a.normal);
+    answer.height_b = SELECT(second, b.height_b, a.height_b);
+    answer.height_c = SELECT(second, b.height_c, a.height_c);
+    answer.height_d = SELECT(second, b.height_d, a.height_d);
+    answer.low = SELECT(second, b.low, a.low);
+    answer.high = SELECT(second, b.high, a.high);
+    answer.gap = SELECT(second, b.gap, a.gap);
     return answer;
 }
 
 INLINE Separator wider_of(Separator a, Separator b)
 {
-    bool second = b.gap > a.gap;
+    return separator_of_two(b.gap > a.gap, a, b);
+}
+
+/// The pair along an axis, the way round that parts it further.
+INLINE Separator separator_along(rvec3 axis, rvec3 e1, rvec3 e2, rvec3 e3, rbool edges)
+{
+    real size = length(axis);
+    rbool shaped = size > real(0);
+    rvec3 normal = SELECT(shaped, axis / SELECT(shaped, size, real(1)), rvec3(real(0)));
+    real hb = dot(normal, e1);
+    real hc = dot(normal, e2);
+    real hd = dot(normal, e3);
+    real least = min(hc, hd);
+    real most = max(hc, hd);
+    real first_low = SELECT(edges, min(real(0), hb), real(0));
+    real first_high = SELECT(edges, max(real(0), hb), real(0));
+    real second_low = SELECT(edges, least, min(hb, least));
+    real second_high = SELECT(edges, most, max(hb, most));
+    rbool ahead = first_low - second_high >= second_low - first_high;
     Separator answer;
-    answer.normal = second ? b.normal : a.normal;
-    answer.height = second ? b.height : a.height;
-    answer.low = second ? b.low : a.low;
-    answer.high = second ? b.high : a.high;
-    answer.gap = second ? b.gap : a.gap;
+    answer.normal = SELECT(ahead, normal, -normal);
+    answer.height_b = SELECT(ahead, hb, -hb);
+    answer.height_c = SELECT(ahead, hc, -hc);
+    answer.height_d = SELECT(ahead, hd, -hd);
+    answer.low = SELECT(ahead, first_low, -first_high);
+    answer.high = SELECT(ahead, second_high, -second_low);
+    answer.gap = answer.low - answer.high;
     return answer;
 }
 
@@ -105,7 +116,8 @@ INLINE Separator wider_of(Separator a, Separator b)
 INLINE rvec3 across_edge(rvec3 v, rvec3 edge)
 {
     real squared = dot(edge, edge);
-    return squared > real(0) ? v - edge * (dot(edge, v) / squared) : v;
+    real divisor = SELECT(squared > real(0), squared, real(1));
+    return SELECT(squared > real(0), v - edge * (dot(edge, v) / divisor), v);
 }
 
 /// The widest of the directions that may tell a vertex from a triangle, both relative to the vertex.
@@ -115,13 +127,13 @@ INLINE Separator separator_of_vertex(rvec3 way, rvec3 a, rvec3 b, rvec3 c)
     rvec3 bc = c - b;
     rvec3 ca = a - c;
     rvec3 normal = cross(ab, c - a);
-    Separator best = separator_along(normal, a, b, c, false);
-    best = wider_of(best, separator_along(across_edge(way, ab), a, b, c, false));
-    best = wider_of(best, separator_along(across_edge(way, bc), a, b, c, false));
-    best = wider_of(best, separator_along(across_edge(way, ca), a, b, c, false));
-    best = wider_of(best, separator_along(cross(ab, normal), a, b, c, false));
-    best = wider_of(best, separator_along(cross(bc, normal), a, b, c, false));
-    return wider_of(best, separator_along(cross(ca, normal), a, b, c, false));
+    Separator best = separator_along(normal, a, b, c, rbool(false));
+    best = wider_of(best, separator_along(across_edge(way, ab), a, b, c, rbool(false)));
+    best = wider_of(best, separator_along(across_edge(way, bc), a, b, c, rbool(false)));
+    best = wider_of(best, separator_along(across_edge(way, ca), a, b, c, rbool(false)));
+    best = wider_of(best, separator_along(cross(ab, normal), a, b, c, rbool(false)));
+    best = wider_of(best, separator_along(cross(bc, normal), a, b, c, rbool(false)));
+    return wider_of(best, separator_along(cross(ca, normal), a, b, c, rbool(false)));
 }
 
 /// The same of the edges from 0 to p and from q to r.
@@ -129,12 +141,12 @@ INLINE Separator separator_of_edges(rvec3 way, rvec3 p, rvec3 q, rvec3 r)
 {
     rvec3 side = r - q;
     rvec3 normal = cross(p, side);
-    Separator best = separator_along(normal, p, q, r, true);
-    best = wider_of(best, separator_along(across_edge(way, p), p, q, r, true));
-    best = wider_of(best, separator_along(across_edge(way, side), p, q, r, true));
-    best = wider_of(best, separator_along(across_edge(across_edge(way, p), side), p, q, r, true));
-    best = wider_of(best, separator_along(cross(p, normal), p, q, r, true));
-    return wider_of(best, separator_along(cross(side, normal), p, q, r, true));
+    Separator best = separator_along(normal, p, q, r, rbool(true));
+    best = wider_of(best, separator_along(across_edge(way, p), p, q, r, rbool(true)));
+    best = wider_of(best, separator_along(across_edge(way, side), p, q, r, rbool(true)));
+    best = wider_of(best, separator_along(across_edge(across_edge(way, p), side), p, q, r, rbool(true)));
+    best = wider_of(best, separator_along(cross(p, normal), p, q, r, rbool(true)));
+    return wider_of(best, separator_along(cross(side, normal), p, q, r, rbool(true)));
 }
 
 #endif

@@ -163,13 +163,15 @@ LAYOUT_STRUCT(ContactPair)
     uint kind; // TAUT_CONTACT_*
 };
 
-/// On which side of each other a pair is, and how it is to stay.
+/// On which side of each other a pair is, and how it is to stay. As two rvec4, contact_gap changes only the
+/// first.
 LAYOUT_STRUCT(ContactSide)
 {
     real normal_x, normal_y, normal_z; // from the second of the pair to the first
     real allowed;                      // where the gap may end in this substep, m
     real rest_gap;                     // m
     real friction;
+    real unused_x, unused_y;           // 0
 };
 
 /// The air during a time step. One element, written by the host.

@@ -84,6 +84,12 @@ struct Uint
     }
 };
 
+TAUT_LANE Bool operator==(const Uint& a, uint b)
+{
+    const __m256i all = _mm256_set1_epi32(static_cast<int>(b));
+    return Bool(_mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_castps_si256(a.bits.v), all)));
+}
+
 /// The records of a block's elements in a buffer of records of `stride` bytes. One pointer for neighbours:
 /// what is added to it then is known when this is compiled.
 struct Neighbours

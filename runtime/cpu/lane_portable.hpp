@@ -22,6 +22,15 @@ TAUT_LANE void count_events(uint& counter, Bool happened, uint lanes)
         __atomic_fetch_add(&counter, static_cast<uint>(__builtin_popcount(which)), __ATOMIC_RELAXED);
 }
 
+/// Adds one for each lane in `lanes` in which `happened` is true, each to a counter of its own.
+TAUT_LANE void count_events(const CounterOfEach& counters, Bool happened, uint lanes)
+{
+    if (const uint which = bits(happened) & lanes)
+        for (uint element = 0; element < kLanes; ++element)
+            if (which >> lane_of(element) & 1u)
+                __atomic_fetch_add(counters.base + counters.where[element], 1u, __ATOMIC_RELAXED);
+}
+
 /// As taut::native::run_lean: with `report` a constant 0 there is no counting in the loop. `run` is told
 /// whether this is the loop that most passes take, as a type.
 template <typename Kernel, typename Run>
@@ -92,15 +101,16 @@ template <typename Kernel>
     if (end < begin + kLanes || end < begin)
         return begin;
     const uint blocks = (end - begin) / kLanes;
-    run_lean(kernel, [=](Kernel& k, auto lean) __attribute__((always_inline)) {
-        Patience patience;
-        for (uint block = 0; block < blocks; ++block)
-        {
-            const uint first = begin + block * kLanes;
-            const Form form = lean ? form_of(k, first, patience) : Form::any;
-            run_block(k, first, form);
-        }
-    });
+    run_lean(
+        kernel, [=](Kernel & k, auto lean) __attribute__((always_inline)) {
+            Patience patience;
+            for (uint block = 0; block < blocks; ++block)
+            {
+                const uint first = begin + block * kLanes;
+                const Form form = lean ? form_of(k, first, patience) : Form::any;
+                run_block(k, first, form);
+            }
+        });
     return begin + blocks * kLanes;
 }
 
@@ -109,10 +119,11 @@ template <typename Kernel>
 {
     Kernel kernel;
     kernel.bind(params, buffers);
-    run_lean(kernel, [=](Kernel& k, auto) __attribute__((always_inline)) {
-        for (uint group = begin; group < end; ++group)
-            k.body(group);
-    });
+    run_lean(
+        kernel, [=](Kernel & k, auto) __attribute__((always_inline)) {
+            for (uint group = begin; group < end; ++group)
+                k.body(group);
+        });
     return end;
 }
 
@@ -148,8 +159,8 @@ TAUT_LANE void each(uint& active, uint first, uint end, Body body)
 #define WRITE(slot, T, name) taut::lanes::Update<T> name
 #define UPDATE(slot, T, name) taut::lanes::Update<T> name
 #define GROUP_UPDATE(slot, T, name) taut::lanes::Update<T> name
-#define COUNTERS(slot, name) std::uint32_t* name
-#define COUNT_EVENT_IF(condition, buffer, index) \
+#define COUNTERS(slot, name) taut::lanes::Counters name
+#define COUNT_EVENT_IF(condition, buffer, index)                                                             \
     taut::lanes::count_events(buffer[index], condition, taut_active)
 
 #define KERNEL(count)                                                                                        \
@@ -161,4 +172,5 @@ TAUT_LANE void each(uint& active, uint first, uint end, Body body)
 #define EACH_BEGIN(first, end)                                                                               \
     taut::lanes::each(taut_active, uint(first), uint(end),                                                   \
                       [&](const ELEMENT i) __attribute__((always_inline)) {
-#define EACH_END });
+#define EACH_END                                                                                             \
+    });

@@ -55,7 +55,8 @@ template <std::size_t words, std::size_t k>
 TAUT_LANE Word load_word(const std::byte* base, Index where)
 {
     const Neighbours at(base, where, 4 * words);
-    const auto word = [&](Real value) __attribute__((always_inline)) {
+    const auto word = [&](Real value) __attribute__((always_inline))
+    {
         return Word{value, Uint{at.first + 4 * k, 4 * words, where, value}};
     };
     if constexpr (words < 4)
@@ -94,7 +95,9 @@ TAUT_LANE T spread_record(const std::byte* record, std::index_sequence<k...>)
 template <typename T, typename Where>
 TAUT_LANE auto load(const std::byte* base, const Where& where)
 {
-    if constexpr (std::is_same_v<T, uint>)
+    if constexpr (std::is_same_v<T, uint> && std::is_same_v<Where, Uint>)
+        return Whole{_mm256_castps_si256(real_at(base, where).v)};
+    else if constexpr (std::is_same_v<T, uint>)
         return Uint{Neighbours(base, where, 4).first, 4, where, real_at(base, where)};
     else if constexpr (std::is_same_v<T, Real>)
         return real_at(base, where);
@@ -125,6 +128,7 @@ struct Read
 
     TAUT_LANE auto operator[](Index where) const { return load<T>(base, where); }
     TAUT_LANE auto operator[](const Uint& where) const { return load<T>(base, where); }
+    TAUT_LANE auto operator[](Steps where) const { return load<T>(base, where); }
     TAUT_LANE T operator[](uint index) const { return spread<T>(base + std::size_t{index} * kBytes<T>); }
 };
 
@@ -154,6 +158,21 @@ struct Update
     TAUT_LANE Ref<T, Steps> operator[](Steps where) const { return {base, where}; }
 };
 
+/// A counter per element.
+struct CounterOfEach
+{
+    uint* base;
+    Uint where;
+};
+
+struct Counters
+{
+    uint* base;
+
+    TAUT_LANE uint& operator[](uint index) const { return base[index]; }
+    TAUT_LANE CounterOfEach operator[](const Uint& where) const { return {base, where}; }
+};
+
 /// A copy: what no store can change stays in registers through the loop.
 template <typename T>
 struct One
@@ -178,6 +197,6 @@ TAUT_LANE void attach(One<T>& member, void* memory)
 {
     std::memcpy(member.copy, memory, sizeof(member.copy));
 }
-TAUT_LANE void attach(uint*& counters, void* memory) { counters = static_cast<uint*>(memory); }
+TAUT_LANE void attach(Counters& member, void* memory) { member.base = static_cast<uint*>(memory); }
 
 } // namespace taut::lanes

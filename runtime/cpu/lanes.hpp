@@ -39,6 +39,12 @@ TAUT_LANE Bool operator!(Bool a) { return Bool(_mm256_xor_ps(a.mask, Bool(true).
 /// A bit per lane.
 TAUT_LANE uint bits(Bool a) { return static_cast<uint>(_mm256_movemask_ps(a.mask)); }
 
+/// A whole number per element, below 2^31, to reckon with and not to index with.
+struct Whole
+{
+    __m256i v;
+};
+
 struct Real
 {
     __m256 v;
@@ -50,6 +56,7 @@ struct Real
     TAUT_LANE explicit Real(double all) : Real(static_cast<float>(all)) {}
     TAUT_LANE explicit Real(int all) : Real(static_cast<float>(all)) {}
     TAUT_LANE explicit Real(uint all) : Real(static_cast<float>(all)) {}
+    TAUT_LANE explicit Real(Whole whole) : v(_mm256_cvtepi32_ps(whole.v)) {}
 };
 
 TAUT_LANE Real operator+(Real a, Real b) { return Real(_mm256_add_ps(a.v, b.v)); }

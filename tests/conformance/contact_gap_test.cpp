@@ -92,8 +92,8 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v) + net.d(v); });
         const glm::dvec3 n = random.chance(0.3) ? -now.way / now.distance() : now.way / now.distance();
         const auto gap = static_cast<Real>(now.distance() * random.uniform(0.5, 1.5));
-        sides.push_back(
-            {static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), gap, gap, Real(0.4)});
+        sides.push_back({static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), gap, gap,
+                         Real(0.4), Real(0), Real(0)});
     }
     layout::StepValues<Real> step{};
     step.depenetration = static_cast<Real>(kWayOut);
@@ -117,7 +117,7 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         if (k >= count)
         {
             for (const Real v : {sides[k].normal_x, sides[k].normal_y, sides[k].normal_z, sides[k].allowed,
-                                 sides[k].rest_gap, sides[k].friction})
+                                 sides[k].rest_gap, sides[k].friction, sides[k].unused_x, sides[k].unused_y})
                 side.add(static_cast<double>(v), 0);
             for (int j = 0; j < 8; ++j)
                 row.add(3, 0);
@@ -130,6 +130,8 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         side.add(want.allowed, want.clear ? 4 : kAnyFinite);
         side.add(static_cast<double>(sides[k].rest_gap), 0);
         side.add(static_cast<double>(sides[k].friction), 0);
+        for (int unused = 0; unused < 2; ++unused)
+            side.add(0, 0);
         // Weights of triangles of 0.1 m, of a net of metres: some hundred roundings.
         for (const double w : want.weight)
             row.add(w, want.clear ? 200 : kAnyFinite);
