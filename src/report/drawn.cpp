@@ -1,5 +1,6 @@
 #include "taut/report/drawn.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/material.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/scene/extent.hpp"
@@ -8,7 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 namespace taut {
@@ -46,8 +49,27 @@ double drawn_length(const Body& body)
     return out;
 }
 
-/// J/m^2: elastic energy of a body drawn evenly, over the square of how far.
-double drawn_stiffness(const Body& body)
+/// m: over what length others draw or squeeze a body that they meet: across a solid; of cloth, which is only
+/// drawn, the side of a square as large.
+double touched_length(const Body& body)
+{
+    if (body.mesh.tetrahedra.empty())
+    {
+        double area = 0;
+        const std::vector<glm::dvec3>& x = body.mesh.positions;
+        for (const auto& t : body.mesh.triangles)
+            area += 0.5 * glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+        return std::sqrt(area);
+    }
+    Extent all;
+    for (const glm::dvec3& p : body.mesh.positions)
+        all.take(p);
+    const glm::dvec3 size = all.high - all.low;
+    return std::min({size.x, size.y, size.z});
+}
+
+/// J/m^2: elastic energy of a body drawn evenly over `length` [m], over the square of how far.
+double drawn_stiffness(const Body& body, double length)
 {
     double stiff = 0; // J at a strain of 1
     for (const StretchElement& e : stretch_elements(body))
@@ -55,7 +77,6 @@ double drawn_stiffness(const Body& body)
             stiff += 0.5 * e.rest_length * e.rest_length / e.compliance;
     for (const SolidElement& e : solid_elements(body))
         stiff += 0.5 * (2 * e.mu + e.lambda) * e.rest_volume;
-    const double length = drawn_length(body);
     return length > 0 ? stiff / (length * length) : 0;
 }
 
@@ -65,6 +86,38 @@ bool turns(const Pin& pin)
     return pin.moved_by_program || pin.places ||
            std::any_of(pin.motion.begin(), pin.motion.end(),
                        [](const Keyframe& key) { return key.rotate_degrees != 0; });
+}
+
+/// Of bodies that meet, directly or by others: which of them one number stands for.
+std::vector<std::size_t> meeting_parts(const Scene& scene)
+{
+    std::vector<std::size_t> part(scene.bodies.size());
+    std::iota(part.begin(), part.end(), std::size_t{0});
+    for (std::size_t a = 0; a < part.size(); ++a)
+        for (std::size_t b = a + 1; b < part.size(); ++b)
+            if (part[a] != part[b] && surfaces_meet(scene, a, b))
+                std::replace(part.begin(), part.end(), part[b], part[a]);
+    return part;
+}
+
+/// Places that are held, and how many of them move, of the bodies of a part.
+struct Holders
+{
+    std::size_t held = 0, move = 0;
+};
+
+/// A sequence is a skin, which draws what it wears by its bends: nobody bounds that by its way, and cloth
+/// that is worn has nothing else to hold it.
+std::vector<Holders> holders_of(const Scene& scene, const std::vector<std::size_t>& part)
+{
+    std::vector<Holders> out(part.size());
+    for (std::size_t b = 0; b < part.size(); ++b)
+        for (const Pin& pin : scene.bodies[b].pins)
+        {
+            out[part[b]].held += 1;
+            out[part[b]].move += is_led(pin) && !pin.places;
+        }
+    return out;
 }
 
 /// Whether nothing but translations of pins draws the body, and it gives back what they put in.
@@ -89,17 +142,32 @@ std::vector<glm::dvec3> ways_between(const Pin& a, const Pin& b, std::span<const
 
 DrawnBodies::DrawnBodies(const Scene& scene)
 {
-    for (const Body& body : scene.bodies)
+    const std::vector<std::size_t> part = meeting_parts(scene);
+    const std::vector<Holders> holders = holders_of(scene, part);
+    const auto led_colliders = static_cast<std::size_t>(
+        std::count_if(scene.colliders.begin(), scene.colliders.end(),
+                      [](const Collider& c) { return !c.motion.empty() || c.moved_by_program; }));
+    for (std::size_t k = 0; k < part.size(); ++k)
     {
-        if (body.pins.size() + scene.colliders.size() < 2)
-            continue; // what nothing else holds goes along
-        const double stiffness = drawn_stiffness(body);
-        if (!followed(scene, body))
+        const Body& body = scene.bodies[k];
+        const Holders& near = holders[part[k]];
+        // What nothing else holds goes along.
+        const bool alone = body.pins.size() + scene.colliders.size() < 2;
+        const std::size_t move = near.move + led_colliders;
+        if (move > 0 && near.held > body.pins.size() && near.held + scene.colliders.size() >= 2)
+        {
+            const double length = std::min(drawn_length(body), touched_length(body));
+            // Two that move draw it by both their ways.
+            stiffness_ += drawn_stiffness(body, length) * (move > 1 ? 4 : 1);
+        }
+        else if (alone)
+            continue;
+        else if (const double stiffness = drawn_stiffness(body, drawn_length(body)); !followed(scene, body))
             stiffness_ += stiffness;
         else
             for (std::size_t a = 0; a < body.pins.size(); ++a)
                 for (std::size_t b = a + 1; b < body.pins.size(); ++b)
-                    if (const Pin &first = body.pins[a], &second = body.pins[b]; either_moves(first, second))
+                    if (const Pin& first = body.pins[a], &second = body.pins[b]; either_moves(first, second))
                         pairs_.push_back({first.motion, second.motion,
                                           ways_between(first, second, body.mesh.positions), stiffness});
     }

@@ -15,7 +15,8 @@ struct DrawnEnergy
     double held = 0, freed = 0;
 };
 
-/// Bodies whose pins move against each other, or against colliders. Immutable after construction.
+/// Bodies whose pins move against each other, against colliders, or against those of other bodies that they
+/// meet. Immutable after construction.
 ///
 /// Based on: the principle of least energy: what is in balance has no more elastic energy than if it were
 ///   drawn evenly over the length between two pins.
