@@ -38,9 +38,13 @@ void find_parts(Surface& s)
         const std::uint32_t a = root(e[0]), b = root(e[1]);
         parent[std::max(a, b)] = std::min(a, b);
     }
-    s.part.resize(s.vertices);
+    std::vector<bool> used(s.vertices, false); // vertices inside a solid are on no triangle
+    for (const Edge& e : s.edges)
+        used[e[0]] = used[e[1]] = true;
+    s.part.assign(s.vertices, Surface::kNoPart);
     for (std::uint32_t v = 0; v < s.vertices; ++v)
-        s.part[v] = root(v) == v ? static_cast<std::uint32_t>(s.parts++) : s.part[root(v)];
+        if (used[v])
+            s.part[v] = root(v) == v ? static_cast<std::uint32_t>(s.parts++) : s.part[root(v)];
 }
 
 /// Whether triangle t runs from a to b.

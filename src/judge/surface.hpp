@@ -15,19 +15,21 @@ using Edge = std::array<std::uint32_t, 2>; ///< lower vertex first
 /// Bodies of which some pass through others on purpose.
 struct PassingBodies
 {
-    std::vector<std::uint32_t> body; ///< per vertex; empty: none passes through another one
-    std::vector<std::uint32_t> kind; ///< per body
+    std::vector<std::uint32_t> body;       ///< per vertex; empty: none passes through another one
+    std::vector<std::uint32_t> kind;       ///< per body
     std::vector<std::vector<bool>> passes; ///< per two kinds, both ways: what two different bodies of them do
 };
 
 struct Surface
 {
+    static constexpr std::uint32_t kNoPart = 0xffffffffu;
+
     std::size_t vertices = 0;
     std::vector<Triangle> triangles;
     std::vector<Edge> edges;                                ///< of the triangles, each once, in order
     std::vector<std::vector<std::uint32_t>> edge_triangles; ///< per edge
     std::vector<std::uint32_t>
-        part; ///< per vertex: number of the connected part, from 0 in order of vertices
+        part; ///< per vertex: number of the connected part, from 0 in order of vertices, or kNoPart
     std::size_t parts = 0;
     std::vector<std::uint32_t>
         closed; ///< parts with two triangles at every edge, wound alike: they have a volume
@@ -53,7 +55,7 @@ struct Surface
     }
 };
 
-/// Indices are below `vertices`. Vertices of no triangle are parts of their own without triangles.
+/// Indices are below `vertices`. Vertices of no triangle, as inside a solid, are of no part.
 Surface make_surface(std::size_t vertices, std::vector<Triangle> triangles, std::vector<bool> led = {},
                      PassingBodies passing = {});
 

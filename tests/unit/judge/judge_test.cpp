@@ -286,6 +286,22 @@ TEST_CASE("stretch is that of the first frame, and wrong input is refused by nam
     CHECK_THAT(refusal([&] { Judge({}, s.positions); }), Contains("no triangle"));
 }
 
+TEST_CASE("parts are what hangs together by triangles; a vertex of none is of no part")
+{
+    Shape s = sheet(2, [](double x, double y) { return glm::dvec3(x, y, 0); });
+    s.add(sheet(2, [](double x, double y) { return glm::dvec3(x, y, 1); }));
+    s.positions.insert(s.positions.begin() + 9, glm::dvec3(0, 0, 0.5));
+    for (Triangle& t : s.triangles)
+        for (std::uint32_t& v : t)
+            v += v > 8;
+    const Surface surface = make_surface(s.positions.size(), s.triangles);
+    CHECK(surface.parts == 2);
+    CHECK(surface.part[0] == 0);
+    CHECK(surface.part[9] == Surface::kNoPart);
+    CHECK(surface.part[10] == 1);
+    CHECK(Judge(s.triangles, s.positions).look(s.positions).nearest_parts.distance == Approx(1));
+}
+
 TEST_CASE("what is led is judged against what is not, and not among its like")
 {
     Shape s = sheet(3, [](double x, double y) { return glm::dvec3(x, y, 0); });
