@@ -1,85 +1,16 @@
-// The scenes of examples/contact, each by the criterion that its README names. The judge, which shares
-// nothing with the kernels, looks at every step.
+// The scenes of examples/contact with cloth on what is led, each by the criterion that its README names.
+// The judge, which shares nothing with the kernels, looks at every step.
 
 #include "support/catch.hpp"
-#include "support/devices.hpp"
+#include "support/judged_run.hpp"
 
-#include "taut/judge/judge.hpp"
-#include "taut/judge/scene_triangles.hpp"
-#include "taut/report/report.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/world/world.hpp"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
 #include <cmath>
-#include <functional>
 
 using namespace taut;
-
-namespace {
-
-Scene suite(const std::string& name)
-{
-    return load_scene(TAUT_SOURCE_DIR "/examples/contact/" + name + ".json");
-}
-
-/// A world that is judged step by step.
-struct JudgedRun
-{
-    World world;
-    judging::SceneTriangles all = judging::scene_triangles(world.scene());
-    judging::Judge judge{all.triangles, world.positions(), all.led};
-    std::vector<glm::dvec3> before = world.positions();
-    double nearest_parts = 1; ///< m: the least distance of different parts so far
-    std::size_t crossed = 0;  ///< steps in which anything goes through anything, or has since the one before
-
-    explicit JudgedRun(const Scene& scene) : world(scene, test_device("cpu:serial")) {}
-
-    void run(
-        double until, const std::function<void()>& look = [] {})
-    {
-        while (world.time() < until - 1e-9)
-        {
-            world.step();
-            std::vector<glm::dvec3> now = world.positions();
-            const judging::FrameVerdict verdict = judge.look(now);
-            nearest_parts = std::min(nearest_parts, verdict.nearest_parts.distance);
-            crossed += verdict.intersecting > 0 || !judge.between(before, now).empty();
-            before = std::move(now);
-            look();
-        }
-    }
-    std::vector<glm::dvec3> body(std::size_t b) const
-    {
-        const auto& first = world.plan().body_start;
-        return {before.begin() + first[b], before.begin() + first[b + 1]};
-    }
-    glm::dvec3 centre(std::size_t b) const
-    {
-        glm::dvec3 sum(0);
-        for (const glm::dvec3& x : body(b))
-            sum += x;
-        return sum / static_cast<double>(body(b).size());
-    }
-};
-
-double mass_of(const Scene& resolved, std::size_t b)
-{
-    const auto& m = resolved.bodies[b];
-    return m.material.density * m.shape.size.x * m.shape.size.y;
-}
-
-const BodyContactForce* between(const std::vector<BodyContactForce>& all, std::uint32_t a, std::uint32_t b)
-{
-    for (const BodyContactForce& f : all)
-        if (f.a == a && f.b == b)
-            return &f;
-    return nullptr;
-}
-
-} // namespace
 
 TEST_CASE("suite 04: a sheet lies a gap above a plate and does not drift")
 {
@@ -92,9 +23,9 @@ TEST_CASE("suite 04: a sheet lies a gap above a plate and does not drift")
     for (const glm::dvec3& x : run.body(1))
         CHECK(std::abs(x.y - 0.004) < 0.05 * 0.004);
     const auto forces = run.world.contact_forces();
-    const BodyContactForce* carried = between(forces, 0, 1);
+    const BodyContactForce* carried = force_between(forces, 0, 1);
     REQUIRE(carried);
-    const double weight = 9.81 * mass_of(run.world.scene(), 1);
+    const double weight = 9.81 * sheet_mass(run.world.scene(), 1);
     CHECK(-carried->force.y == Approx(weight).epsilon(0.01));
     CHECK(carried->push == Approx(weight).epsilon(0.01)); // all of it straight up
 }
@@ -109,9 +40,9 @@ TEST_CASE("suite 05: the lowest layer of a stack is pressed by all others")
     {
         CAPTURE(k);
         CHECK(run.centre(k + 1).y > run.centre(k).y + 0.9 * 0.004);
-        const BodyContactForce* carried = between(forces, k, k + 1);
+        const BodyContactForce* carried = force_between(forces, k, k + 1);
         REQUIRE(carried);
-        CHECK(-carried->force.y == Approx(9.81 * (8 - k) * mass_of(run.world.scene(), 1)).epsilon(0.05));
+        CHECK(-carried->force.y == Approx(9.81 * (8 - k) * sheet_mass(run.world.scene(), 1)).epsilon(0.05));
     }
 }
 
