@@ -146,6 +146,28 @@ TEST_CASE("suite 55: a cube that carries another one presses with both their wei
     CHECK(-force_between(forces, 1, 2)->force.y == Approx(upper).epsilon(0.05));
 }
 
+TEST_CASE("suite 47: cubes lie on each other far from the origin as they do at it, or are refused")
+{
+    const auto moved = [](double way, const char* precision) {
+        Scene scene = suite("55_cubes");
+        for (Body& body : scene.bodies)
+            body.transform.translate.x += way;
+        scene.method.precision = precision;
+        return scene;
+    };
+    const auto lies = [](const Scene& scene) {
+        JudgedRun run(scene);
+        run.run(1.5);
+        CHECK(run.crossed == 0);
+        CHECK(run.nearest_parts > 0.95 * 0.004);
+        return run.centre(2).y;
+    };
+    const double here = lies(moved(0, "float"));
+    CHECK(std::abs(lies(moved(100, "float")) - here) < 1e-4);
+    CHECK(std::abs(lies(moved(1e4, "double")) - here) < 1e-4);
+    CHECK_THROWS_WITH(JudgedRun(moved(1e3, "float")), Contains("contact.thickness"));
+}
+
 TEST_CASE("suite 56: a bar that is bent until it closes meets itself")
 {
     JudgedRun run(suite("56_closing_bar"));
