@@ -34,16 +34,6 @@ UPDATE(5, rvec4, side); // both rows of a ContactSide
 WRITE(6, rvec4, row); // two a pair: the weights of its corners, 0 if it is not active; slip m, w = C m
 COUNTERS(7, acting); // pairs at each vertex
 
-INLINE Closest closest_of(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3)
-{
-    Closest answer = pair_at(rvec3(real(0)), real(0), real(0), real(0), real(0));
-    if (ANY(!edges))
-        answer = closest_vertex_triangle(e1, e2, e3);
-    if (ANY(edges))
-        answer = closest_of_two(edges, answer, closest_edges(e1, e2, e3));
-    return answer;
-}
-
 KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
 {
     ContactPair p = pair[i];
@@ -56,7 +46,7 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     rvec3 d2 = rvec3(delta[p.c] - d0);
     rvec3 d3 = rvec3(delta[p.d] - d0);
     rbool edges = p.kind == TAUT_CONTACT_EDGES;
-    Closest now = closest_of(edges, rvec3(x1 - x0) + d1, rvec3(x2 - x0) + d2, rvec3(x3 - x0) + d3);
+    Closest now = closest_of_pair(edges, rvec3(x1 - x0) + d1, rvec3(x2 - x0) + d2, rvec3(x3 - x0) + d3);
     rvec4 kept = side[2u * i];
     rvec3 normal = rvec3(kept);
     real size = sqrt(now.squared);

@@ -45,20 +45,10 @@ INLINE real pushed(real plane, real first, real second, real margin)
     return min(max(plane, second + margin), first - margin);
 }
 
-INLINE Closest nearest_of(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3)
-{
-    Closest answer = pair_at(rvec3(real(0)), real(0), real(0), real(0), real(0));
-    if (ANY(!edges))
-        answer = closest_vertex_triangle(e1, e2, e3);
-    if (ANY(edges))
-        answer = closest_of_two(edges, answer, closest_edges(e1, e2, e3));
-    return answer;
-}
-
 /// The way between the nearest points, else the widest of the other directions.
 INLINE Separator widest_of(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3, real enough)
 {
-    rvec3 way = nearest_of(edges, e1, e2, e3).way;
+    rvec3 way = closest_of_pair(edges, e1, e2, e3).way;
     Separator best = separator_along(way, e1, e2, e3, edges);
     rbool narrow = !(best.gap > enough);
     if (ANY(narrow && edges))

@@ -115,4 +115,15 @@ INLINE Closest closest_edges(rvec3 p, rvec3 q, rvec3 r)
     return best;
 }
 
+/// Of a vertex and a triangle, or of two edges: corners b, c and d relative to a.
+INLINE Closest closest_of_pair(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3)
+{
+    Closest answer = pair_at(rvec3(real(0)), real(0), real(0), real(0), real(0));
+    if (ANY(!edges))
+        answer = closest_vertex_triangle(e1, e2, e3);
+    if (ANY(edges))
+        answer = closest_of_two(edges, answer, closest_edges(e1, e2, e3));
+    return answer;
+}
+
 #endif
