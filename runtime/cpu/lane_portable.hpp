@@ -101,16 +101,15 @@ template <typename Kernel>
     if (end < begin + kLanes || end < begin)
         return begin;
     const uint blocks = (end - begin) / kLanes;
-    run_lean(
-        kernel, [=](Kernel & k, auto lean) __attribute__((always_inline)) {
-            Patience patience;
-            for (uint block = 0; block < blocks; ++block)
-            {
-                const uint first = begin + block * kLanes;
-                const Form form = lean ? form_of(k, first, patience) : Form::any;
-                run_block(k, first, form);
-            }
-        });
+    run_lean(kernel, [=](Kernel& k, auto lean) __attribute__((always_inline)) {
+        Patience patience;
+        for (uint block = 0; block < blocks; ++block)
+        {
+            const uint first = begin + block * kLanes;
+            const Form form = lean ? form_of(k, first, patience) : Form::any;
+            run_block(k, first, form);
+        }
+    });
     return begin + blocks * kLanes;
 }
 
@@ -119,11 +118,10 @@ template <typename Kernel>
 {
     Kernel kernel;
     kernel.bind(params, buffers);
-    run_lean(
-        kernel, [=](Kernel & k, auto) __attribute__((always_inline)) {
-            for (uint group = begin; group < end; ++group)
-                k.body(group);
-        });
+    run_lean(kernel, [=](Kernel& k, auto) __attribute__((always_inline)) {
+        for (uint group = begin; group < end; ++group)
+            k.body(group);
+    });
     return end;
 }
 
@@ -160,7 +158,7 @@ TAUT_LANE void each(uint& active, uint first, uint end, Body body)
 #define UPDATE(slot, T, name) taut::lanes::Update<T> name
 #define GROUP_UPDATE(slot, T, name) taut::lanes::Update<T> name
 #define COUNTERS(slot, name) taut::lanes::Counters name
-#define COUNT_EVENT_IF(condition, buffer, index)                                                             \
+#define COUNT_EVENT_IF(condition, buffer, index) \
     taut::lanes::count_events(buffer[index], condition, taut_active)
 
 #define KERNEL(count)                                                                                        \
@@ -172,5 +170,4 @@ TAUT_LANE void each(uint& active, uint first, uint end, Body body)
 #define EACH_BEGIN(first, end)                                                                               \
     taut::lanes::each(taut_active, uint(first), uint(end),                                                   \
                       [&](const ELEMENT i) __attribute__((always_inline)) {
-#define EACH_END                                                                                             \
-    });
+#define EACH_END });

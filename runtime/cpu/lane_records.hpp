@@ -55,8 +55,7 @@ template <std::size_t words, std::size_t k>
 TAUT_LANE Word load_word(const std::byte* base, Index where)
 {
     const Neighbours at(base, where, 4 * words);
-    const auto word = [&](Real value) __attribute__((always_inline))
-    {
+    const auto word = [&](Real value) __attribute__((always_inline)) {
         return Word{value, Uint{at.first + 4 * k, 4 * words, where, value}};
     };
     if constexpr (words < 4)

@@ -39,7 +39,7 @@ TAUT_LANE Bool operator!(Bool a) { return Bool(_mm256_xor_ps(a.mask, Bool(true).
 /// A bit per lane.
 TAUT_LANE uint bits(Bool a) { return static_cast<uint>(_mm256_movemask_ps(a.mask)); }
 
-/// A whole number per element, below 2^31, to reckon with and not to index with.
+/// A whole number per element, below 2^31, to compute with and not to index with.
 struct Whole
 {
     __m256i v;

@@ -15,8 +15,8 @@ using Edge = std::array<std::uint32_t, 2>; ///< lower vertex first
 /// Bodies of which some pass through others on purpose.
 struct PassingBodies
 {
-    std::vector<std::uint32_t> body;       ///< per vertex; empty: none passes through another one
-    std::vector<std::uint32_t> kind;       ///< per body
+    std::vector<std::uint32_t> body; ///< per vertex; empty: none passes through another one
+    std::vector<std::uint32_t> kind; ///< per body
     std::vector<std::vector<bool>> passes; ///< per two kinds, both ways: what two different bodies of them do
 };
 
