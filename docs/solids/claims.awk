@@ -13,7 +13,7 @@ function claims(    held)
           about(v("locking", "neo_hookean 2 of five", "ν 0.3"), "66") && about(v("locking", "neo_hookean 4 of five", "ν 0.3"), "87"))
     claim("Near ν 0.5 cells of six lock almost wholly: 13 % at 0.49 with two across, and 56 % with eight",
           about(v("locking", "neo_hookean 2 of six", "ν 0.49"), "13") && about(v("locking", "neo_hookean 8 of six", "ν 0.49"), "56"))
-    claim("Springs do not come to the modulus that they are given, however fine they are: they end beyond a fifth too stiff",
+    claim("Springs do not come to the modulus that they are given, however fine they are: they end more than a fifth too stiff",
           v("locking", "springs 8 of five", "ν 0") < 83 && v("locking", "springs 8 of six", "ν 0") < 83)
 
     claim("Springs alone lose more than half of the volume in the fall and have not got it back at the end;",

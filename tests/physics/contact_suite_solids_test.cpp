@@ -8,18 +8,6 @@
 
 using namespace taut;
 
-namespace {
-
-double highest(const std::vector<glm::dvec3>& places)
-{
-    double out = -1e300;
-    for (const glm::dvec3& x : places)
-        out = std::max(out, x.y);
-    return out;
-}
-
-} // namespace
-
 TEST_CASE("suite 20: a box slides over the edges of a floor's triangles as over one plane")
 {
     JudgedRun run(suite("20_internal_edges"));

@@ -66,6 +66,15 @@ struct JudgedRun
     }
 };
 
+/// m, along y.
+inline double highest(const std::vector<glm::dvec3>& places)
+{
+    double out = -1e300;
+    for (const glm::dvec3& x : places)
+        out = std::max(out, x.y);
+    return out;
+}
+
 /// kg, of a grid of cloth.
 inline double sheet_mass(const Scene& resolved, std::size_t b)
 {
