@@ -1,5 +1,7 @@
 #include "taut/judge/exact.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -106,6 +108,33 @@ bool meets_an_edge(const glm::dvec3& p, const glm::dvec3& q, const std::array<gl
     return false;
 }
 
+/// Whether a direction parts the segment and the triangle for certain, whatever rounding does: heights along
+/// it are off by less than 8 u of the sum of the products that they are made of.
+bool parted_along(const glm::dvec3& d, const glm::dvec3& p, const glm::dvec3& q,
+                  const std::array<glm::dvec3, 3>& t)
+{
+    double size = 0;
+    const auto height = [&](const glm::dvec3& x) {
+        const glm::dvec3 r = x - t[0];
+        size = std::max(size, std::abs(d.x * r.x) + std::abs(d.y * r.y) + std::abs(d.z * r.z));
+        return d.x * r.x + d.y * r.y + d.z * r.z;
+    };
+    const double hp = height(p), hq = height(q), h1 = height(t[1]), h2 = height(t[2]);
+    const double above = std::min(hp, hq) - std::max({0.0, h1, h2});
+    const double below = std::min({0.0, h1, h2}) - std::max(hp, hq);
+    return std::max(above, below) > 32 * kRounding * size + kTiny;
+}
+
+/// Neighbours in a plane, of which orientations alone decide nothing, are told apart so in most cases.
+bool parted(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t)
+{
+    const glm::dvec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
+    for (std::size_t k = 0; k < 3; ++k)
+        if (parted_along(glm::cross(t[(k + 1) % 3] - t[k], n), p, q, t))
+            return true;
+    return parted_along(glm::cross(q - p, n), p, q, t);
+}
+
 } // namespace
 
 int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d)
@@ -127,6 +156,8 @@ int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, c
 
 bool segment_meets_triangle(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t)
 {
+    if (parted(p, q, t))
+        return false;
     const int at_p = orientation(t[0], t[1], t[2], p), at_q = orientation(t[0], t[1], t[2], q);
     if (at_p * at_q > 0)
         return false;
