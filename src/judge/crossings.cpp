@@ -7,16 +7,15 @@
 
 namespace taut::judging {
 
-std::vector<std::array<std::uint32_t, 2>> intersecting_triangles(const Surface& surface,
-                                                                 const std::vector<glm::dvec3>& positions)
+std::vector<CrossingEdge> crossing_edges(const Surface& surface, const std::vector<glm::dvec3>& positions)
 {
     std::vector<Box> boxes(surface.triangles.size());
     for (std::size_t t = 0; t < boxes.size(); ++t)
         for (const std::uint32_t v : surface.triangles[t])
             boxes[t].add(positions[v]);
     const BoxTree tree(boxes);
-    std::vector<std::array<std::uint32_t, 2>> pairs;
-    for (std::size_t e = 0; e < surface.edges.size(); ++e)
+    std::vector<CrossingEdge> out;
+    for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
     {
         const auto [a, b] = surface.edges[e];
         Box box;
@@ -24,14 +23,22 @@ std::vector<std::array<std::uint32_t, 2>> intersecting_triangles(const Surface& 
         box.add(positions[b]);
         tree.overlapping(box, [&, a = a, b = b](std::uint32_t t) {
             const Triangle& other = surface.triangles[t];
-            if (has(other, a) || has(other, b) || !surface.judged(surface.edges[e], other) ||
-                !segment_meets_triangle(positions[a], positions[b],
-                                        {positions[other[0]], positions[other[1]], positions[other[2]]}))
-                return;
-            for (const std::uint32_t own : surface.edge_triangles[e])
-                pairs.push_back({std::min(own, t), std::max(own, t)});
+            if (!has(other, a) && !has(other, b) && surface.judged(surface.edges[e], other) &&
+                segment_meets_triangle(positions[a], positions[b],
+                                       {positions[other[0]], positions[other[1]], positions[other[2]]}))
+                out.push_back({e, t});
         });
     }
+    return out;
+}
+
+std::vector<std::array<std::uint32_t, 2>> intersecting_triangles(const Surface& surface,
+                                                                 const std::vector<glm::dvec3>& positions)
+{
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (const auto& [edge, triangle] : crossing_edges(surface, positions))
+        for (const std::uint32_t own : surface.edge_triangles[edge])
+            pairs.push_back({std::min(own, triangle), std::max(own, triangle)});
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;

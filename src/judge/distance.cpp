@@ -14,12 +14,12 @@
 namespace taut::judging {
 namespace {
 
-double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b)
+/// How far along the segment ab the point nearest to p lies, 0..1.
+double along_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b)
 {
     const glm::dvec3 e = b - a;
     const double size = glm::dot(e, e);
-    const double t = size > 0 ? std::clamp(glm::dot(p - a, e) / size, 0.0, 1.0) : 0.0;
-    return glm::length(p - a - t * e);
+    return size > 0 ? std::clamp(glm::dot(p - a, e) / size, 0.0, 1.0) : 0.0;
 }
 
 /// Keeps the nearest pair, and the square of its distance for the tree.
@@ -65,9 +65,10 @@ void Search::vertices()
             tree.near(box, squared, [&](std::uint32_t t) {
                 const Triangle& c = surface.triangles[t];
                 if (!has(c, v) && allowed(v, c[0]) && surface.judged(std::array{v}, c))
-                    offer(distance_to_triangle(positions[v],
-                                               {positions[c[0]], positions[c[1]], positions[c[2]]}),
-                          false, v, t);
+                    offer(
+                        nearest_of_triangle(positions[v], {positions[c[0]], positions[c[1]], positions[c[2]]})
+                            .distance,
+                        false, v, t);
             });
     }
 }
@@ -87,40 +88,60 @@ void Search::edges()
             if (other <= e || a == c || a == d || b == c || b == d || !allowed(a, c) ||
                 !surface.judged(surface.edges[e], surface.edges[other]))
                 return;
-            offer(distance_of_segments(positions[a], positions[b], positions[c], positions[d]), true, e,
-                  other);
+            offer(nearest_of_segments(positions[a], positions[b], positions[c], positions[d]).distance, true,
+                  e, other);
         });
     }
 }
 
 } // namespace
 
-double distance_to_triangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t)
+NearestOfTriangle nearest_of_triangle(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t)
 {
-    double nearest = std::min({distance_to_segment(p, t[0], t[1]), distance_to_segment(p, t[1], t[2]),
-                               distance_to_segment(p, t[2], t[0])});
+    NearestOfTriangle nearest{std::numeric_limits<double>::infinity(), {}};
+    for (int k = 0; k < 3; ++k)
+    {
+        const int next = (k + 1) % 3;
+        const double along = along_segment(p, t[k], t[next]);
+        const double distance = glm::length(p - t[k] - along * (t[next] - t[k]));
+        if (distance >= nearest.distance)
+            continue;
+        nearest = {distance, glm::dvec3(0)};
+        nearest.shares[k] = 1 - along;
+        nearest.shares[next] = along;
+    }
     const glm::dvec3 e0 = t[1] - t[0], e1 = t[2] - t[0], q = p - t[0], n = glm::cross(e0, e1);
     const double size = glm::dot(n, n);
     if (!(size > 0))
         return nearest;
     const double v = glm::dot(glm::cross(q, e1), n) / size, w = glm::dot(glm::cross(e0, q), n) / size;
-    if (v >= 0 && w >= 0 && v + w <= 1)
-        nearest = std::min(nearest, std::abs(glm::dot(q, n)) / std::sqrt(size));
+    const double distance = std::abs(glm::dot(q, n)) / std::sqrt(size);
+    if (v >= 0 && w >= 0 && v + w <= 1 && distance < nearest.distance)
+        nearest = {distance, {1 - v - w, v, w}};
     return nearest;
 }
 
-double distance_of_segments(const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& q0,
-                            const glm::dvec3& q1)
+NearestOfSegments nearest_of_segments(const glm::dvec3& p0, const glm::dvec3& p1, const glm::dvec3& q0,
+                                      const glm::dvec3& q1)
 {
-    double nearest = std::min({distance_to_segment(p0, q0, q1), distance_to_segment(p1, q0, q1),
-                               distance_to_segment(q0, p0, p1), distance_to_segment(q1, p0, p1)});
     const glm::dvec3 r0 = p1 - p0, r1 = q1 - q0, q = p0 - q0, n = glm::cross(r0, r1);
+    NearestOfSegments nearest{std::numeric_limits<double>::infinity(), 0, 0};
+    const auto offer = [&](double s, double t) {
+        const double distance = glm::length(q + s * r0 - t * r1);
+        if (distance < nearest.distance)
+            nearest = {distance, s, t};
+    };
+    offer(0, along_segment(p0, q0, q1));
+    offer(1, along_segment(p1, q0, q1));
+    offer(along_segment(q0, p0, p1), 0);
+    offer(along_segment(q1, p0, p1), 1);
     const double size = glm::dot(n, n);
     if (!(size > 0))
         return nearest;
     const double s = glm::dot(n, glm::cross(r1, q)) / size, t = glm::dot(n, glm::cross(r0, q)) / size;
-    if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
-        nearest = std::min(nearest, std::abs(glm::dot(q, n)) / std::sqrt(size));
+    const double distance = std::abs(glm::dot(q, n)) / std::sqrt(size);
+    if (s >= 0 && s <= 1 && t >= 0 && t <= 1 && distance < nearest.distance)
+        nearest = {distance, s, t};
     return nearest;
 }
 

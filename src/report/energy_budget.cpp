@@ -4,6 +4,7 @@
 #include "taut/report/drawn.hpp"
 #include "taut/scene/extent.hpp"
 #include "taut/scene/pose.hpp"
+#include "taut/world/start_surfaces.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -210,7 +211,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved)
 EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model)
     : shared_(std::move(model)),
       paths_(paths_of(resolved, *shared_)),
-      depth_(deepest_start(resolved, *shared_)),
+      depth_(std::max(deepest_start(resolved, *shared_), deepest_contact(resolved))),
       drawn_(std::make_shared<const DrawnBodies>(resolved)),
       violation_(largest_violation(resolved, *shared_)),
       depenetration_(resolved.depenetration_speed),

@@ -22,7 +22,8 @@ struct SceneContact
     std::string friction_mix = "mean"; ///< one of kFrictionMixes
     std::uint32_t searches = 4;        ///< a time step, 1..1000: how often pairs that may meet are looked for
     std::uint32_t sweeps = 2;          ///< 1..100: over all pairs, after each iteration of the constraints
-    /// Surfaces that meet and cross at the start: "ignore" (they stay so) or "refuse": World throws.
+    /// Surfaces that meet and cross at the start: "ignore" (they stay so), "refuse" (World throws), or
+    /// "separate": World takes them apart first, and what is nearer than its gap; throws where it cannot.
     std::string start = "ignore";
     std::string guarantee = "none"; ///< or "no_crossing": no pair that meets ever crosses (docs/contact.md)
 };

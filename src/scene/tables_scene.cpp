@@ -99,7 +99,7 @@ constexpr Key kWindKey[] = {
     key<&Wind::Key::velocity>("velocity", "of the air at that time").unit("m/s").needed(),
 };
 
-constexpr std::string_view kContactStarts[] = {"ignore", "refuse"};
+constexpr std::string_view kContactStarts[] = {"ignore", "refuse", "separate"};
 constexpr std::string_view kGuarantees[] = {"none", "no_crossing"};
 
 constexpr Key kContact[] = {
@@ -121,7 +121,8 @@ constexpr Key kContact[] = {
         .range(1, 1000),
     key<&SceneContact::start>("start",
                               "what becomes of surfaces that go through each other at the start: they "
-                              "stay so, and the run is `unconverged`, or the scene is refused")
+                              "stay so, and the run is `unconverged`; the scene is refused; or they are "
+                              "taken apart before the run, and so is what is nearer than its gap")
         .words(kContactStarts),
     key<&SceneContact::sweeps>("sweeps", "over all pairs, after each iteration of the constraints: more for "
                                          "stacks of many layers")

@@ -3,9 +3,9 @@
 #include "taut/plan/constraints.hpp"
 #include "taut/runtime/required.hpp"
 #include "taut/runtime/vulkan/vulkan_device.hpp"
-#include "taut/world/crossed_start.hpp"
 #include "taut/world/inputs.hpp"
 #include "taut/world/planned.hpp"
+#include "taut/world/separate_start.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
@@ -241,10 +241,7 @@ World::World(const Scene& scene, std::shared_ptr<Device> device, const WorldOpti
     : impl_(std::make_unique<Impl>())
 {
     impl_->device = required(std::move(device), "a World");
-    impl_->scene = resolved(scene);
-    if (impl_->scene.contact.start == "refuse")
-        if (const std::string crossed = crossed_at_start(impl_->scene); !crossed.empty())
-            throw Error(ErrorCode::bad_input, crossed);
+    impl_->scene = with_start(resolved(scene));
     // Costs only decide how constraints are grouped: without any, no probe runs.
     const DeviceTraits traits = options.traits                  ? *options.traits
                                 : has_constraints(impl_->scene) ? measure_traits(*impl_->device)

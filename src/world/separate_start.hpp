@@ -1,0 +1,32 @@
+#pragma once
+// Takes surfaces apart that go through each other, or are nearer than their gap, where a scene starts:
+// `contact.start: "separate"`.
+
+#include "taut/scene/scene.hpp"
+
+namespace taut {
+
+/// What it took.
+struct SeparatedStart
+{
+    Scene scene;             ///< with other Body::start_positions; rest shapes are those that they were
+    std::size_t crossed = 0; ///< edges that went through triangles
+    std::size_t near = 0;    ///< pairs that were nearer than their gap
+    std::uint32_t rounds = 0;
+    double farthest = 0; ///< m: that a vertex was moved
+};
+
+/// `resolved`: by resolve(). The result does not depend on executors: fp64, on this thread; the scene as it
+/// is where nothing is to be done. Pinned vertices and bodies that are led stay. Throws Error{bad_input} that
+/// names what still crosses where that does not end.
+///
+/// First what hangs together goes as a whole, without a change of shape, as long as two wholes cross or are
+/// too near; then, where surfaces cross themselves or are held, single vertices do, and edges keep the
+/// lengths that they start with, by projection after each round. Where each has to go: start_ways.hpp.
+SeparatedStart separate_start(const Scene& resolved);
+
+/// The scene as contact.start has it begin. Throws Error{bad_input} where surfaces cross and that refuses
+/// them, and what separate_start() throws.
+Scene with_start(Scene resolved);
+
+} // namespace taut
