@@ -5,9 +5,12 @@
 #include "taut/plan/plan.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
+#include "taut/scene/locking.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
 #include "taut/world/crossed_start.hpp"
+#include "taut/world/separate_start.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -24,6 +27,18 @@ SceneIssue issue_of(const Error& error)
     const bool named = end != std::string::npos && field.find('.') != std::string::npos &&
                        field.find(' ') == std::string::npos;
     return named ? SceneIssue{true, field, text.substr(end + 1)} : SceneIssue{true, "", text};
+}
+
+/// What taking surfaces apart does to a scene. Throws what separate_start() throws.
+void add_separated(const Scene& resolved, std::vector<SceneIssue>& issues)
+{
+    const SeparatedStart found = separate_start(resolved);
+    if (found.crossed + found.near > 0)
+        issues.push_back({false, "contact.start",
+                          "takes surfaces apart before the run: " + std::to_string(found.crossed) +
+                              " edges through triangles, " + std::to_string(found.near) +
+                              " pairs nearer than their gap; no vertex moves further than " +
+                              shown(found.farthest, 3) + " m"});
 }
 
 /// What resolving and planning find beyond `issues`, which stay first. resolve() repeats what check() said.
@@ -44,9 +59,13 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         take();
         if (any_error(issues))
             return;
+        for (const SceneIssue& issue : locking_issues(resolved))
+            issues.push_back(issue);
         for (const PlanWarning& warning : make_plan(resolved).warnings)
             issues.push_back({false, "", warning.sentence()});
-        if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())
+        if (resolved.contact.start == "separate")
+            add_separated(resolved, issues);
+        else if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())
             issues.push_back({resolved.contact.start == "refuse", "contact", crossed});
     }
     catch (const Error& error)
