@@ -1,7 +1,7 @@
 #include "taut/judge/crossings.hpp"
 
-#include "taut/judge/box_tree.hpp"
 #include "taut/judge/exact.hpp"
+#include "taut/judge/triangle_tree.hpp"
 
 #include <algorithm>
 
@@ -9,11 +9,7 @@ namespace taut::judging {
 
 std::vector<CrossingEdge> crossing_edges(const Surface& surface, const std::vector<glm::dvec3>& positions)
 {
-    std::vector<Box> boxes(surface.triangles.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-        for (const std::uint32_t v : surface.triangles[t])
-            boxes[t].add(positions[v]);
-    const BoxTree tree(boxes);
+    const TriangleTrees trees(surface, positions);
     std::vector<CrossingEdge> out;
     for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
     {
@@ -21,7 +17,7 @@ std::vector<CrossingEdge> crossing_edges(const Surface& surface, const std::vect
         Box box;
         box.add(positions[a]);
         box.add(positions[b]);
-        tree.overlapping(box, [&, a = a, b = b](std::uint32_t t) {
+        trees.overlapping(surface.is_led(surface.edges[e]), box, [&, a = a, b = b](std::uint32_t t) {
             const Triangle& other = surface.triangles[t];
             if (!has(other, a) && !has(other, b) && surface.judged(surface.edges[e], other) &&
                 segment_meets_triangle(positions[a], positions[b],

@@ -49,9 +49,14 @@ struct Surface
             if (a != b && passing.passes[passing.kind[a]][passing.kind[b]])
                 return false;
         }
-        const auto is_led = [&](std::uint32_t v) { return led[v]; };
-        return led.empty() || !std::all_of(feature.begin(), feature.end(), is_led) ||
-               !std::all_of(other.begin(), other.end(), is_led);
+        return !is_led(feature) || !is_led(other);
+    }
+
+    /// Whether all vertices of a feature are led.
+    bool is_led(const auto& feature) const
+    {
+        return !led.empty() &&
+               std::all_of(feature.begin(), feature.end(), [&](std::uint32_t v) { return led[v]; });
     }
 };
 

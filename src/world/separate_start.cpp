@@ -10,12 +10,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace taut {
 namespace {
 
 constexpr std::uint32_t kWholeRounds = 500;  ///< in which whole pieces of cloth part as they are
 constexpr std::uint32_t kMostRounds = 2000;  ///< for what crosses still
+constexpr std::uint32_t kPatience = 100;     ///< rounds without fewer crossings than ever before
 constexpr std::uint32_t kFinishRounds = 300; ///< after that, for what is only too near, and for lengths
 constexpr double kStrain = 1e-5;             ///< of lengths: less is good enough
 constexpr std::uint32_t kShapeSweeps = 10;   ///< a round, over all lengths
@@ -32,6 +34,23 @@ glm::dvec3 step_of(const judging::CrossingEdge& c, const StartWays& ways, const 
 
 /// m: by how much two are too near.
 double missing(const NearPair& pair) { return kBeyond * pair.gap - pair.distance; }
+
+/// Whether crossings become fewer, looked at round by round.
+class Progress
+{
+public:
+    /// False once they have not for kPatience rounds.
+    bool goes_on(std::size_t crossings)
+    {
+        if (crossings < least_)
+            least_ = crossings, since_ = 0;
+        return since_++ < kPatience;
+    }
+
+private:
+    std::size_t least_ = std::numeric_limits<std::size_t>::max();
+    std::uint32_t since_ = 0;
+};
 
 /// What hangs together goes as it is, where nothing of it is held.
 class Wholes
@@ -102,6 +121,7 @@ void Wholes::move(std::vector<glm::dvec3>& x)
 bool Wholes::part(std::vector<glm::dvec3>& x, std::uint32_t& rounds)
 {
     const std::vector<glm::dvec3> before = x;
+    Progress progress;
     for (std::uint32_t round = 0; round < kWholeRounds; ++round, ++rounds)
     {
         bool pushed = false;
@@ -116,6 +136,8 @@ bool Wholes::part(std::vector<glm::dvec3>& x, std::uint32_t& rounds)
                 pushed = push(pair.corner[0], pair.corner[3], missing(pair) * pair.normal) || pushed;
         if (!pushed)
             return true;
+        if (!progress.goes_on(crossed.size()))
+            break;
         move(x);
     }
     x = before;
@@ -261,12 +283,15 @@ double Shapes::largest_strain(const std::vector<glm::dvec3>& x) const
 bool Shapes::part(std::vector<glm::dvec3>& x, std::uint32_t& rounds)
 {
     std::uint32_t crossing = 0, finishing = 0;
+    Progress progress;
     while (crossing < kMostRounds && finishing < kFinishRounds)
     {
         const auto crossed = surfaces_.crossings(x);
         const auto near = surfaces_.near(x);
         if (crossed.empty() && near.empty() && largest_strain(x) < kStrain)
             return true;
+        if (!crossed.empty() && !progress.goes_on(crossed.size()))
+            return false;
         push_crossings(crossed, x);
         for (const NearPair& pair : near)
             push_near(pair);

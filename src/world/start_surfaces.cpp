@@ -1,8 +1,8 @@
 #include "taut/world/start_surfaces.hpp"
 
-#include "taut/judge/box_tree.hpp"
 #include "taut/judge/distance.hpp"
 #include "taut/judge/scene_triangles.hpp"
+#include "taut/judge/triangle_tree.hpp"
 #include "taut/plan/contact_scene.hpp"
 #include "taut/scene/pose.hpp"
 
@@ -98,11 +98,7 @@ std::vector<NearPair> StartSurfaces::near(const std::vector<glm::dvec3>& places)
 
 void StartSurfaces::near_triangles(const std::vector<glm::dvec3>& x, std::vector<NearPair>& out) const
 {
-    std::vector<judging::Box> boxes(surface_.triangles.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t)
-        for (const std::uint32_t v : surface_.triangles[t])
-            boxes[t].add(x[v]);
-    const judging::BoxTree tree(boxes);
+    const judging::TriangleTrees trees(surface_, x);
     const double widest = *std::max_element(radius_.begin(), radius_.end());
     for (std::uint32_t v = 0; v < x.size(); ++v)
     {
@@ -111,7 +107,7 @@ void StartSurfaces::near_triangles(const std::vector<glm::dvec3>& x, std::vector
         judging::Box box;
         box.add(x[v] - (radius_[body_[v]] + widest));
         box.add(x[v] + (radius_[body_[v]] + widest));
-        tree.overlapping(box, [&](std::uint32_t t) {
+        trees.overlapping(surface_.is_led(std::array{v}), box, [&](std::uint32_t t) {
             const judging::Triangle& c = surface_.triangles[t];
             if (judging::has(c, v) || !meets(v, c[0]) || !surface_.judged(std::array{v}, c))
                 return;
@@ -142,15 +138,16 @@ void StartSurfaces::near_edges(const std::vector<glm::dvec3>& x, std::vector<Nea
     for (std::uint32_t e = 0; e < boxes.size(); ++e)
     {
         const judging::Edge own = surface_.edges[e];
-        if (!used_[own[0]])
+        if (!used_[own[0]] || surface_.is_led(own)) // those that are not ask for those that are
             continue;
         judging::Box box = boxes[e];
         box.low -= radius_[body_[own[0]]] + widest;
         box.high += radius_[body_[own[0]]] + widest;
         tree.overlapping(box, [&](std::uint32_t f) {
             const judging::Edge& other = surface_.edges[f];
-            if (f <= e || own[0] == other[0] || own[0] == other[1] || own[1] == other[0] ||
-                own[1] == other[1] || !meets(own[0], other[0]) || !surface_.judged(own, other))
+            if ((f <= e && !surface_.is_led(other)) || own[0] == other[0] || own[0] == other[1] ||
+                own[1] == other[0] || own[1] == other[1] || !meets(own[0], other[0]) ||
+                !surface_.judged(own, other))
                 return;
             const judging::NearestOfSegments now = nearest(own, other, x);
             double gap = gap_of(own[0], other[0]);
