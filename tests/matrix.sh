@@ -4,10 +4,10 @@
 # release: tests/run.sh. headers: each file alone and without precompiled headers, so that it includes what it
 # uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
-# tests/run.sh in a chroot of that Debian (tests/chroot.sh). hard: the hard cases and the whole map in full on
-# every executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer, for half an hour.
-# A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any
-# failed.
+# tests/run.sh in a chroot of that Debian (tests/chroot.sh). physics: on OpenGL, too. hard: the hard cases and the
+# whole map in full on every executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer,
+# for half an hour. A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit
+# status 1 if any failed.
 # shellcheck disable=SC2317 # parts are called by name
 set -uo pipefail
 
@@ -60,12 +60,15 @@ part_odr() {
         cmake --build build/odr --target taut-cli --parallel "$jobs"
 }
 
+# What ctest runs without OpenGL (TAUT_TEST_SHORT).
+part_physics() { TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} "$root/build/release/tests/test_physics"; }
+
 part_stable() { "$root/tests/chroot.sh" stable; }
 part_testing() { "$root/tests/chroot.sh" testing; }
 
 part_mutants() { "$root/tests/mutants.sh" --sample 10 --budget 1800; }
 
-[ $# -gt 0 ] || set -- release headers asan tsan clang odr stable testing hard mutants
+[ $# -gt 0 ] || set -- release headers asan tsan clang odr stable testing physics hard mutants
 failed=0
 for part in "$@"; do
     if ! declare -F "part_$part" > /dev/null; then

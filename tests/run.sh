@@ -18,4 +18,6 @@ fi
 check_cmake
 configure "$root" "$build" -DTAUT_BUILD_TESTS=ON -DTAUT_BUILD_EXAMPLES=ON
 cmake --build "$build" --parallel "$(job_count)"
+# Two suites at once leave software drivers a core each: more threads of theirs wait for each other.
+export LP_NUM_THREADS=${LP_NUM_THREADS:-1}
 exec ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(job_count)" "$@"
