@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kWholeRounds = 500;  ///< in which whole pieces of cloth part as they are
 constexpr std::uint32_t kMostRounds = 2000;  ///< for what crosses still
-constexpr std::uint32_t kPatience = 100;     ///< rounds without fewer crossings than ever before
+constexpr std::uint32_t kPatience = 400;     ///< rounds without fewer crossings than ever before
 constexpr std::uint32_t kFinishRounds = 300; ///< after that, for what is only too near, and for lengths
 constexpr double kStrain = 1e-5;             ///< of lengths: less is good enough
 constexpr std::uint32_t kShapeSweeps = 10;   ///< a round, over all lengths

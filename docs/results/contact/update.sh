@@ -1,0 +1,111 @@
+#!/bin/sh
+# Writes docs/results/contact/*.csv and the tables of docs/results/contact.md anew: about twenty minutes on one core.
+#
+#   docs/results/contact/update.sh build/release/taut [NAME...]     stack, stages; both without
+set -eu
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM (the built taut) [stack] [stages]" >&2; exit 2; }
+program=$(realpath "$1")
+shift
+cd "$(dirname "$0")/../../.."
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+. docs/put.sh
+page=docs/results/contact.md tables=docs/results/contact
+[ $# -gt 0 ] || set -- stack stages
+
+# stack_scene LAYERS: sheets of 15 cm, 5 cells a side and 4.5 g each, that begin on each other on a plate.
+stack_scene()
+{
+    awk -v layers="$1" 'BEGIN {
+        print "{\"taut\": 1, \"duration\": 0.5, \"contact\": {\"friction\": 0.3}, \"bodies\": [{\"grid\": {\"cells\": [6, 6],"
+        print "\"size\": [0.3, 0.3]}, \"material\": {\"thickness\": 0.002}, \"kinematic\": {}, \"transform\": {\"rotate\":"
+        print "{\"axis\": [1, 0, 0], \"degrees\": -90}}}"
+        for (k = 1; k <= layers; ++k) {
+            print ", {\"grid\": {\"cells\": [5, 5], \"size\": [0.15, 0.15]}, \"material\": {\"density\": 0.2, \"thickness\": 0.002,"
+            print "\"bending_stiffness\": 0.0001, \"stretch_stiffness\": 1000}, \"transform\": {\"rotate\": {\"axis\": [1, 0, 0],"
+            printf "\"degrees\": -90}, \"translate\": [%g, %g, %g]}}\n", 0.003 * (k % 3), 0.004002 * k, 0.002 * (k % 2)
+        }
+        print "]}"
+    }'
+}
+
+# run SCENE SETTING...: the report of a run as JSON.
+run()
+{
+    scene=$1
+    shift
+    "$program" run "$scene" --device cpu:serial --no-picture --every 100000 --json --out "$scratch/run" --set "$@" \
+        > "$scratch/report.json" || [ $? -eq 1 ]
+    rm -rf "$scratch/run"
+}
+
+# pushed LAYERS: from the report, how far off the push on the lowest layer is and the worst one, %, and the median
+# step, ms.
+pushed()
+{
+    awk -v layers="$1" '
+        function short(x, digits) { return x < 10 ^ digits - 0.5 ? sprintf("%." digits "g", x) : sprintf("%.0f", x) }
+        function off(push, carried) { return 100 * (push > carried ? push - carried : carried - push) / carried }
+        { value = $2; gsub(/[",]/, "", value) }
+        $1 == "\"status\":" { status = value }
+        $1 == "\"median\":" && step == "" { step = value }
+        $1 == "\"b\":" { b = value }
+        $1 == "\"push\":" {
+            error = off(value, (layers - b + 1) * 0.2 * 0.15 ^ 2 * 9.81)
+            if (b == 1) lowest = error
+            if (error > worst) worst = error
+        }
+        END {
+            if (lowest == "") lowest = worst = 100 # the last substep has no push on it
+            printf "%s,%s,%s,%s\n", short(lowest, 2), short(worst, 2), short(step, 3), status
+        }' "$scratch/report.json"
+}
+
+# table NAME: NAME.csv as a table of the page.
+table()
+{
+    awk 'NR == 1 { n = gsub(/,/, " | "); print "| " $0 " |"; printf "|"; for (i = 0; i <= n; ++i) printf "---:|"; print "" }
+        NR > 1 { gsub(/,/, " | "); print "| " $0 " |" }' "$tables/$1.csv" > "$scratch/$1.md"
+    put "$page" "$1" "$scratch/$1.md"
+}
+
+stack()
+{
+    echo "layers,substeps,sweeps,lowest %,worst %,step ms,status"
+    for layers in 1 4 16 50; do
+        stack_scene $layers > "$scratch/stack.json"
+        for setting in "20 1" "20 2" "20 4" "20 8" "20 16" "20 32" "5 2" "10 2" "40 2" "80 2"; do
+            substeps=${setting% *} sweeps=${setting#* }
+            run "$scratch/stack.json" "method.substeps=$substeps" "contact.sweeps=$sweeps"
+            echo "$layers,$substeps,$sweeps,$(pushed $layers)"
+        done
+    done
+}
+
+# stages: what of the time of a step goes into contact, into the guarantee and into all else, %.
+stages()
+{
+    echo "scene,step ms,contact %,guarantee %,all else %"
+    for of in 05_stack 14_bowl 16_through_layers 31_hooked_rings 57_limited; do
+        run "examples/contact/$of.json" duration=0.5
+        awk -v name=$of '
+            { value = $2; gsub(/[",]/, "", value) }
+            $1 == "\"median\":" && step == "" { step = value }
+            $1 == "\"name\":" { effect = value }
+            $1 == "\"ms\":" { all += value; part[effect] += value }
+            END {
+                printf "%s,%.3g,%.0f,%.0f,%.0f\n", name, step, 100 * part["contact"] / all,
+                    100 * part["guarantee"] / all, 100 * (all - part["contact"] - part["guarantee"]) / all
+            }' "$scratch/report.json"
+    done
+}
+
+for name in "$@"; do
+    case $name in
+        stack) stack > "$scratch/$name.csv" ;;
+        stages) stages > "$scratch/$name.csv" ;;
+        *) echo "$0: no table is called $name" >&2; exit 2 ;;
+    esac
+    cp "$scratch/$name.csv" "$tables/$name.csv"
+    table "$name"
+done
