@@ -33,12 +33,14 @@ SceneIssue issue_of(const Error& error)
 void add_separated(const Scene& resolved, std::vector<SceneIssue>& issues)
 {
     const SeparatedStart found = separate_start(resolved);
-    if (found.crossed + found.near > 0)
-        issues.push_back({false, "contact.start",
-                          "takes surfaces apart before the run: " + std::to_string(found.crossed) +
-                              " edges through triangles, " + std::to_string(found.near) +
-                              " pairs nearer than their gap; no vertex moves further than " +
-                              shown(found.farthest, 3) + " m"});
+    if (found.crossed.empty() && found.near == 0)
+        return;
+    issues.push_back({false, "contact.start",
+                      "takes surfaces apart before the run; through each other: " +
+                          (found.crossed.empty() ? "none" : found.crossed) +
+                          "; nearer than their gap: " + std::to_string(found.near) + " pairs" +
+                          (found.left > 0 ? ", afterwards still " + std::to_string(found.left) : "") +
+                          "; no vertex moves further than " + shown(found.farthest, 3) + " m"});
 }
 
 /// What resolving and planning find beyond `issues`, which stay first. resolve() repeats what check() said.
@@ -66,7 +68,7 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         if (resolved.contact.start == "separate")
             add_separated(resolved, issues);
         else if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())
-            issues.push_back({resolved.contact.start == "refuse", "contact", crossed});
+            issues.push_back({resolved.contact.start == "refuse", "contact.start", crossed});
     }
     catch (const Error& error)
     {

@@ -4,8 +4,9 @@
 #include "taut/judge/box_tree.hpp"
 #include "taut/judge/surface.hpp"
 
-#include <numeric>
-#include <utility>
+#include <cstdint>
+#include <functional>
+#include <vector>
 
 namespace taut::judging {
 

@@ -10,6 +10,7 @@
 #include "taut/report/tune_parts.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/pose.hpp"
+#include "taut/world/separate_start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,7 @@ Scene resolved(const Scene& scene)
 {
     const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.mesh.positions.empty(); });
-    return done ? scene : resolve(scene);
+    return with_start(done ? scene : resolve(scene));
 }
 
 /// Whether a program has the method at all.

@@ -6,6 +6,7 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/scene/pose.hpp"
+#include "taut/world/separate_start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +82,7 @@ EnergyStudy run_energy(const Scene& scene, std::shared_ptr<Device> device, const
 {
     const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.mesh.positions.empty(); });
-    const Scene resolved = done ? scene : resolve(scene);
+    const Scene resolved = with_start(done ? scene : resolve(scene));
     check_conservative(resolved);
     EnergyStudy out{resolved.name, resolved.timestep, 0, {}};
     const std::size_t frames = cost::wanted_frames(resolved, options);

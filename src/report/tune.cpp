@@ -5,6 +5,7 @@
 
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
+#include "taut/world/separate_start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -389,7 +390,7 @@ TuneResult tune(const Scene& scene, std::shared_ptr<Device> device, const TuneOp
     check_input(scene, options);
     const bool done = std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.mesh.positions.empty(); });
-    const Scene resolved = done ? scene : resolve(scene);
+    const Scene resolved = with_start(done ? scene : resolve(scene));
     check_volumes(resolved, options);
     return Tuner(resolved, std::move(device), options).run();
 }

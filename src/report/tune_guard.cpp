@@ -3,6 +3,7 @@
 
 #include "taut/report/is_finite.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/world/separate_start.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -102,6 +103,7 @@ Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
         for (Pin& pin : body.pins)
             pin.motion.clear(), pin.places.reset();
     }
+    scene = with_start(std::move(scene));
     const PhysicalModel model = make_model(scene);
     std::vector<glm::dvec3> force(model.mass.size(), glm::dvec3(0));
     add_forces(model, model.start, force);

@@ -76,14 +76,15 @@ std::vector<SceneIssue> locking_issues(const Scene& resolved)
         if (body.mesh.tetrahedra.empty() || body.kinematic.used)
             continue;
         const double ratio = body.material.poissons_ratio;
-        const bool stiff = ratio > kIncompressible;
+        const bool incompressible = ratio > kIncompressible;
         const std::uint32_t across = tetrahedra_across(body.mesh);
-        const std::uint32_t least = stiff ? kAcrossIncompressible : kAcrossToBend;
+        const std::uint32_t least = incompressible ? kAcrossIncompressible : kAcrossToBend;
         if (across < least)
             out.push_back({false, field_of(body, b),
                            "makes a solid of " + std::to_string(across) +
-                               " tetrahedra across where it is thickest" +
-                               (stiff ? " and a Poisson's ratio of " + shown(ratio, 3) : "") +
+                               (across == 1 ? " tetrahedron" : " tetrahedra") +
+                               " across where it is thickest" +
+                               (incompressible ? " and a Poisson's ratio of " + shown(ratio, 3) : "") +
                                "; one that bends needs at least " + std::to_string(least) +
                                ", or is too stiff" + kSeen});
         if (body.material.model == "springs")

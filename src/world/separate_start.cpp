@@ -2,340 +2,87 @@
 
 #include "taut/runtime/base/error.hpp"
 #include "taut/world/crossed_start.hpp"
-#include "taut/world/start_shapes.hpp"
-#include "taut/world/start_surfaces.hpp"
-#include "taut/world/start_ways.hpp"
+#include "taut/world/start_moves.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <string>
+#include <utility>
 
 namespace taut {
 namespace {
 
-constexpr std::uint32_t kWholeRounds = 500;  ///< in which whole pieces of cloth part as they are
-constexpr std::uint32_t kMostRounds = 2000;  ///< for what crosses still
-constexpr std::uint32_t kPatience = 400;     ///< rounds without fewer crossings than ever before
-constexpr std::uint32_t kFinishRounds = 300; ///< after that, for what is only too near, and for lengths
-constexpr double kStrain = 1e-5;             ///< of lengths: less is good enough
-constexpr std::uint32_t kShapeSweeps = 10;   ///< a round, over all lengths
-constexpr double kStep = 0.1;                ///< a round, of the length of the edge that crosses
-constexpr double kBeyond = 1.002;            ///< of the gap, so that rounding does not fall short of it
-
-/// What an edge that crosses has to go in a round, m.
-glm::dvec3 step_of(const judging::CrossingEdge& c, const StartWays& ways, const StartSurfaces& surfaces,
-                   const std::vector<glm::dvec3>& x)
+/// Throws Error{bad_input} where a tetrahedron that had a volume would have none.
+void check_solids_kept(const Scene& scene, const std::vector<glm::dvec3>& before,
+                       const std::vector<glm::dvec3>& after)
 {
-    const judging::Edge& edge = surfaces.surface().edges[c.edge];
-    return kStep * glm::distance(x[edge[0]], x[edge[1]]) * ways.way(c);
-}
-
-/// m: by how much two are too near.
-double missing(const NearPair& pair) { return kBeyond * pair.gap - pair.distance; }
-
-/// Whether crossings become fewer, looked at round by round.
-class Progress
-{
-public:
-    /// False once they have not for kPatience rounds.
-    bool goes_on(std::size_t crossings)
+    std::uint32_t first = 0;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     {
-        if (crossings < least_)
-            least_ = crossings, since_ = 0;
-        return since_++ < kPatience;
-    }
-
-private:
-    std::size_t least_ = std::numeric_limits<std::size_t>::max();
-    std::uint32_t since_ = 0;
-};
-
-/// What hangs together goes as it is, where nothing of it is held.
-class Wholes
-{
-public:
-    Wholes(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
-           std::span<const StartLength> lengths);
-
-    /// Moves `x` until two wholes neither cross nor are too near. False, and `x` as it was, where that does
-    /// not end.
-    bool part(std::vector<glm::dvec3>& x, std::uint32_t& rounds);
-
-private:
-    struct Whole
-    {
-        double mass = 0; ///< kg; infinite where a vertex stays
-        glm::dvec3 way{0};
-        double farthest = 0; ///< m: of the ways that `way` is the sum of
-    };
-    bool push(std::uint32_t a, std::uint32_t b, const glm::dvec3& way);
-    void move(std::vector<glm::dvec3>& x);
-
-    const StartSurfaces& surfaces_;
-    std::vector<std::uint32_t> whole_of_; ///< per vertex
-    std::vector<Whole> wholes_;
-};
-
-Wholes::Wholes(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
-               std::span<const StartLength> lengths)
-    : surfaces_(surfaces),
-      wholes_(inverse_mass.size())
-{
-    Joined joined(inverse_mass.size());
-    for (const StartLength& l : lengths)
-        joined.join(l.a, l.b);
-    whole_of_ = joined.roots();
-    for (std::size_t v = 0; v < inverse_mass.size(); ++v)
-        wholes_[whole_of_[v]].mass += 1 / inverse_mass[v]; // infinite where it is 0
-}
-
-/// `way` of the vertex a relative to b, shared by mass. False where neither whole can go, or both are one.
-bool Wholes::push(std::uint32_t a, std::uint32_t b, const glm::dvec3& way)
-{
-    Whole &first = wholes_[whole_of_[a]], &second = wholes_[whole_of_[b]];
-    const bool held = std::isinf(first.mass), other_held = std::isinf(second.mass);
-    if (&first == &second || (held && other_held))
-        return false;
-    const double share = other_held ? 1 : held ? 0 : second.mass / (first.mass + second.mass);
-    first.way += share * way;
-    second.way -= (1 - share) * way;
-    first.farthest = std::max(first.farthest, share * glm::length(way));
-    second.farthest = std::max(second.farthest, (1 - share) * glm::length(way));
-    return true;
-}
-
-void Wholes::move(std::vector<glm::dvec3>& x)
-{
-    for (std::size_t v = 0; v < x.size(); ++v)
-    {
-        const Whole& whole = wholes_[whole_of_[v]];
-        if (const double size = glm::length(whole.way); size > 0)
-            x[v] += std::min(1.0, whole.farthest / size) * whole.way;
-    }
-    for (Whole& whole : wholes_)
-        whole.way = glm::dvec3(0), whole.farthest = 0;
-}
-
-bool Wholes::part(std::vector<glm::dvec3>& x, std::uint32_t& rounds)
-{
-    const std::vector<glm::dvec3> before = x;
-    Progress progress;
-    for (std::uint32_t round = 0; round < kWholeRounds; ++round, ++rounds)
-    {
-        bool pushed = false;
-        const auto crossed = surfaces_.crossings(x);
-        const StartWays ways(surfaces_, x, crossed);
-        for (const judging::CrossingEdge& c : crossed)
-            pushed = push(surfaces_.surface().edges[c.edge][0], surfaces_.surface().triangles[c.triangle][0],
-                          step_of(c, ways, surfaces_, x)) ||
-                     pushed;
-        if (!pushed) // what is near may be on the wrong side before
-            for (const NearPair& pair : surfaces_.near(x))
-                pushed = push(pair.corner[0], pair.corner[3], missing(pair) * pair.normal) || pushed;
-        if (!pushed)
-            return true;
-        if (!progress.goes_on(crossed.size()))
-            break;
-        move(x);
-    }
-    x = before;
-    return false;
-}
-
-/// Everything that is not held goes, and keeps its lengths as well as it can.
-class Shapes
-{
-public:
-    Shapes(const StartSurfaces& surfaces, std::vector<double> inverse_mass, std::vector<StartLength> lengths)
-        : surfaces_(surfaces),
-          w_(std::move(inverse_mass)),
-          lengths_(std::move(lengths)),
-          pushed_(w_.size())
-    {
-        std::erase_if(lengths_, [&](const StartLength& l) { return !(w_[l.a] + w_[l.b] > 0); });
-    }
-
-    /// False where something crosses still.
-    bool part(std::vector<glm::dvec3>& x, std::uint32_t& rounds);
-
-private:
-    struct Pushed
-    {
-        glm::dvec3 way{0};
-        std::uint32_t count = 0;
-        bool crosses = false;
-    };
-    void push(std::uint32_t vertex, const glm::dvec3& way);
-    void push_crossings(std::span<const judging::CrossingEdge> crossed, const std::vector<glm::dvec3>& x);
-    double push_crossing(const judging::CrossingEdge& c, const glm::dvec3& way);
-    void push_near(const NearPair& pair);
-    bool move(std::vector<glm::dvec3>& x);
-    void keep_lengths(std::vector<glm::dvec3>& x) const;
-    double largest_strain(const std::vector<glm::dvec3>& x) const;
-
-    const StartSurfaces& surfaces_;
-    std::vector<double> w_; ///< 1/kg; 0 = stays
-    std::vector<StartLength> lengths_;
-    std::vector<Pushed> pushed_; ///< per vertex, in this round
-};
-
-void Shapes::push(std::uint32_t vertex, const glm::dvec3& way)
-{
-    if (!(w_[vertex] > 0))
-        return;
-    pushed_[vertex].way += way;
-    ++pushed_[vertex].count;
-}
-
-/// Returns the share of the way that the edge goes; the triangle goes the rest, against it.
-double Shapes::push_crossing(const judging::CrossingEdge& c, const glm::dvec3& way)
-{
-    const judging::Edge& edge = surfaces_.surface().edges[c.edge];
-    const judging::Triangle& triangle = surfaces_.surface().triangles[c.triangle];
-    const double own = w_[edge[0]] + w_[edge[1]];
-    const double other = w_[triangle[0]] + w_[triangle[1]] + w_[triangle[2]];
-    const double share = own + other > 0 ? own / (own + other) : 0;
-    for (const std::uint32_t v : edge)
-        push(v, share * way);
-    for (const std::uint32_t v : triangle)
-        push(v, (share - 1) * way);
-    for (const std::uint32_t v : edge)
-        pushed_[v].crosses = true;
-    for (const std::uint32_t v : triangle)
-        pushed_[v].crosses = true;
-    return share;
-}
-
-/// A piece that is cut off follows its edges.
-void Shapes::push_crossings(std::span<const judging::CrossingEdge> crossed, const std::vector<glm::dvec3>& x)
-{
-    const StartWays ways(surfaces_, x, crossed);
-    std::vector<Pushed> pieces(x.size());
-    for (const judging::CrossingEdge& c : crossed)
-    {
-        const glm::dvec3 way = step_of(c, ways, surfaces_, x);
-        const double share = push_crossing(c, way);
-        if (const auto piece = ways.cut_off(c))
+        const Mesh& mesh = scene.bodies[b].mesh;
+        for (std::array<std::uint32_t, 4> t : mesh.tetrahedra)
         {
-            pieces[*piece].way += share * way;
-            ++pieces[*piece].count;
+            for (std::uint32_t& v : t)
+                v += first;
+            if (six_volumes(before, t) > 0 && !(six_volumes(after, t) > 0))
+                throw Error(ErrorCode::bad_input,
+                            "contact.start is \"separate\", but that would turn tetrahedra of bodies[" +
+                                std::to_string(b) + "] inside out; move the bodies apart");
         }
+        first += static_cast<std::uint32_t>(mesh.positions.size());
     }
-    for (std::uint32_t v = 0; v < x.size(); ++v)
-        if (const Pushed& piece = pieces[ways.piece_of(v)]; piece.count > 0 && pushed_[v].count == 0)
-            push(v, piece.way / static_cast<double>(piece.count));
 }
 
-void Shapes::push_near(const NearPair& pair)
+/// Bodies of which a vertex is elsewhere than `before` start where `x` says.
+void put_starts(Scene& scene, const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& x)
 {
-    double sum = 0;
-    for (std::size_t k = 0; k < 4; ++k)
+    std::ptrdiff_t first = 0;
+    for (Body& body : scene.bodies)
     {
-        if (pushed_[pair.corner[k]].crosses) // it may be on the wrong side
-            return;
-        sum += w_[pair.corner[k]] * pair.weight[k] * pair.weight[k];
-    }
-    for (std::size_t k = 0; k < 4 && sum > 0; ++k)
-        push(pair.corner[k], w_[pair.corner[k]] * pair.weight[k] * missing(pair) / sum * pair.normal);
-}
-
-/// False where nothing that was pushed can go.
-bool Shapes::move(std::vector<glm::dvec3>& x)
-{
-    bool moved = false;
-    for (std::size_t v = 0; v < x.size(); ++v)
-    {
-        if (pushed_[v].count > 0)
-        {
-            x[v] += pushed_[v].way / static_cast<double>(pushed_[v].count);
-            moved = true;
-        }
-        pushed_[v] = {};
-    }
-    return moved;
-}
-
-void Shapes::keep_lengths(std::vector<glm::dvec3>& x) const
-{
-    for (const StartLength& l : lengths_)
-    {
-        const glm::dvec3 way = x[l.b] - x[l.a];
-        const double now = glm::length(way);
-        if (!(now > 0))
-            continue;
-        const glm::dvec3 part = (now - l.length) / (now * (w_[l.a] + w_[l.b])) * way;
-        x[l.a] += w_[l.a] * part;
-        x[l.b] -= w_[l.b] * part;
+        const std::ptrdiff_t end = first + static_cast<std::ptrdiff_t>(body.mesh.positions.size());
+        if (!std::equal(x.begin() + first, x.begin() + end, before.begin() + first))
+            body.start_positions.assign(x.begin() + first, x.begin() + end);
+        first = end;
     }
 }
 
-double Shapes::largest_strain(const std::vector<glm::dvec3>& x) const
+/// What make_plan() would refuse is refused before anything is looked at.
+void check_values(const Scene& resolved)
 {
-    double out = 0;
-    for (const StartLength& l : lengths_)
-        if (l.length > 0)
-            out = std::max(out, std::abs(glm::distance(x[l.a], x[l.b]) - l.length) / l.length);
-    return out;
-}
-
-bool Shapes::part(std::vector<glm::dvec3>& x, std::uint32_t& rounds)
-{
-    std::uint32_t crossing = 0, finishing = 0;
-    Progress progress;
-    while (crossing < kMostRounds && finishing < kFinishRounds)
-    {
-        const auto crossed = surfaces_.crossings(x);
-        const auto near = surfaces_.near(x);
-        if (crossed.empty() && near.empty() && largest_strain(x) < kStrain)
-            return true;
-        if (!crossed.empty() && !progress.goes_on(crossed.size()))
-            return false;
-        push_crossings(crossed, x);
-        for (const NearPair& pair : near)
-            push_near(pair);
-        if (!move(x) && !crossed.empty())
-            return false;
-        for (std::uint32_t sweep = 0; sweep < kShapeSweeps; ++sweep)
-            keep_lengths(x);
-        ++(crossed.empty() ? finishing : crossing);
-        ++rounds;
-    }
-    return surfaces_.crossings(x).empty();
+    for (const SceneIssue& issue : check_resolved(resolved))
+        if (issue.error)
+            throw Error(issue.code, issue.field + " " + issue.text);
 }
 
 } // namespace
 
 SeparatedStart separate_start(const Scene& resolved)
 {
-    SeparatedStart out{resolved};
+    check_values(resolved);
+    SeparatedStart out;
+    out.scene = resolved;
     const StartSurfaces surfaces(resolved);
     std::vector<glm::dvec3> x = surfaces.places();
-    out.crossed = surfaces.crossings(x).size();
+    out.crossed = surfaces.crossed(x);
     out.near = surfaces.near(x).size();
-    if (out.crossed + out.near == 0)
+    if (out.crossed.empty() && out.near == 0)
         return out;
     std::vector<double> w = inverse_masses(resolved);
     std::vector<StartLength> lengths = start_lengths(resolved, surfaces);
-    const bool wholes = Wholes(surfaces, w, lengths).part(x, out.rounds);
-    const bool done = wholes && surfaces.crossings(x).empty() && surfaces.near(x).empty();
-    if (!done && !Shapes(surfaces, std::move(w), std::move(lengths)).part(x, out.rounds))
+    const bool rigid = part_whole(surfaces, w, lengths, x);
+    const bool done = rigid && surfaces.crossings(x).empty() && surfaces.near(x).empty();
+    if (!done && !part_vertices(surfaces, std::move(w), std::move(lengths), x))
         throw Error(
             ErrorCode::bad_input,
             "contact.start is \"separate\", but what goes through each other at the start could not be "
             "taken apart: " +
                 surfaces.crossed(x) + "; move the bodies apart");
+    check_solids_kept(resolved, surfaces.places(), x);
+    out.left = surfaces.near(x).size();
     for (std::size_t v = 0; v < x.size(); ++v)
         out.farthest = std::max(out.farthest, glm::distance(x[v], surfaces.places()[v]));
-    auto first = x.begin();
-    for (Body& body : out.scene.bodies)
-    {
-        const auto end = first + static_cast<std::ptrdiff_t>(body.mesh.positions.size());
-        if (!body.kinematic.used)
-            body.start_positions.assign(first, end);
-        first = end;
-    }
+    put_starts(out.scene, surfaces.places(), x);
     return out;
 }
 
@@ -343,9 +90,11 @@ Scene with_start(Scene resolved)
 {
     if (resolved.contact.start == "separate")
         return separate_start(resolved).scene;
-    if (resolved.contact.start == "refuse")
-        if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())
-            throw Error(ErrorCode::bad_input, crossed);
+    if (resolved.contact.start != "refuse")
+        return resolved;
+    check_values(resolved);
+    if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())
+        throw Error(ErrorCode::bad_input, crossed);
     return resolved;
 }
 

@@ -1,5 +1,6 @@
 #include "taut/world/start_shapes.hpp"
 
+#include "taut/elements/element.hpp"
 #include "taut/plan/material.hpp"
 
 #include <glm/geometric.hpp>
@@ -68,6 +69,13 @@ std::vector<StartLength> start_lengths(const Scene& scene, const StartSurfaces& 
                     add(first + t[i], first + t[j]);
         for (const auto& l : body.mesh.links)
             add(first + l[0], first + l[1]);
+        for (const Body::Spring& s : body.springs)
+            add(first + s.a, first + s.b);
+        for (const Body::Elements& list : body.elements)
+            if (const ElementKind* kind = find_element(list.kind))
+                for (std::size_t v = 0; v < list.vertices.size(); ++v)
+                    if (v % kind->corners > 0)
+                        add(first + list.vertices[v - 1], first + list.vertices[v]);
         first += static_cast<std::uint32_t>(body.mesh.positions.size());
     }
     std::vector<StartLength> out;

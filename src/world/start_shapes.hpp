@@ -34,8 +34,9 @@ struct StartLength
 /// 1/kg, scene-wide; 0 = pinned or led.
 std::vector<double> inverse_masses(const Scene& resolved);
 
-/// Edges of surfaces, of tetrahedra and links, and across each edge of two triangles the way between the
-/// corners that they do not share, which keeps cloth from folding sharply; each once, in order.
+/// Edges of surfaces, of tetrahedra, of elements, links and springs, and across each edge of two triangles
+/// the way between the corners that they do not share, which keeps cloth from folding sharply; each once, in
+/// order.
 std::vector<StartLength> start_lengths(const Scene& resolved, const StartSurfaces& surfaces);
 
 } // namespace taut

@@ -59,6 +59,10 @@ StartSurfaces::StartSurfaces(const Scene& resolved)
         places_.insert(places_.end(), start.begin(), start.end());
         rest_.insert(rest_.end(), body.mesh.positions.begin(), body.mesh.positions.end());
         used_.resize(places_.size(), false);
+        held_.resize(places_.size(), body.kinematic.used);
+        for (const Pin& pin : body.pins)
+            for (const std::uint32_t v : pin.vertices)
+                held_[places_.size() - start.size() + v] = true;
         radius_.push_back(radius_of(resolved, body));
         names_.push_back(body.name);
         first_.push_back(b == 0 ? 0
@@ -68,9 +72,12 @@ StartSurfaces::StartSurfaces(const Scene& resolved)
         for (std::size_t other = 0; other < resolved.bodies.size(); ++other)
             row.push_back(surfaces_meet(resolved, b, other));
     }
+    std::vector<bool> takes;
+    for (const Body& body : resolved.bodies)
+        takes.push_back(takes_part(resolved, body));
     for (const judging::Triangle& t : all.triangles)
         for (const std::uint32_t v : t)
-            used_[v] = takes_part(resolved, resolved.bodies[body_[v]]);
+            used_[v] = takes[body_[v]];
     surface_ = judging::make_surface(body_.size(), std::move(all.triangles), std::move(all.led),
                                      std::move(all.passing));
 }
@@ -96,6 +103,11 @@ std::vector<NearPair> StartSurfaces::near(const std::vector<glm::dvec3>& places)
     return out;
 }
 
+bool StartSurfaces::held(const std::array<std::uint32_t, 4>& corner) const
+{
+    return std::all_of(corner.begin(), corner.end(), [&](std::uint32_t v) { return held_[v]; });
+}
+
 void StartSurfaces::near_triangles(const std::vector<glm::dvec3>& x, std::vector<NearPair>& out) const
 {
     const judging::TriangleTrees trees(surface_, x);
@@ -116,12 +128,12 @@ void StartSurfaces::near_triangles(const std::vector<glm::dvec3>& x, std::vector
             if (now.distance < gap && body_[v] == body_[c[0]])
                 gap = std::min(
                     gap, kOfRest * judging::nearest_of_triangle(rest_[v], corners_of(c, rest_)).distance);
-            if (now.distance > 0 && now.distance < gap)
-                out.push_back(finished({{v, c[0], c[1], c[2]},
-                                        {1, -now.shares[0], -now.shares[1], -now.shares[2]},
-                                        {},
-                                        now.distance,
-                                        gap},
+            const std::array<std::uint32_t, 4> corner{v, c[0], c[1], c[2]};
+            if (now.distance > 0 && now.distance < gap && !held(corner))
+                out.push_back(finished({.corner = corner,
+                                        .weight = {1, -now.shares[0], -now.shares[1], -now.shares[2]},
+                                        .distance = now.distance,
+                                        .gap = gap},
                                        x));
         });
     }
@@ -153,13 +165,14 @@ void StartSurfaces::near_edges(const std::vector<glm::dvec3>& x, std::vector<Nea
             double gap = gap_of(own[0], other[0]);
             if (now.distance < gap && body_[own[0]] == body_[other[0]])
                 gap = std::min(gap, kOfRest * nearest(own, other, rest_).distance);
-            if (now.distance > 0 && now.distance < gap && within(now))
-                out.push_back(finished({{own[0], own[1], other[0], other[1]},
-                                        {1 - now.along_p, now.along_p, now.along_q - 1, -now.along_q},
-                                        {},
-                                        now.distance,
-                                        gap},
-                                       x));
+            const std::array<std::uint32_t, 4> corner{own[0], own[1], other[0], other[1]};
+            if (now.distance > 0 && now.distance < gap && within(now) && !held(corner))
+                out.push_back(
+                    finished({.corner = corner,
+                              .weight = {1 - now.along_p, now.along_p, now.along_q - 1, -now.along_q},
+                              .distance = now.distance,
+                              .gap = gap},
+                             x));
         });
     }
 }

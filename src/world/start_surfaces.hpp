@@ -36,7 +36,7 @@ public:
     std::vector<judging::CrossingEdge> crossings(const std::vector<glm::dvec3>& places) const;
 
     /// Pairs nearer than their gap (docs/contact.md: the sum of two radii, of one body no more than what is
-    /// between them at rest); those that touch are crossings and none of these.
+    /// between them at rest) of which a corner can move; those that touch are crossings and none of these.
     std::vector<NearPair> near(const std::vector<glm::dvec3>& places) const;
 
     /// "12 pairs of triangles, the first triangle 3 of bodies[0] and triangle 5 of bodies[1] ("cloth")";
@@ -46,6 +46,7 @@ public:
 private:
     bool meets(std::uint32_t a, std::uint32_t b) const { return meet_[body_[a]][body_[b]]; }
     double gap_of(std::uint32_t a, std::uint32_t b) const { return radius_[body_[a]] + radius_[body_[b]]; }
+    bool held(const std::array<std::uint32_t, 4>& corner) const;
     void near_triangles(const std::vector<glm::dvec3>& places, std::vector<NearPair>& out) const;
     void near_edges(const std::vector<glm::dvec3>& places, std::vector<NearPair>& out) const;
     std::string name_of(std::uint32_t triangle) const;
@@ -58,10 +59,11 @@ private:
     std::vector<std::uint32_t> first_;      ///< of the triangles of each body
     std::vector<glm::dvec3> places_, rest_; ///< m
     std::vector<bool> used_;                ///< per vertex: of a triangle that meets anything
+    std::vector<bool> held_;                ///< per vertex: pinned or led
 };
 
-/// m: by how much the nearest two of the surfaces of `resolved` are nearer than their gap at the start; 0
-/// where none is.
+/// m: by how much the nearest two of the surfaces of `resolved` that are not held are nearer than their gap
+/// at the start; 0 where none is.
 double deepest_contact(const Scene& resolved);
 
 } // namespace taut

@@ -10,7 +10,7 @@
 
 namespace taut {
 
-/// Of one state of the surfaces: those that it is made of must outlive it.
+/// Refers to one state of the surfaces, which must outlive it.
 ///
 /// Based on: Volino, Magnenat-Thalmann. Resolving surface collisions through intersection contour
 ///   minimization. ACM TOG 25(3), 2006; Baraff, Witkin, Kass. Untangling cloth. SIGGRAPH 2003 (the smaller of
@@ -31,14 +31,16 @@ public:
     /// one.
     std::optional<std::uint32_t> cut_off(const judging::CrossingEdge& c) const;
 
-    /// Of a vertex: a number below that of all vertices.
+    /// Number of the piece that a vertex belongs to, below that of all vertices.
     std::uint32_t piece_of(std::uint32_t vertex) const { return piece_of_[vertex]; }
 
 private:
     glm::dvec3 shorter(const judging::CrossingEdge& c) const;
     glm::dvec3 back(const judging::CrossingEdge& c) const;
-    glm::dvec3 across(std::uint32_t triangle) const;
+    glm::dvec3 normal_of(std::uint32_t triangle) const;
+    glm::dvec3 out_of_plane(const judging::CrossingEdge& c) const;
 
+    const StartSurfaces& surfaces_;
     const judging::Surface& surface_;
     const std::vector<glm::dvec3>& x_;
     std::vector<std::uint32_t> piece_of_, size_; ///< per vertex; vertices of the piece that it stands for

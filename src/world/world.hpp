@@ -158,9 +158,10 @@ struct BodyRange
 class World : public ProgramMoves
 {
 public:
-    /// Resolves the scene if its bodies have no meshes yet, plans it for the device, uploads, records.
-    /// Throws Error{bad_input} where there is no device or, with SceneContact::start "refuse", surfaces that
-    /// are to meet go through each other; and what resolve() and make_plan() throw.
+    /// Resolves the scene if its bodies have no meshes yet, has it begin as SceneContact::start says
+    /// ("separate" moves vertices), plans it for the device, uploads, records. Throws Error{bad_input} where
+    /// there is no device or, with "refuse", surfaces that are to meet go through each other, with "separate"
+    /// where they cannot be taken apart; and what resolve() and make_plan() throw.
     World(const Scene& scene, std::shared_ptr<Device> device, const WorldOptions& = {});
     ~World();
     World(World&&) noexcept;

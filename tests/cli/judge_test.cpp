@@ -99,6 +99,14 @@ TEST_CASE("a run whose surfaces were to meet and cross is unconverged, and says 
     CHECK(folder.taut({"judge", "passing.json", "--device", "cpu:serial", "--frames", "1"}).status == 0);
     CHECK_THAT(folder.taut({"check", "crossed.json"}).out, Contains("at the start"));
     CHECK_THAT(folder.taut({"check", "passing.json"}).out, Contains("is a sound scene.\n"));
+    std::string separate = crossed;
+    separate.insert(separate.find("\"thickness\": 0.005"), "\"start\": \"separate\", ");
+    folder.file("separate.json", separate);
+    CHECK_THAT(folder.taut({"check", "separate.json"}).out,
+               Contains("contact.start: takes surfaces apart") && Contains("of bodies[0] (\"wall\") and") &&
+                   Contains("no vertex moves further than"));
+    CHECK(folder.taut({"run", "separate.json", "--device", "cpu:serial", "--no-picture"}).status == 0);
+    CHECK(folder.taut({"judge", "separate.json", "--device", "cpu:serial", "--frames", "1"}).status == 0);
     passing.replace(passing.find("[\"default\"]"), 11, "[\"defualt\"]");
     folder.file("wrong.json", passing);
     CHECK_THAT(folder.taut({"check", "wrong.json"}).out,

@@ -27,7 +27,7 @@ std::uint64_t all_frames(const Scene& scene)
 }
 
 /// All of them; in a short run as many as 2e6 vertex substeps pay for, of the contact suite, which
-/// tests/physics/contact_suite*_test.cpp run whole, a quarter of that.
+/// tests/physics/contact_*_test.cpp run until their criteria are met, a quarter of that.
 std::uint64_t frames_of(const Scene& scene, const std::string& name)
 {
     std::size_t vertices = 0;

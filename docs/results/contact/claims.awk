@@ -15,6 +15,7 @@ function claims()
     claim("Fifty do so with up to 4 sweeps, are 28 % off with 8 and 8.9 % with 32",
           fell("50 20 1") && fell("50 20 2") && fell("50 20 4") && !fell("50 20 8") \
           && about(lowest("50 20 8"), "28") && about(lowest("50 20 32"), "8.9"))
+    claim("(39 % with 16 sweeps)", about(lowest("50 20 16"), "39"))
     claim("with 80 of them and 2 sweeps sixteen layers are 0.81 % off and fifty 17 %",
           about(lowest("16 80 2"), "0.81") && about(lowest("50 80 2"), "17") \
           && v("stack", "16 80 2", "step ms") < 1.2 * v("stack", "16 20 8", "step ms"))

@@ -105,6 +105,50 @@ TEST_CASE("a segment through the plane meets a triangle where its volumes say so
     CHECK(met > 300);
 }
 
+TEST_CASE("segments in the plane of a triangle, and a last digit beside it, meet it where exact areas say so")
+{
+    Random random(5);
+    // 2-D, with whole numbers: exact in double.
+    const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    };
+    const auto side = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        const double v = area(a, b, c);
+        return v > 0 ? 1 : v < 0 ? -1 : 0;
+    };
+    const auto within = [](double a, double b, double x) {
+        return std::min(a, b) <= x && x <= std::max(a, b);
+    };
+    const auto segments = [&](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& a,
+                              const glm::dvec3& b) {
+        const auto on = [&](const glm::dvec3& s, const glm::dvec3& e, const glm::dvec3& x) {
+            return side(s, e, x) == 0 && within(s.x, e.x, x.x) && within(s.y, e.y, x.y);
+        };
+        return (side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0) || on(p, q, a) ||
+               on(p, q, b) || on(a, b, p) || on(a, b, q);
+    };
+    int met = 0, apart = 0;
+    for (int k = 0; k < 20000; ++k)
+    {
+        Points t{whole(random, 4), whole(random, 4), whole(random, 4)};
+        glm::dvec3 p = whole(random, 4), q = whole(random, 4);
+        for (glm::dvec3* x : {&t[0], &t[1], &t[2], &p, &q})
+            x->z = 0;
+        if (side(t[0], t[1], t[2]) == 0)
+            continue;
+        const int turn = side(t[0], t[1], t[2]);
+        const bool inside =
+            side(t[0], t[1], p) == turn && side(t[1], t[2], p) == turn && side(t[2], t[0], p) == turn;
+        const bool expected =
+            inside || segments(p, q, t[0], t[1]) || segments(p, q, t[1], t[2]) || segments(p, q, t[2], t[0]);
+        ++(expected ? met : apart);
+        REQUIRE(segment_meets_triangle(p, q, t) == expected);
+        p.z = q.z = 0x1p-1000; // a whole triangle away
+        REQUIRE(!segment_meets_triangle(p, q, t));
+    }
+    CHECK(std::min(met, apart) > 1000);
+}
+
 TEST_CASE("what touches meets: corners, edges, planes, triangles without area")
 {
     const Points t{glm::dvec3(0, 0, 0), {4, 0, 0}, {0, 4, 0}};
