@@ -24,8 +24,8 @@ Scene hooked()
     Body body;
     body.shape.cells = {4, 4};
     scene.bodies = {body, body};
-    scene.bodies[0].pins = {{{0, 5, 10, 15, 20}}};
-    scene.bodies[1].pins = {{{4, 9, 14, 19, 24}}};
+    scene.bodies[0].pins.emplace_back().vertices = {0, 5, 10, 15, 20};
+    scene.bodies[1].pins.emplace_back().vertices = {4, 9, 14, 19, 24};
     scene.bodies[1].pins[0].motion = {{0}, {1, {0.5, 0, 0}}};
     scene.contact.between = true;
     return scene;
