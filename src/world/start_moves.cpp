@@ -12,7 +12,7 @@
 namespace taut {
 namespace {
 
-constexpr std::uint32_t kWholeRounds = 500;  ///< in which whole pieces of cloth part as they are
+constexpr std::uint32_t kWholeRounds = 500;  ///< in which wholes part, each in its own shape
 constexpr std::uint32_t kMostRounds = 2000;  ///< for what crosses still
 constexpr std::uint32_t kPatience = 400;     ///< rounds without fewer crossings than ever before
 constexpr std::uint32_t kFinishRounds = 300; ///< after that, for what is only too near, and for lengths
@@ -32,11 +32,12 @@ glm::dvec3 step_of(const judging::CrossingEdge& c, const StartWays& ways, const 
 /// m: by how much two are too near.
 double missing(const NearPair& pair) { return kBeyond * pair.gap - pair.distance; }
 
-/// Ends when crossings have not become fewer for kPatience rounds.
+/// How long rounds go on that bring nothing.
 class Patience
 {
 public:
-    /// Takes down how many there are. Returns false when patience ends.
+    /// Records the number of crossings at the begin of a round. Returns false once it has not fallen for
+    /// kPatience rounds.
     bool after(std::size_t crossings)
     {
         if (crossings < least_)
@@ -49,11 +50,12 @@ private:
     std::uint32_t since_ = 0;
 };
 
-/// What hangs together goes as it is, where nothing of it is held.
-class RigidPieces
+/// A whole is what hangs together by lengths: it moves as a rigid body, without turning, where nothing of it
+/// is held. (A piece, in start_ways.hpp, is what crossings cut off.)
+class RigidWholes
 {
 public:
-    RigidPieces(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
+    RigidWholes(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
                 std::span<const StartLength> lengths);
 
     /// Moves `x` until two wholes neither cross nor are too near. False, and `x` as it was, where that does
@@ -75,7 +77,7 @@ private:
     std::vector<Whole> wholes_;
 };
 
-RigidPieces::RigidPieces(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
+RigidWholes::RigidWholes(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
                          std::span<const StartLength> lengths)
     : surfaces_(surfaces),
       wholes_(inverse_mass.size())
@@ -89,7 +91,7 @@ RigidPieces::RigidPieces(const StartSurfaces& surfaces, std::span<const double> 
 }
 
 /// `way` of the vertex a relative to b, shared by mass. False where neither whole can go, or both are one.
-bool RigidPieces::push(std::uint32_t a, std::uint32_t b, const glm::dvec3& way)
+bool RigidWholes::push(std::uint32_t a, std::uint32_t b, const glm::dvec3& way)
 {
     Whole &first = wholes_[whole_of_[a]], &second = wholes_[whole_of_[b]];
     const bool held = std::isinf(first.mass), other_held = std::isinf(second.mass);
@@ -103,7 +105,7 @@ bool RigidPieces::push(std::uint32_t a, std::uint32_t b, const glm::dvec3& way)
     return true;
 }
 
-void RigidPieces::move(std::vector<glm::dvec3>& x)
+void RigidWholes::move(std::vector<glm::dvec3>& x)
 {
     for (std::size_t v = 0; v < x.size(); ++v)
     {
@@ -115,7 +117,7 @@ void RigidPieces::move(std::vector<glm::dvec3>& x)
         whole.way = glm::dvec3(0), whole.farthest = 0;
 }
 
-bool RigidPieces::part(std::vector<glm::dvec3>& x)
+bool RigidWholes::part(std::vector<glm::dvec3>& x)
 {
     const std::vector<glm::dvec3> before = x;
     Patience patience;
@@ -308,7 +310,7 @@ bool SingleVertices::part(std::vector<glm::dvec3>& x)
 bool part_whole(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
                 std::span<const StartLength> lengths, std::vector<glm::dvec3>& x)
 {
-    return RigidPieces(surfaces, inverse_mass, lengths).part(x);
+    return RigidWholes(surfaces, inverse_mass, lengths).part(x);
 }
 
 bool part_vertices(const StartSurfaces& surfaces, std::vector<double> inverse_mass,
