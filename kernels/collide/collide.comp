@@ -11,6 +11,12 @@
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact.glsl"
+#if COLLIDER_VALUES
+#define KEPT_SLOT 6
+READ(5, real, values); // of all colliders of the shape, one after the other
+#else
+#define KEPT_SLOT 5
+#endif
 #include TAUT_COLLIDER
 
 PARAMS
@@ -29,7 +35,7 @@ READ(2, OF_COLLIDER(record), collider);
 READ_ONE(3, StepValues, step_values);
 COUNTERS(4, events);
 #if KEPT
-UPDATE(5, rvec4, contact); // per collider and vertex: friction taken so far, w = normal push so far, m
+UPDATE(KEPT_SLOT, rvec4, contact); // per collider and vertex: friction so far, w = normal push so far, m
 #endif
 
 KERNEL(count)

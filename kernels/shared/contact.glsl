@@ -4,7 +4,10 @@
 // A kernel with the line `//! each collider` is compiled once for every kernels/colliders/<stem>.glsl. The
 // kernel compiler defines COLLIDER_STEM and, from the file's line `//! collider`, COLLIDER_POSES: 0 where one
 // record a time step says it all ("once"), 1 where there is one of the start of each substep in turn and one
-// of the end of the last ("each_substep"). The kernel includes TAUT_COLLIDER, which is that file. Of a shape
+// of the end of the last ("each_substep"). A shape that says `values` behind that has COLLIDER_VALUES 1, a
+// buffer `values` that it indexes as it likes, and no second form of several elements at once
+// (docs/lanes.md), which only index with what records hold. The kernel includes TAUT_COLLIDER, which is that
+// file. Of a shape
 // `cuboid` it uses
 //   cuboid_record                             the record in the buffer of colliders
 //   cuboid_contact(record, next, x, d, kept)  what the vertex at x meets that goes by d; of a shape "once",

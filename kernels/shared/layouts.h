@@ -113,6 +113,21 @@ LAYOUT_STRUCT(CuboidCollider)
     real friction;
 };
 
+/// Distances to a closed surface at the points of a grid: point (i, j, k) lies at low + cell (i, j, k) in its
+/// frame, and its distance is values[first + i + count_x (j + count_y k)], m.
+LAYOUT_STRUCT(DistanceFieldCollider)
+{
+    real centre_x, centre_y, centre_z; // m
+    real x_x, x_y, x_z;                // its x axis, in the world
+    real y_x, y_y, y_z;
+    real z_x, z_y, z_z;
+    real low_x, low_y, low_z; // m, of point (0, 0, 0)
+    real cell;                // m, between neighbours
+    real friction;
+    uint count_x, count_y, count_z; // points along each axis, >= 2
+    uint first;
+};
+
 /// Keeps |x_vertex - x_pin| at most `limit`.
 LAYOUT_STRUCT(Attachment)
 {

@@ -33,6 +33,7 @@ struct ElementFile
     std::vector<std::string> methods;   ///< `//! methods xpbd pbd`: whose kernels it is compiled into
     std::vector<std::string> abilities; ///< `//! with dampers`: variants and a macro of its own
     std::string collider;               ///< of a shape "once" or "each_substep": `//! collider once`
+    bool has_values = false;            ///< of a shape with a buffer `values`: `//! collider once values`
 };
 
 /// Reads the `//!` lines. Throws Error{kernel_compilation} for a file without `//! collider` that has no

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -218,12 +219,48 @@ Macros macros_of(const taut::KernelVariant& variant, const taut::ElementFile& el
     return out;
 }
 
+/// The names that a text defines itself. Several kernels may be compiled at once, and none sees another's.
+std::vector<std::string> defined_in(const std::string& text)
+{
+    std::istringstream lines(text);
+    std::vector<std::string> out;
+    for (std::string line; std::getline(lines, line);)
+    {
+        std::istringstream words(line);
+        std::string first, name;
+        words >> first >> name;
+        if (first == "#define")
+            out.push_back(name.substr(0, name.find('(')));
+    }
+    return out;
+}
+
+struct NativeSource
+{
+    std::string path; ///< below the include root, so that no machine's is written
+    std::vector<std::string> shared; ///< files of the folder
+    std::vector<std::string> own;    ///< macros that it defines, and what it may include
+};
+
+NativeSource native_source(const std::string& path, const std::string& text, const fs::path& root,
+                           const std::string& element)
+{
+    NativeSource out = {path, files_of(root, "shared"), defined_in(text + '\n' + element)};
+    std::set<std::string> names(out.own.begin(), out.own.end());
+    for (const std::string& file : out.shared)
+        if (file != "portable.glsl" && file != "layouts.h") // portable.hpp has words of theirs, for all
+            for (const std::string& name : defined_in(read_text(root / "shared" / file)))
+                names.insert(name);
+    out.own.assign(names.begin(), names.end());
+    return out;
+}
+
 /// The kernel as `struct Kernel` in a namespace of its own.
-void native_kernel(std::ostringstream& out, const std::string& path, const taut::CompiledKernel& k,
-                   const Macros& macros, const std::vector<std::string>& shared, const NativeForm& form)
+void native_kernel(std::ostringstream& out, const NativeSource& source, const taut::CompiledKernel& k,
+                   const Macros& macros, const NativeForm& form)
 {
     const std::string id = form.prefix + identifier(k);
-    for (const std::string& file : shared)
+    for (const std::string& file : source.shared)
     {
         std::string guard = "TAUT_SHARED_" + file;
         std::transform(guard.begin(), guard.end(), guard.begin(), [](unsigned char c) {
@@ -238,7 +275,7 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     out << "#define TAUT_REAL_DOUBLE " << (is_double ? 1 : 0) << "\nnamespace " << id
         << " {\nusing namespace " << form.room << ";\nusing real = " << real << ";\n"
         << form.types << "struct Kernel\n{\n"
-        << form.members << "#include \"" << path
+        << form.members << "#include \"" << source.path
         << "\"\n    void bind([[maybe_unused]] const void* params, void* const* buffers)\n    {\n";
     if (!k.params.empty())
         out << "        const Params& p = *static_cast<const Params*>(params);\n";
@@ -249,6 +286,8 @@ void native_kernel(std::ostringstream& out, const std::string& path, const taut:
     out << "    }\n};\n} // namespace " << id << "\n#undef TAUT_REAL_DOUBLE\n";
     for (const auto& define : macros)
         out << "#undef " << define.first << "\n";
+    for (const std::string& name : source.own)
+        out << "#undef " << name << "\n";
 }
 
 const char* runner(const taut::CompiledKernel& k)
@@ -285,9 +324,11 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
     const std::string text = read_text(kernel_path);
     const bool uses_real = text.find("real") != std::string::npos || text.find("rvec") != std::string::npos ||
                            text.find("layouts.h") != std::string::npos;
-    const auto shared = files_of(root, "shared");
+    const std::string own = element.path.empty() ? std::string() : read_text(root / element.path);
+    const NativeSource source =
+        native_source(fs::relative(kernel_path, root).generic_string(), text, root, own);
     Kernels kernels;
-    const bool lanes = has_lanes(text);
+    const bool lanes = has_lanes(text) && !element.has_values;
     std::ostringstream native, several;
     native << native_head(stem, "portable.hpp");
     several << native_head(stem, "lane_portable.hpp");
@@ -297,14 +338,13 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
             if (precision == taut::Precision::float64 && !uses_real)
                 continue;
             const auto kernel = taut::compile_kernel({stem, text, root, variant, precision, element});
-            const std::string path = fs::relative(kernel_path, root).generic_string(); // no machine's paths
             const Macros macros = macros_of(variant, element);
-            native_kernel(native, path, *kernel, macros, shared, kScalar);
+            native_kernel(native, source, *kernel, macros, kScalar);
             const bool has_form = lanes && precision == taut::Precision::float32;
             native_entry(native, *kernel, has_form);
             if (has_form)
             {
-                native_kernel(several, path, *kernel, macros, shared, kLanes);
+                native_kernel(several, source, *kernel, macros, kLanes);
                 lanes_entry(several, *kernel);
             }
             kernels.push_back(kernel);
@@ -313,7 +353,6 @@ void compile(const fs::path& kernel_path, const fs::path& root, const fs::path& 
         *out << "} // namespace taut::kernels::" << stem << "\n";
     fs::create_directories(out_dir);
     write_text(out_dir / (stem + ".hpp"), header_text(stem, kernels));
-    const std::string own = element.path.empty() ? std::string() : read_text(root / element.path);
     write_text(out_dir / (stem + ".cpp"), source_text(stem, kernels, own));
     write_text(out_dir / (stem + ".native.cpp"), native.str());
     if (lanes)

@@ -143,11 +143,16 @@ ElementFile element_file(const std::string& path, std::string_view text)
     for (const std::string& line : directives(text, "with"))
         out.abilities.push_back(line);
     for (const std::string& line : directives(text, "collider"))
-        out.collider = line;
-    if (out.collider == "once" || out.collider == "each_substep")
-        return out;
-    if (!out.collider.empty())
-        refuse("shape " + path + ": expected \"//! collider once\" or \"//! collider each_substep\"");
+    {
+        const std::vector<std::string> words = split(line);
+        out.collider = words.empty() ? "" : words.front();
+        out.has_values = words.size() == 2 && words[1] == "values";
+        if ((out.collider == "once" || out.collider == "each_substep") && words.size() == 1u + out.has_values)
+            return out;
+        refuse("shape " + path +
+               ": expected \"//! collider once\" or \"//! collider each_substep\", and \" values\" behind it "
+               "where the shape has a buffer of numbers");
+    }
     if (out.corners == 0)
         refuse("element " + path + ": expected a line \"//! corners N\" with N from 2 to 4");
     if (out.methods.empty())
@@ -178,7 +183,8 @@ std::vector<std::pair<std::string, std::string>> element_defines(const ElementFi
 {
     if (!element.collider.empty())
         return {{"COLLIDER_STEM", element.stem},
-                {"COLLIDER_POSES", element.collider == "each_substep" ? "1" : "0"}};
+                {"COLLIDER_POSES", element.collider == "each_substep" ? "1" : "0"},
+                {"COLLIDER_VALUES", element.has_values ? "1" : "0"}};
     std::vector<std::pair<std::string, std::string>> out = {
         {"ELEMENT_STEM", element.stem}, {"ELEMENT_CORNERS", std::to_string(element.corners)}};
     for (const std::string& ability : element.abilities)

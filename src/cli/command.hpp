@@ -42,6 +42,7 @@ void add_schema(CLI::App& app, Command& chosen);
 void add_fabrics(CLI::App& app, Command& chosen);
 void add_solve(CLI::App& app, Command& chosen);
 void add_tetrahedralise(CLI::App& app, Command& chosen);
+void add_sdf(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);
 
 } // namespace taut::cli

@@ -42,6 +42,7 @@ cli::Command parse(int argc, char** argv, int& status)
     cli::add_fabrics(app, chosen);
     cli::add_solve(app, chosen);
     cli::add_tetrahedralise(app, chosen);
+    cli::add_sdf(app, chosen);
     cli::add_devices(app, chosen);
     try
     {

@@ -1,5 +1,6 @@
 // taut tetrahedralise: a closed surface becomes a solid, by a program that is installed.
 
+#include "taut/cli/closed_surface.hpp"
 #include "taut/cli/command.hpp"
 #include "taut/cli/mesher.hpp"
 #include "taut/cli/numbers.hpp"
@@ -53,25 +54,6 @@ fs::path out_file(const TetrahedraliseCommand& command)
     if (fs::is_directory(out, ignored))
         throw Error(ErrorCode::bad_input, "--out names the folder " + out.string() + "; name a file.");
     return out;
-}
-
-/// Closed, wound alike, seen counter-clockwise from outside.
-Mesh read_surface(const std::string& file, double& volume)
-{
-    Mesh surface = read_mesh(file, 0);
-    if (const std::size_t open = unpaired_edges(surface.triangles).size(); open > 0)
-        throw Error(ErrorCode::bad_input,
-                    file + ": it encloses no volume: " + counted(open, "edge is", "edges are") +
-                        " not shared by triangles that are wound alike; close its holes first.");
-    volume = enclosed_volume(surface.triangles, surface.positions);
-    if (volume < 0)
-        for (auto& triangle : surface.triangles)
-            std::swap(triangle[1], triangle[2]);
-    volume = std::abs(volume);
-    if (!(volume > 0) || !std::isfinite(volume))
-        throw Error(ErrorCode::bad_input,
-                    file + ": it encloses a volume of " + shown(volume, 4) + "; it must be above 0.");
-    return surface;
 }
 
 std::pair<Mesher, fs::path> choose_mesher(const std::string& wanted)
@@ -175,7 +157,7 @@ int tetrahedralise(const TetrahedraliseCommand& command)
 {
     const fs::path out = out_file(command);
     double volume = 0;
-    const Mesh surface = read_surface(command.surface, volume);
+    const Mesh surface = read_closed_surface(command.surface, volume);
     const auto mesher = choose_mesher(command.program);
     check_writable(out);
     MeshFindings findings;

@@ -174,6 +174,7 @@ public:
     std::shared_ptr<Acad> acad;                                ///< likewise
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     ColliderBuffers friction_taken = kNoColliders;
+    ColliderBuffers collider_values = kNoColliders; ///< of shapes that have a buffer of numbers
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp
     std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
     std::shared_ptr<Plasticity> plasticity; ///< plasticity.hpp

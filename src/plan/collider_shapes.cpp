@@ -1,6 +1,7 @@
 #include "taut/plan/collider_shapes.hpp"
 
 #include "taut/scene/collider.hpp"
+#include "taut/scene/distance_field.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -75,11 +76,30 @@ void fill(layout::CuboidCollider<Real>& out, const Collider& c, double at, doubl
     out.half_z = static_cast<Real>(c.half_size.z);
 }
 
+template <typename Real>
+void fill(layout::DistanceFieldCollider<Real>& out, const Collider& c, double at, double)
+{
+    put_frame(out, frame_at(c, at));
+    const glm::dvec3 half = c.field->half_size(); // the frame stands in the middle
+    out.low_x = static_cast<Real>(-half.x);
+    out.low_y = static_cast<Real>(-half.y);
+    out.low_z = static_cast<Real>(-half.z);
+    out.cell = static_cast<Real>(c.field->cell);
+    out.count_x = c.field->points[0];
+    out.count_y = c.field->points[1];
+    out.count_z = c.field->points[2];
+}
+
+std::size_t value_count(const Collider& c) { return c.field ? c.field->values.size() : 0; }
+
 template <typename Record>
-void append(ColliderShape::Records& out, const Collider& collider, double from, double to)
+void append(ColliderShape::Records& out, const Collider& collider, double from, double to,
+            [[maybe_unused]] std::uint32_t first)
 {
     Record record{};
     fill(record, collider, from, to);
+    if constexpr (requires { record.first; })
+        record.first = first;
     record.friction = static_cast<decltype(record.friction)>(collider.friction);
     const auto bytes = std::as_bytes(std::span(&record, 1));
     out.insert(out.end(), bytes.begin(), bytes.end());
@@ -103,6 +123,7 @@ constexpr ColliderShape kShapes[] = {
     shape<layout::SphereCollider>("sphere", "collide_sphere", false),
     shape<layout::CapsuleCollider>("capsule", "collide_capsule", true),
     shape<layout::CuboidCollider>("cuboid", "collide_cuboid", true),
+    shape<layout::DistanceFieldCollider>("distance_field", "collide_distance_field", true),
 };
 static_assert(std::size(kShapes) == kColliderKinds);
 
@@ -117,9 +138,25 @@ ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, P
     const auto append = precision == Precision::float64 ? shape.append_double : shape.append_float;
     ColliderShape::Records out;
     for (std::uint32_t s = 0; s < shape.copies(substeps); ++s)
+    {
+        std::size_t first = 0;
         for (const Collider& c : scene.colliders)
             if (c.kind == kind)
-                append(out, c, s == substeps ? to : from + scene.timestep * s / substeps, to);
+            {
+                append(out, c, s == substeps ? to : from + scene.timestep * s / substeps, to,
+                       static_cast<std::uint32_t>(first));
+                first += value_count(c);
+            }
+    }
+    return out;
+}
+
+std::vector<float> collider_values(const Scene& scene, ColliderKind kind)
+{
+    std::vector<float> out;
+    for (const Collider& c : scene.colliders)
+        if (c.kind == kind && c.field)
+            out.insert(out.end(), c.field->values.begin(), c.field->values.end());
     return out;
 }
 

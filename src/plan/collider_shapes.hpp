@@ -15,8 +15,10 @@ namespace taut {
 struct ColliderShape
 {
     using Records = std::vector<std::byte>;
-    /// Appends the record of a collider between two times; of a shape with poses, at `from`.
-    using Append = void (*)(Records& out, const Collider& collider, double from, double to);
+    /// Appends the record of a collider between two times; of a shape with poses, at `from`. `first`: of its
+    /// values among those of all.
+    using Append = void (*)(Records& out, const Collider& collider, double from, double to,
+                            std::uint32_t first);
 
     std::string_view name;   ///< as in scene files; the effect
     std::string_view kernel; ///< collide_<name>
@@ -31,6 +33,9 @@ struct ColliderShape
 };
 
 const ColliderShape& collider_shape(ColliderKind kind);
+
+/// The values of all colliders of a kind, one after the other; empty of most kinds.
+std::vector<float> collider_values(const Scene& scene, ColliderKind kind);
 
 /// The records of all colliders of a kind for the time step between two times, s.
 ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, Precision precision,

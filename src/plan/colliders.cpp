@@ -1,6 +1,6 @@
 #include "taut/plan/colliders.hpp"
 
-#include "taut/kernels/collide_plane.hpp"
+#include "taut/kernels/collide_distance_field.hpp"
 #include "taut/plan/collider_shapes.hpp"
 
 #include <algorithm>
@@ -39,18 +39,27 @@ void prepare(PlanBuilder& b)
         b.add_buffer(shape.name, std::string(shape.name) + "s", records * shape.bytes(b.plan.precision));
     b.plan.buffers[id].host_written = true;
     b.plan.colliders[static_cast<std::size_t>(Kind)] = id;
+    if (const std::vector<float> values = collider_values(b.scene, Kind); !values.empty())
+        with_real(b.plan.precision, [&](auto zero) {
+            const std::vector<decltype(zero)> all(values.begin(), values.end());
+            b.collider_values[static_cast<std::size_t>(Kind)] =
+                b.add_buffer(shape.name, "values of " + std::string(shape.name) + "s", std::span(all));
+        });
 }
 
-/// Kernels of all shapes have one interface.
+constexpr std::uint32_t kCornersOfCell = 8; ///< of the values, read where a vertex is far from the surface
+
+/// Kernels of all shapes have one interface; that with values is the widest.
 void record(PlanBuilder& b, const Moment& moment, ColliderKind kind)
 {
     const auto row = static_cast<std::size_t>(kind);
     const std::uint32_t colliders = collider_count(b.scene, kind);
-    const kernels::collide_plane::Bindings<Use> uses = {.position = {b.plan.position},
+    const kernels::collide_distance_field::Bindings<Use> uses = {.position = {b.plan.position},
                                                         .delta = {b.plan.delta},
                                                         .collider = {b.plan.colliders[row], 0},
                                                         .step_values = {b.plan.step_values, 0},
                                                         .events = {b.plan.events, 0},
+                                                        .values = {b.collider_values[row], kCornersOfCell},
                                                         .contact = {b.friction_taken[row], colliders}};
     const bool kept = uses.contact.is_set();
     const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";

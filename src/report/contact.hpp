@@ -27,6 +27,11 @@ struct Surface
         glm::dvec3 own = frame.inside(x);
         if (!solid.bounded)
             return {frame.y, own.y - gap};
+        if (solid.field)
+        {
+            const glm::dvec3 normal = solid.field_normal(own);
+            return {frame.outside(normal) - frame.centre, solid.field_distance(own) - gap};
+        }
         if (solid.is_box())
             return touch_box(own, gap);
         own -= glm::clamp(own, -solid.half, solid.half);

@@ -9,6 +9,8 @@
 
 #include "taut/report/crossing_shapes.hpp"
 
+#include "taut/scene/distance_field.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -196,6 +198,39 @@ bool pierces(const glm::dvec3& half, int normal, const glm::dvec3& before, const
     return true;
 }
 
+/// In the grid of a field, one after the other; none within `size` of another, 64 at most.
+std::vector<glm::dvec3> deep_points(const DistanceField& field, double size)
+{
+    constexpr double kDeep = 0.7; // of the deepest: what goes through here does not graze
+    constexpr std::size_t kMost = 64;
+    std::vector<glm::dvec3> out;
+    for (std::size_t k = 0; k < field.points[2]; ++k)
+        for (std::size_t j = 0; j < field.points[1]; ++j)
+            for (std::size_t i = 0; i < field.points[0] && out.size() < kMost; ++i)
+            {
+                if (-field.values[field.index(i, j, k)] < kDeep * size)
+                    continue;
+                const glm::dvec3 p = field.place(i, j, k) - field.middle();
+                if (std::all_of(out.begin(), out.end(),
+                                [&](const glm::dvec3& q) { return glm::distance(p, q) > size; }))
+                    out.push_back(p);
+            }
+    return out;
+}
+
+double depth_in_field(const ColliderSolid& solid, const TriangleCorners& t)
+{
+    constexpr int kParts = 8;
+    double depth = 0;
+    for (int i = 0; i <= kParts; ++i)
+        for (int j = 0; j <= kParts - i; ++j)
+        {
+            const double a = double(i) / kParts, b = double(j) / kParts;
+            depth = std::max(depth, -solid.field_distance(a * t[0] + b * t[1] + (1 - a - b) * t[2]));
+        }
+    return depth;
+}
+
 /// Half sizes less what is near a rim: of a box, by as much as its thinnest or 1.5 edges.
 glm::dvec3 inner_half(const SolidShape& shape, double edge)
 {
@@ -212,18 +247,28 @@ SolidShape solid_shape(const Collider& collider)
     out.half = solid.half;
     out.radius = solid.radius;
     out.size = solid.is_box() ? std::min({out.half.x, out.half.y, out.half.z}) : solid.radius;
+    if (solid.field)
+    {
+        out.size = solid.field->depth();
+        out.middle = deep_points(*solid.field, out.size);
+    }
+    out.solid = solid;
     out.reach = glm::length(out.half) + out.radius;
     return out;
 }
 
 double width_across(const SolidShape& shape, const glm::dvec3& way)
 {
+    if (shape.solid.field)
+        return shape.size;
     const glm::dvec3 across = glm::sqrt(glm::max(1.0 - way * way, 0.0)) * shape.half;
     return shape.radius + std::max({across.x, across.y, across.z});
 }
 
 double depth_of(const SolidShape& shape, const TriangleCorners& element)
 {
+    if (shape.solid.field)
+        return depth_in_field(shape.solid, element);
     if (shape.radius > 0)
         return std::max(shape.radius - axis_triangle(shape.half, element), 0.0);
     if (!meets_box(shape.half, element))
@@ -239,6 +284,8 @@ double depth_of(const SolidShape& shape, const TriangleCorners& element)
 
 bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double edge)
 {
+    if (shape.solid.field)
+        return depth_in_field(shape.solid, element) > 0.5 * shape.size;
     if (shape.radius > 0)
         return shape.radius - axis_triangle(shape.half, element) > 0.5 * shape.radius;
     glm::dvec3 half(0);
@@ -253,6 +300,8 @@ bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double e
 
 std::vector<glm::dvec3> middle_points(const SolidShape& shape, double edge)
 {
+    if (shape.solid.field)
+        return shape.middle;
     constexpr int kMost = 32; // along one axis
     const glm::dvec3 half = inner_half(shape, edge);
     glm::ivec3 steps(0); // to either side
@@ -292,6 +341,8 @@ bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const 
 bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorners& before,
                        const TriangleCorners& after)
 {
+    if (shape.solid.field)
+        return false;
     const glm::dvec3 half = inner_half(shape, edge);
     if (half == glm::dvec3(0))
     {

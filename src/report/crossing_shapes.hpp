@@ -12,13 +12,16 @@ namespace taut {
 /// A triangle, or a link as one whose last two corners coincide.
 using TriangleCorners = std::array<glm::dvec3, 3>;
 
-/// A ball is a point, a capsule a segment along y, both with a radius round them; a box has no radius.
+/// A ball is a point, a capsule a segment along y, both with a radius round them; a box has no radius. A
+/// distance field is what it says: `half` is that of its grid.
 struct SolidShape
 {
     glm::dvec3 half{0};
     double radius = 0;
-    double size = 0;  ///< the smallest of the three half sizes
+    double size = 0;  ///< the smallest of the three half sizes; of a field how deep its deepest point lies
     double reach = 0; ///< from the centre to the furthest point
+    ColliderSolid solid;
+    std::vector<glm::dvec3> middle; ///< of a field: points deep within, further than `size` from each other
 };
 
 /// Of anything but a plane, which has no inside that an element between vertices outside could reach.
@@ -28,7 +31,7 @@ SolidShape solid_shape(const Collider& collider);
 double width_across(const SolidShape& shape, const glm::dvec3& way);
 
 /// Of the deepest point of an element below the surface; 0 of one that is outside. Of a box: to 1e-6 of its
-/// smallest half size.
+/// smallest half size; of a field: of 45 points of the element.
 double depth_of(const SolidShape& shape, const TriangleCorners& element);
 
 /// Whether an element lies deeper than half the smallest half size. With its vertices outside, that takes an
@@ -47,7 +50,8 @@ bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const 
 
 /// Whether a link that moves likewise goes through the middle of a collider, its axis. One that is a point,
 /// of a ball or a cube, is as good as the disc of half its size that the link comes upon flat; through the
-/// middle plane of a plate an end has to go. Axis and plane of a box end 1.5 `edge` before its rim.
+/// middle plane of a plate an end has to go. Axis and plane of a box end 1.5 `edge` before its rim. Of a
+/// field this is not asked: no.
 bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorners& before,
                        const TriangleCorners& after);
 

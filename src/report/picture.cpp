@@ -1,5 +1,6 @@
 #include "taut/report/picture.hpp"
 
+#include "taut/report/field_surface.hpp"
 #include "taut/report/image.hpp"
 #include "taut/report/picture_frame.hpp"
 #include "taut/scene/collider.hpp"
@@ -87,6 +88,19 @@ Surface cuboid_surface(const ColliderFrame& frame, const glm::dvec3& half)
             for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u})
                 out.triangles.push_back(first + k);
         }
+    return out;
+}
+
+Surface field_surface(const ColliderFrame& frame, const DistanceField& field)
+{
+    const FieldSurface found = surface_of(field);
+    Surface out;
+    out.finish = Finish::solid;
+    out.front = out.back = kSphere;
+    for (const glm::dvec3& p : found.positions)
+        out.positions.emplace_back(glm::vec3(frame.outside(p - field.middle())), 1.0f);
+    for (const auto& triangle : found.triangles)
+        out.triangles.insert(out.triangles.end(), triangle.begin(), triangle.end());
     return out;
 }
 
@@ -205,6 +219,8 @@ void Pictures::add_colliders(std::vector<Surface>& surfaces, const Scene& scene,
             if (glm::dot(frame.y, glm::dvec3(shot.camera.eye) - frame.centre) > 0)
                 surfaces.push_back(plane_surface(frame.centre, frame.y, shot));
         }
+        else if (solid.field)
+            surfaces.push_back(field_surface(frame, *solid.field));
         else if (solid.is_box())
             surfaces.push_back(cuboid_surface(frame, solid.half));
         else

@@ -36,7 +36,7 @@ void add_collider(std::vector<glm::dvec3>& points, const Collider& collider, dou
 {
     const ColliderFrame frame = frame_at(collider, time);
     const ColliderSolid solid = solid_of(collider);
-    if (solid.bounded && !solid.is_box())
+    if (solid.radius > 0)
         for (const double end : {-solid.half.y, solid.half.y})
             add_ball(points, frame.outside({0, end, 0}), solid.radius);
     else if (solid.bounded)

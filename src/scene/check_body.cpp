@@ -1,6 +1,7 @@
 // What takes more than one key of a body, its pins and springs, or a collider.
 
 #include "taut/scene/checker.hpp"
+#include "taut/scene/distance_field.hpp"
 #include "taut/scene/pin_words.hpp"
 
 #include <glm/geometric.hpp>
@@ -140,6 +141,14 @@ void check_axis(const glm::dvec3& axis, double degrees, const Checker& out)
 
 void check_collider(const Collider& collider, const Checker& out)
 {
+    if (collider.kind == ColliderKind::distance_field)
+    {
+        const std::string fault = collider.field ? fault_of(*collider.field) : "";
+        if (!fault.empty())
+            out.error("distance_field", fault);
+        if (!collider.field && collider.field_file.empty())
+            out.error("distance_field.file", "is empty; it must name a grid that `taut sdf` wrote");
+    }
     for (std::size_t i = 0; collider.kind == ColliderKind::plane && i < collider.motion.size(); ++i)
         if (collider.motion[i].rotate_degrees != 0)
             out.at("motion", i).error("rotate", "turns a plane; planes only translate so far");

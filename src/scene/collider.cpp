@@ -1,5 +1,7 @@
 #include "taut/scene/collider.hpp"
 
+#include "taut/scene/distance_field.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -52,6 +54,13 @@ ColliderFrame cuboid_frame(const Collider& c)
     return out;
 }
 
+ColliderFrame field_frame(const Collider& c)
+{
+    ColliderFrame out = cuboid_frame(c);
+    out.centre = out.outside(c.field ? c.field->middle() : glm::dvec3(0));
+    return out;
+}
+
 ColliderSolid plane_solid(const Collider&) { return {glm::dvec3(0), 0, false, false}; }
 ColliderSolid sphere_solid(const Collider& c) { return {glm::dvec3(0), c.radius, true, false}; }
 ColliderSolid capsule_solid(const Collider& c)
@@ -59,6 +68,10 @@ ColliderSolid capsule_solid(const Collider& c)
     return {{0, 0.5 * glm::length(c.end - c.point), 0}, c.radius, true, true};
 }
 ColliderSolid cuboid_solid(const Collider& c) { return {c.half_size, 0, true, true}; }
+ColliderSolid field_solid(const Collider& c)
+{
+    return {c.field ? c.field->half_size() : glm::dvec3(0), 0, true, true, c.field.get()};
+}
 
 /// By ColliderKind.
 constexpr struct
@@ -70,12 +83,23 @@ constexpr struct
     {at_point, sphere_solid},
     {capsule_frame, capsule_solid},
     {cuboid_frame, cuboid_solid},
+    {field_frame, field_solid},
 };
 static_assert(std::size(kGeometry) == kColliderKinds);
 
 } // namespace
 
 ColliderSolid solid_of(const Collider& c) { return kGeometry[static_cast<std::size_t>(c.kind)].solid(c); }
+
+double ColliderSolid::field_distance(const glm::dvec3& own) const
+{
+    return field->distance(field->middle() + own);
+}
+
+glm::dvec3 ColliderSolid::field_normal(const glm::dvec3& own) const
+{
+    return field->normal(field->middle() + own);
+}
 
 ColliderFrame rest_frame(const Collider& c) { return kGeometry[static_cast<std::size_t>(c.kind)].frame(c); }
 

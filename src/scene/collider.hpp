@@ -18,7 +18,8 @@ struct ColliderFrame
 };
 
 /// What a collider fills in its own frame: all points within `radius` of the box of half sizes `half`, which
-/// is a line along y in a capsule and a point in a ball. A plane fills what is below it.
+/// is a line along y in a capsule and a point in a ball. A plane fills what is below it; of a `field`, whose
+/// frame stands in the middle of its grid, `half` is the box round it.
 struct ColliderSolid
 {
     glm::dvec3 half{0};
@@ -26,7 +27,12 @@ struct ColliderSolid
     bool bounded = true;
     bool turns = true; ///< with its motion, as far as what touches it can tell: balls do not spin
 
-    bool is_box() const { return bounded && radius == 0; }
+    const DistanceField* field = nullptr; ///< the collider's own
+
+    bool is_box() const { return bounded && radius == 0 && !field; }
+    /// m and of length 1: of the `field` at a point of the frame.
+    double field_distance(const glm::dvec3& own) const;
+    glm::dvec3 field_normal(const glm::dvec3& own) const;
 };
 ColliderSolid solid_of(const Collider& collider);
 

@@ -33,14 +33,19 @@ void place(Scene& scene, const std::filesystem::path& file)
 void add_missing_files(const Scene& scene, const std::filesystem::path& directory,
                        std::vector<SceneIssue>& issues)
 {
+    const auto look = [&](const std::filesystem::path& file, const char* list, std::size_t number) {
+        if (std::error_code ignored; !file.empty() && !std::filesystem::exists(directory / file, ignored))
+            issues.push_back({true, list + ("[" + std::to_string(number) + "]"),
+                              "names " + file.string() + "; there is no such file (looked for " +
+                                  (directory / file).string() + ")",
+                              ErrorCode::io});
+    };
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
         for (const std::filesystem::path& file :
              {scene.bodies[b].shape.file, scene.bodies[b].embedded_file})
-            if (std::error_code ignored; !file.empty() && !std::filesystem::exists(directory / file, ignored))
-                issues.push_back({true, "bodies[" + std::to_string(b) + "]",
-                                  "names " + file.string() + "; there is no such file (looked for " +
-                                      (directory / file).string() + ")",
-                                  ErrorCode::io});
+            look(file, "bodies", b);
+    for (std::size_t c = 0; c < scene.colliders.size(); ++c)
+        look(scene.colliders[c].field_file, "colliders", c);
 }
 
 } // namespace

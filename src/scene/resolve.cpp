@@ -2,6 +2,7 @@
 
 #include "taut/scene/check_size.hpp"
 #include "taut/scene/checker.hpp"
+#include "taut/scene/distance_field.hpp"
 #include "taut/scene/embedding.hpp"
 #include "taut/scene/kinematic.hpp"
 #include "taut/scene/membrane.hpp"
@@ -282,6 +283,20 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
         scene_file::check_counts(body, body.mesh.positions.size(), out);
 }
 
+void read_field(Collider& collider, const std::filesystem::path& directory, const Checker& out)
+{
+    if (collider.kind != ColliderKind::distance_field || collider.field)
+        return;
+    attempt("distance_field.file", out, [&] {
+        DistanceField field = read_distance_field(directory / collider.field_file);
+        field.low *= collider.field_scale;
+        field.cell *= collider.field_scale;
+        for (float& value : field.values)
+            value = static_cast<float>(value * collider.field_scale);
+        collider.field = std::make_shared<const DistanceField>(std::move(field));
+    });
+}
+
 } // namespace
 
 bool resists_bending(const Material& material)
@@ -305,6 +320,8 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
     throw_if_any(issues, found);
     Scene resolved = scene;
     const Checker out(issues);
+    for (std::size_t c = 0; c < resolved.colliders.size(); ++c)
+        read_field(resolved.colliders[c], scene.directory, out.at("colliders", c));
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
         Body& body = resolved.bodies[b];

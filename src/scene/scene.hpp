@@ -239,21 +239,29 @@ enum class ColliderKind
     plane,
     sphere,
     capsule,
-    cuboid // the last one
+    cuboid,
+    distance_field // the last one
 };
-inline constexpr std::size_t kColliderKinds = static_cast<std::size_t>(ColliderKind::cuboid) + 1;
+inline constexpr std::size_t kColliderKinds = static_cast<std::size_t>(ColliderKind::distance_field) + 1;
+
+struct DistanceField; // distance_field.hpp
 
 struct Collider
 {
     std::string name;
     ColliderKind kind = ColliderKind::sphere;
-    glm::dvec3 point{0}; ///< plane: a point on it; sphere, cuboid: centre; capsule: one end of its axis, m
+    /// m. Plane: a point on it; sphere, cuboid: centre; capsule: one end of its axis; distance_field: where
+    /// the origin of its file lies.
+    glm::dvec3 point{0};
     glm::dvec3 normal{0, 1, 0};      ///< plane: towards the free side
     double radius = 0.5;             ///< sphere, capsule, m, > 0
     glm::dvec3 end{0, 1, 0};         ///< capsule: the other end of its axis, m
     glm::dvec3 half_size{0.5};       ///< cuboid: half the edges, m, > 0
-    glm::dvec3 rotate_axis{0, 1, 0}; ///< cuboid: turned about its centre
+    glm::dvec3 rotate_axis{0, 1, 0}; ///< cuboid: turned about its centre; distance_field: about its origin
     double rotate_degrees = 0;
+    std::filesystem::path field_file; ///< distance_field: read by resolve(), scaled, where `field` is null
+    double field_scale = 1;           ///< > 0
+    std::shared_ptr<const DistanceField> field;
     double friction = 0; ///< Coulomb coefficient, >= 0; 0 = no friction effect
     std::vector<Keyframe> motion;
     /// Set by a World whose program moves the collider: `motion` is then that of the last step alone, and the

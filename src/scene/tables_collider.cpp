@@ -9,6 +9,7 @@ extern const TableOf<Collider> kPlaneTable;
 extern const TableOf<Collider> kSphereTable;
 extern const TableOf<Collider> kCapsuleTable;
 extern const TableOf<Collider> kCuboidTable;
+extern const TableOf<Collider> kDistanceFieldTable;
 
 namespace {
 
@@ -36,6 +37,8 @@ constexpr Key kCollider[] = {
     shape<ColliderKind::sphere>("sphere", "a ball", kSphereTable),
     shape<ColliderKind::capsule>("capsule", "all points near a line", kCapsuleTable),
     shape<ColliderKind::cuboid>("cuboid", "a box, turned as you like", kCuboidTable),
+    shape<ColliderKind::distance_field>("distance_field", "any closed surface, by a grid of distances to it",
+                                        kDistanceFieldTable),
     key<&Collider::friction>("friction", "Coulomb's coefficient; 0: no friction effect")
         .unit("(Coulomb coefficient)")
         .at_least(0),
@@ -44,7 +47,8 @@ constexpr Key kCollider[] = {
 
 constexpr Stranger kStrangeToColliders[] = {
     {"mesh",
-     "a mesh that bodies run into is one of the bodies: {\"mesh\": \"torso.obj\", \"kinematic\": {}}"},
+     "a mesh that bodies run into is one of the bodies: {\"mesh\": \"torso.obj\", \"kinematic\": {}}; or "
+     "`taut sdf` makes a \"distance_field\" of it"},
 };
 
 constexpr Key kPlane[] = {
@@ -68,6 +72,15 @@ constexpr Key kCuboid[] = {
     object("rotate", "about the centre", kColliderRotateTable),
 };
 
+constexpr Key kDistanceField[] = {
+    key<&Collider::field_file>(
+        "file", "the grid, as `taut sdf` and SDFGen write it; the path is relative to the scene file")
+        .needed(),
+    key<&Collider::point>("origin", "where the origin of the file lies").unit("m"),
+    key<&Collider::field_scale>("scale", "of the file's lengths; 0.01 for centimetres").above(0),
+    object("rotate", "about the origin of the file", kColliderRotateTable),
+};
+
 } // namespace
 
 constinit const TableOf<Collider> kColliderTable = TableOf<Collider>("collider", kCollider)
@@ -78,10 +91,12 @@ constinit const TableOf<Collider> kPlaneTable("plane", kPlane);
 constinit const TableOf<Collider> kSphereTable("sphere", kSphere);
 constinit const TableOf<Collider> kCapsuleTable("capsule", kCapsule);
 constinit const TableOf<Collider> kCuboidTable("cuboid", kCuboid);
+constinit const TableOf<Collider> kDistanceFieldTable("distance_field", kDistanceField);
 
 std::span<const Table* const> shape_tables()
 {
-    static constexpr const Table* tables[] = {&kPlaneTable, &kSphereTable, &kCapsuleTable, &kCuboidTable};
+    static constexpr const Table* tables[] = {&kPlaneTable, &kSphereTable, &kCapsuleTable, &kCuboidTable,
+                                              &kDistanceFieldTable};
     return tables;
 }
 

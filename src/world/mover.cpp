@@ -64,8 +64,9 @@ std::vector<glm::dvec3> collider_corners(const Collider& collider, double diamet
     const ColliderSolid solid = solid_of(collider);
     const ColliderFrame rest = rest_frame(collider);
     // A line along y keeps its ends, a box the ball round it.
-    const glm::dvec3 along = solid.is_box() ? glm::dvec3(0) : glm::abs(rest.y * solid.half.y);
-    const double size = !solid.bounded ? diameter : solid.is_box() ? glm::length(solid.half) : solid.radius;
+    const bool line = solid.radius > 0;
+    const glm::dvec3 along = line ? glm::abs(rest.y * solid.half.y) : glm::dvec3(0);
+    const double size = !solid.bounded ? diameter : line ? solid.radius : glm::length(solid.half);
     return box_corners(rest.centre - along - size, rest.centre + along + size);
 }
 

@@ -185,6 +185,7 @@ inline constexpr Tolerance kTolerances[] = {
     {"wind", 4, "a product and a sum; up to some forty impulses in a fixed order, against their sizes"},
     {"collide_capsule", 4, "as sphere, seen from a frame: three products a coordinate, there and back"},
     {"collide_cuboid", 4, "as plane, seen from a frame: three products a coordinate, there and back"},
+    {"collide_distance_field", 4, "as capsule; eight values in three steps, six of these for a gradient"},
     {"spmv_csr", 4, "a product and a sum an entry; the scale is the sum of all terms' sizes, see above"},
     {"spmv_csr_long", 4, "as spmv_csr, in 128 sums and a tree"},
     {"spmv_ell", 4, "as spmv_csr"},

@@ -3,7 +3,10 @@
 // whose last bit depends on the C library (no rotations; damping only in float), so that the hashes hold on
 // other machines.
 
+#include "taut/scene/distance_field.hpp"
 #include "taut/scene/scene.hpp"
+
+#include <glm/geometric.hpp>
 
 #include <limits>
 #include <map>
@@ -48,6 +51,24 @@ inline Scene drape()
     ball.friction = 0.4;
     scene.colliders = {ball};
     scene.damping = 0.5;
+    return scene;
+}
+
+/// The same on a ball by its distance field.
+inline Scene field()
+{
+    Scene scene = drape();
+    DistanceField grid;
+    grid.points = {17, 18, 19};
+    grid.low = {-0.5, -0.53125, -0.5625};
+    grid.cell = 0.0625;
+    for (std::size_t k = 0; k < 19; ++k)
+        for (std::size_t j = 0; j < 18; ++j)
+            for (std::size_t i = 0; i < 17; ++i)
+                grid.values.push_back(static_cast<float>(glm::length(grid.place(i, j, k)) - 0.3));
+    Collider& ball = scene.colliders[0];
+    ball.kind = ColliderKind::distance_field;
+    ball.field = std::make_shared<const DistanceField>(std::move(grid));
     return scene;
 }
 

@@ -190,6 +190,7 @@ inline std::map<std::string, Scene> scenes()
                                            {"jelly", jelly("xpbd", "tetrahedra")},
                                            {"hanging", hanging()},
                                            {"drape", drape()},
+                                           {"field", field()},
                                            {"chain", chain()},
                                            {"busy", busy()},
                                            {"star", star()},

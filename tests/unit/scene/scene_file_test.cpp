@@ -205,8 +205,8 @@ TEST_CASE("a missing or doubled choice is refused")
                Contains("bodies[0] has both \"grid\" and \"mesh\""));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"weld_distance\": 0"),
                Contains("weld_distance stands beside \"grid\""));
-    CHECK_THAT(refusal_of("\"colliders\": [{}]"),
-               Contains("colliders[0] needs one of \"plane\", \"sphere\", \"capsule\" or \"cuboid\""));
+    CHECK_THAT(refusal_of("\"colliders\": [{}]"), Contains("colliders[0] needs one of \"plane\", \"sphere\", "
+                                                           "\"capsule\", \"cuboid\" or \"distance_field\""));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"springs\": [{\"a\": 0, \"b\": 1}]"),
                Contains("bodies[0].springs[0] lacks the key \"rest_length\""));
     CHECK_THAT(refusal_of_body("\"grid\": {}, \"pins\": [{\"box\": {\"min\": [0,0,0]}}]"),

@@ -1,0 +1,61 @@
+// taut sdf
+
+#include "cli/program.hpp"
+#include "support/catch.hpp"
+
+#include <nlohmann/json.hpp>
+
+using program::Folder;
+using program::Result;
+
+namespace {
+
+const char* const kCube = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                          "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+} // namespace
+
+TEST_CASE("sdf writes a grid that a scene runs with")
+{
+    const Folder folder;
+    const std::string cube = folder.file("cube.obj", kCube);
+    const Result made = folder.taut({"sdf", cube, "--cells", "8", "--margin", "0.25", "--json"});
+    CHECK(made.status == 0);
+    const auto said = nlohmann::json::parse(made.out);
+    CHECK(said["points"] == nlohmann::json({13, 13, 13}));
+    CHECK(said["cell"] == 0.125);
+    CHECK(said["depth"] == 0.5);
+    CHECK(std::filesystem::exists(folder / "cube.sdf"));
+    folder.file("scene.json",
+                R"({"taut": 1, "duration": 0.5, "bodies": [{"name": "s", "grid": {"cells": [8, 8]},
+        "material": {"thickness": 0.01},
+        "transform": {"translate": [0.5, 1.1, 0.5], "rotate": {"axis": [1, 0, 0], "degrees": -90}}}],
+        "colliders": [{"distance_field": {"file": "cube.sdf"}}]})");
+    const Result run = folder.taut({"run", "scene.json", "--device", "cpu", "--no-picture", "--json"});
+    CAPTURE(run.err);
+    CHECK(run.status == 0);
+}
+
+TEST_CASE("sdf says what it does not take, and leaves nothing behind")
+{
+    const Folder folder;
+    const std::string cube = folder.file("cube.obj", kCube);
+    const std::string open = folder.file("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto refused = [&](const std::vector<std::string>& words, const std::string& why) {
+        const Result result = folder.taut(words);
+        CAPTURE(result.err, why);
+        CHECK(result.status == 2);
+        CHECK(result.err.find(why) != std::string::npos);
+    };
+    refused({"sdf", "none.obj"}, "none.obj");
+    refused({"sdf", open}, "encloses no volume");
+    refused({"sdf", cube, "--cells", "0"}, "--cells");
+    refused({"sdf", cube, "--cell", "0"}, "--cell");
+    refused({"sdf", cube, "--cell", "1e-6"}, "2^28");
+    refused({"sdf", cube, "--cell", "0.1", "--cells", "3"}, "--cell");
+    refused({"sdf", cube, "--margin", "-1"}, "--margin");
+    refused({"sdf", cube, "--out", "cube.obj"}, "the surface itself");
+    refused({"sdf", cube, "--out", "no/cube.sdf"}, "no/cube.sdf");
+    refused({"sdf", cube, "--cell", "3"}, "nothing is inside");
+    CHECK_FALSE(std::filesystem::exists(folder / "cube.sdf"));
+}
