@@ -10,13 +10,13 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 set(taut_public_headers
     elements/element.hpp
     scene/scene.hpp scene/contact.hpp scene/fabric.hpp scene/fabric_readings.hpp scene/method_kind.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
-    scene/frame_source.hpp
+    scene/frame_source.hpp scene/distance_field.hpp
     plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/plate_hinges.hpp plan/solid.hpp plan/surface.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp
     linear/device_matrix.hpp linear/stencil.hpp linear/preconditioner.hpp linear/aggregation.hpp linear/multigrid.hpp
     linear/cg.hpp linear/small.hpp linear/solve.hpp
     world/world.hpp world/program_moves.hpp world/program_motion.hpp world/mover.hpp world/hybrid.hpp world/sleep.hpp
-    judge/judge.hpp judge/surface.hpp judge/distance.hpp judge/exact.hpp judge/linking.hpp judge/swept.hpp
+    judge/judge.hpp judge/box_tree.hpp judge/mesh_distance.hpp judge/surface.hpp judge/distance.hpp judge/exact.hpp judge/linking.hpp judge/swept.hpp
     report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp
     report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp
     report/gas.hpp report/energy_budget.hpp report/soundness.hpp)

@@ -7,9 +7,10 @@
 //   passed; the gradient is that of differences over a cell, which does not jump between cells.
 //
 // In the frame of the grid, which may move and turn, the vertex goes from `a` to `e`, taken as a straight
-// way. If `e` lies inside on the side where the vertex came in, within some 70 degrees, the distance there
-// decides; if the way enters and ends on another side (round an edge of a box, too) or outside again, the
-// point of entry does.
+// way. From outside: if `e` lies inside on the side where the vertex came in, within some 70 degrees, the
+// distance there decides; if the way enters and ends on another side (round an edge of a box, too) or outside
+// again, the point of entry does. Of ways below half a cell sides are no matter. From inside: the plane below
+// `a` that phi says decides, so that the way out of the shape is as limited as it is out of a box.
 //! collider each_substep values
 #include "shared/turned.glsl"
 
@@ -64,13 +65,13 @@ rvec3 out_of_field(DistanceFieldCollider c, rvec3 p)
     return SELECT(size > real(0), slope / size, rvec3(real(0), real(1), real(0)));
 }
 
-/// When the way from a comes to where phi is gap_kept, from outside; 2 = not before its end.
+/// When the way from a, outside, comes to where phi is gap_kept; 2 = not before its end.
 real entry_into(DistanceFieldCollider c, rvec3 a, rvec3 travel, real before, real gap_kept)
 {
     real size = length(travel);
     real outside = real(0), t = real(0), last = before, height = before;
     bool enters = false;
-    for (uint s = 0u; s < 32u && !enters && t < real(1) && size > real(0); ++s)
+    for (uint s = 0u; s < 32u && !enters && t < real(1); ++s)
     {
         outside = t;
         last = height;
@@ -104,12 +105,14 @@ INLINE Contact distance_field_contact(DistanceFieldCollider c, DistanceFieldColl
     met.before = distance_at(c, a) - gap_kept;
     met.gap = distance_at(c, e) - gap_kept;
     rvec3 own = rvec3(real(0), real(1), real(0));
+    real size = length(travel);
     // Further off nothing is met, and the normal is of no matter.
-    bool near = min(met.before, met.gap) < length(travel) + c.cell;
+    bool near = min(met.before, met.gap) < size + c.cell;
     if (near)
-        own = out_of_field(c, e);
-    // A rounding inside counts as outside: a vertex at rest on the surface is there as often.
-    if (near && met.before >= real(-1e-3) * c.cell)
+        own = out_of_field(c, met.before > real(0) ? e : a);
+    if (near && met.before <= real(0))
+        met.gap = met.before + dot(own, travel);
+    else if (near && size > real(0.5) * c.cell)
     {
         real entry = entry_into(c, a, travel, met.before, gap_kept);
         rvec3 meets = a + travel * min(entry, real(1));

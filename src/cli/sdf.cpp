@@ -11,6 +11,7 @@
 #include "taut/version.hpp"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -70,8 +71,31 @@ void check_points(const glm::dvec3& extent, double cell, double margin)
                                               " points; there may be 2^28. Take larger cells, or fewer.");
 }
 
-void show(const SdfCommand& command, const fs::path& out, const DistanceField& field)
+/// Share of the area whose triangles have nothing inside them in the grid, a quarter of a cell below their
+/// middle: parts that are thinner than cells.
+double lost_share(const Mesh& surface, const DistanceField& field)
 {
+    double lost = 0, all = 0;
+    for (const auto& t : surface.triangles)
+    {
+        const glm::dvec3 &a = surface.positions[t[0]], &b = surface.positions[t[1]],
+                         &c = surface.positions[t[2]];
+        const glm::dvec3 normal = glm::cross(b - a, c - a);
+        const double area = glm::length(normal);
+        all += area;
+        if (area > 0 && field.distance((a + b + c) / 3.0 - 0.25 * field.cell / area * normal) >= 0)
+            lost += area;
+    }
+    return lost / all;
+}
+
+constexpr double kLost = 0.002; ///< what sharp edges may lose without a warning
+
+void show(const SdfCommand& command, const fs::path& out, const DistanceField& field, double lost)
+{
+    if (lost > kLost)
+        warn("the grid has lost what lies below " + shown(100 * lost, 2) +
+             " % of the surface: parts thinner than its cells. Smaller cells (--cells, --cell) keep them.");
     if (command.json)
     {
         std::cout << to_text({{"taut", TAUT_VERSION},
@@ -80,7 +104,8 @@ void show(const SdfCommand& command, const fs::path& out, const DistanceField& f
                               {"points", field.points},
                               {"low", {field.low.x, field.low.y, field.low.z}},
                               {"cell", field.cell},
-                              {"depth", field.depth()}});
+                              {"depth", field.depth()},
+                              {"lost", lost}});
         return;
     }
     std::cout << out.string() << ": " << field.points[0] << " x " << field.points[1] << " x "
@@ -104,10 +129,11 @@ int make_sdf(const SdfCommand& command)
     if (const std::string fault = fault_of(field); !fault.empty())
         throw Error(ErrorCode::bad_input,
                     command.surface + ": its grid " + fault +
-                        ". Smaller cells (--cells, --cell) may help; a surface that cuts "
-                        "itself has no inside.");
+                        ". Lengths are in the file's unit. Smaller cells (--cells, --cell) or a larger "
+                        "--margin may help; a part that is wound inwards, and a surface that cuts itself, "
+                        "have no inside.");
     write_distance_field(out, field);
-    show(command, out, field);
+    show(command, out, field, lost_share(surface, field));
     return kDone;
 }
 

@@ -1,6 +1,6 @@
 // Based on: Baerentzen, Aanaes. Signed distance computation using the angle weighted pseudonormal. IEEE TVCG
-// 2005: the
-//   sign is that of the way from the nearest point along the normal of the feature on which that lies.
+//   2005: the sign is that of the way from the nearest point along the normal of the feature on which it
+//   lies.
 // Departures: none.
 
 #include "taut/judge/mesh_distance.hpp"
@@ -12,14 +12,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <thread>
 #include <utility>
 
 namespace taut::judging {
 namespace {
-
-using Corners = std::array<glm::dvec3, 3>;
 
 std::vector<Box> boxes_of(std::span<const std::array<std::uint32_t, 3>> triangles,
                           std::span<const glm::dvec3> positions)

@@ -9,6 +9,8 @@
 #include "taut/kernels/shared/layouts.h"
 
 #include <array>
+#include <map>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -90,7 +92,16 @@ void fill(layout::DistanceFieldCollider<Real>& out, const Collider& c, double at
     out.count_z = c.field->points[2];
 }
 
-std::size_t value_count(const Collider& c) { return c.field ? c.field->values.size() : 0; }
+/// Where the values of each field begin among those of all: of one that several colliders have, once.
+std::map<const DistanceField*, std::uint32_t> first_values(const Scene& scene)
+{
+    std::map<const DistanceField*, std::uint32_t> out;
+    std::size_t first = 0; // resolve() has counted them
+    for (const Collider& c : scene.colliders)
+        if (c.field && out.emplace(c.field.get(), static_cast<std::uint32_t>(first)).second)
+            first += c.field->values.size();
+    return out;
+}
 
 template <typename Record>
 void append(ColliderShape::Records& out, const Collider& collider, double from, double to,
@@ -106,11 +117,12 @@ void append(ColliderShape::Records& out, const Collider& collider, double from, 
 }
 
 template <template <typename> typename Record>
-constexpr ColliderShape shape(std::string_view name, std::string_view kernel, bool poses)
+constexpr ColliderShape shape(std::string_view name, std::string_view kernel, bool poses, bool values = false)
 {
     return {name,
             kernel,
             poses,
+            values,
             sizeof(Record<float>),
             sizeof(Record<double>),
             append<Record<float>>,
@@ -123,7 +135,7 @@ constexpr ColliderShape kShapes[] = {
     shape<layout::SphereCollider>("sphere", "collide_sphere", false),
     shape<layout::CapsuleCollider>("capsule", "collide_capsule", true),
     shape<layout::CuboidCollider>("cuboid", "collide_cuboid", true),
-    shape<layout::DistanceFieldCollider>("distance_field", "collide_distance_field", true),
+    shape<layout::DistanceFieldCollider>("distance_field", "collide_distance_field", true, true),
 };
 static_assert(std::size(kShapes) == kColliderKinds);
 
@@ -137,25 +149,21 @@ ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, P
     const ColliderShape& shape = collider_shape(kind);
     const auto append = precision == Precision::float64 ? shape.append_double : shape.append_float;
     ColliderShape::Records out;
+    const auto first = first_values(scene);
     for (std::uint32_t s = 0; s < shape.copies(substeps); ++s)
-    {
-        std::size_t first = 0;
         for (const Collider& c : scene.colliders)
             if (c.kind == kind)
-            {
                 append(out, c, s == substeps ? to : from + scene.timestep * s / substeps, to,
-                       static_cast<std::uint32_t>(first));
-                first += value_count(c);
-            }
-    }
+                       c.field ? first.at(c.field.get()) : 0);
     return out;
 }
 
-std::vector<float> collider_values(const Scene& scene, ColliderKind kind)
+std::vector<float> collider_values(const Scene& scene)
 {
     std::vector<float> out;
+    std::set<const DistanceField*> seen;
     for (const Collider& c : scene.colliders)
-        if (c.kind == kind && c.field)
+        if (c.field && seen.insert(c.field.get()).second)
             out.insert(out.end(), c.field->values.begin(), c.field->values.end());
     return out;
 }

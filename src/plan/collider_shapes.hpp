@@ -25,6 +25,7 @@ struct ColliderShape
     /// Shapes that turn have a record of the start of each substep in turn, and one of the end of the last;
     /// of others one record holds the whole time step.
     bool poses = false;
+    bool values = false; ///< with a buffer of numbers, collider_values()
     std::uint32_t bytes_float = 0, bytes_double = 0; ///< of one record
     Append append_float = nullptr, append_double = nullptr;
 
@@ -34,8 +35,8 @@ struct ColliderShape
 
 const ColliderShape& collider_shape(ColliderKind kind);
 
-/// The values of all colliders of a kind, one after the other; empty of most kinds.
-std::vector<float> collider_values(const Scene& scene, ColliderKind kind);
+/// The values of the distance fields of a resolved scene, one after the other, each once.
+std::vector<float> collider_values(const Scene& scene);
 
 /// The records of all colliders of a kind for the time step between two times, s.
 ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, Precision precision,

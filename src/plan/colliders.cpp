@@ -39,28 +39,31 @@ void prepare(PlanBuilder& b)
         b.add_buffer(shape.name, std::string(shape.name) + "s", records * shape.bytes(b.plan.precision));
     b.plan.buffers[id].host_written = true;
     b.plan.colliders[static_cast<std::size_t>(Kind)] = id;
-    if (const std::vector<float> values = collider_values(b.scene, Kind); !values.empty())
+    if (shape.values)
         with_real(b.plan.precision, [&](auto zero) {
-            const std::vector<decltype(zero)> all(values.begin(), values.end());
+            const std::vector<float> given = collider_values(b.scene);
+            const std::vector<decltype(zero)> all(given.begin(), given.end());
             b.collider_values[static_cast<std::size_t>(Kind)] =
                 b.add_buffer(shape.name, "values of " + std::string(shape.name) + "s", std::span(all));
         });
 }
 
-constexpr std::uint32_t kCornersOfCell = 8; ///< of the values, read where a vertex is far from the surface
+/// Of the values, read of a vertex that is far from the surface: at both ends of its way.
+constexpr std::uint32_t kFarValues = 16;
 
 /// Kernels of all shapes have one interface; that with values is the widest.
 void record(PlanBuilder& b, const Moment& moment, ColliderKind kind)
 {
     const auto row = static_cast<std::size_t>(kind);
     const std::uint32_t colliders = collider_count(b.scene, kind);
-    const kernels::collide_distance_field::Bindings<Use> uses = {.position = {b.plan.position},
-                                                        .delta = {b.plan.delta},
-                                                        .collider = {b.plan.colliders[row], 0},
-                                                        .step_values = {b.plan.step_values, 0},
-                                                        .events = {b.plan.events, 0},
-                                                        .values = {b.collider_values[row], kCornersOfCell},
-                                                        .contact = {b.friction_taken[row], colliders}};
+    const kernels::collide_distance_field::Bindings<Use> uses = {
+        .position = {b.plan.position},
+        .delta = {b.plan.delta},
+        .collider = {b.plan.colliders[row], 0},
+        .step_values = {b.plan.step_values, 0},
+        .events = {b.plan.events, 0},
+        .values = {b.collider_values[row], kFarValues},
+        .contact = {b.friction_taken[row], colliders}};
     const bool kept = uses.contact.is_set();
     const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";
     b.dispatch_by_name(

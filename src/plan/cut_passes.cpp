@@ -55,6 +55,7 @@ constexpr std::pair<std::string_view, Each> kBindings[] = {
     {"step_values", Each::whole},
     {"events", Each::whole},
     {"collider", Each::whole},
+    {"values", Each::whole},
 };
 
 [[noreturn]] void refuse(const Dispatch& pass)

@@ -198,37 +198,19 @@ bool pierces(const glm::dvec3& half, int normal, const glm::dvec3& before, const
     return true;
 }
 
-/// In the grid of a field, one after the other; none within `size` of another, 64 at most.
-std::vector<glm::dvec3> deep_points(const DistanceField& field, double size)
+double across_box(const glm::dvec3& half, const glm::dvec3& way)
 {
-    constexpr double kDeep = 0.7; // of the deepest: what goes through here does not graze
-    constexpr std::size_t kMost = 64;
-    std::vector<glm::dvec3> out;
-    for (std::size_t k = 0; k < field.points[2]; ++k)
-        for (std::size_t j = 0; j < field.points[1]; ++j)
-            for (std::size_t i = 0; i < field.points[0] && out.size() < kMost; ++i)
-            {
-                if (-field.values[field.index(i, j, k)] < kDeep * size)
-                    continue;
-                const glm::dvec3 p = field.place(i, j, k) - field.middle();
-                if (std::all_of(out.begin(), out.end(),
-                                [&](const glm::dvec3& q) { return glm::distance(p, q) > size; }))
-                    out.push_back(p);
-            }
-    return out;
+    const glm::dvec3 across = glm::sqrt(glm::max(1.0 - way * way, 0.0)) * half;
+    return std::max({across.x, across.y, across.z});
 }
 
-double depth_in_field(const ColliderSolid& solid, const TriangleCorners& t)
+/// Whether a link goes through what stands for a ball of half size `size`: the disc that it comes upon flat.
+bool link_goes_through_ball(double size, const TriangleCorners& before, const TriangleCorners& after)
 {
-    constexpr int kParts = 8;
-    double depth = 0;
-    for (int i = 0; i <= kParts; ++i)
-        for (int j = 0; j <= kParts - i; ++j)
-        {
-            const double a = double(i) / kParts, b = double(j) / kParts;
-            depth = std::max(depth, -solid.field_distance(a * t[0] + b * t[1] + (1 - a - b) * t[2]));
-        }
-    return depth;
+    const glm::dvec3 along = before[1] - before[0] + after[1] - after[0];
+    const glm::dvec3 across = glm::cross(along, after[0] - before[0] + after[1] - before[1]);
+    const double length = glm::length(across);
+    return length > 0 && crosses(0.5 * size / length * across, before, after);
 }
 
 /// Half sizes less what is near a rim: of a box, by as much as its thinnest or 1.5 edges.
@@ -250,7 +232,7 @@ SolidShape solid_shape(const Collider& collider)
     if (solid.field)
     {
         out.size = solid.field->depth();
-        out.middle = deep_points(*solid.field, out.size);
+        out.deep = deep_points(*solid.field);
     }
     out.solid = solid;
     out.reach = glm::length(out.half) + out.radius;
@@ -259,16 +241,18 @@ SolidShape solid_shape(const Collider& collider)
 
 double width_across(const SolidShape& shape, const glm::dvec3& way)
 {
-    if (shape.solid.field)
-        return shape.size;
-    const glm::dvec3 across = glm::sqrt(glm::max(1.0 - way * way, 0.0)) * shape.half;
-    return shape.radius + std::max({across.x, across.y, across.z});
+    if (!shape.solid.field)
+        return shape.radius + across_box(shape.half, way);
+    double width = glm::length(shape.half);
+    for (const DeepPoint& p : shape.deep)
+        width = std::min(width, across_box(p.half, way));
+    return width;
 }
 
 double depth_of(const SolidShape& shape, const TriangleCorners& element)
 {
     if (shape.solid.field)
-        return depth_in_field(shape.solid, element);
+        return depth_in_field(*shape.solid.field, element);
     if (shape.radius > 0)
         return std::max(shape.radius - axis_triangle(shape.half, element), 0.0);
     if (!meets_box(shape.half, element))
@@ -285,7 +269,7 @@ double depth_of(const SolidShape& shape, const TriangleCorners& element)
 bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double edge)
 {
     if (shape.solid.field)
-        return depth_in_field(shape.solid, element) > 0.5 * shape.size;
+        return lies_deep_in_field(*shape.solid.field, shape.deep, element);
     if (shape.radius > 0)
         return shape.radius - axis_triangle(shape.half, element) > 0.5 * shape.radius;
     glm::dvec3 half(0);
@@ -301,7 +285,12 @@ bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double e
 std::vector<glm::dvec3> middle_points(const SolidShape& shape, double edge)
 {
     if (shape.solid.field)
-        return shape.middle;
+    {
+        std::vector<glm::dvec3> places;
+        for (const DeepPoint& p : shape.deep)
+            places.push_back(p.place);
+        return places;
+    }
     constexpr int kMost = 32; // along one axis
     const glm::dvec3 half = inner_half(shape, edge);
     glm::ivec3 steps(0); // to either side
@@ -341,16 +330,18 @@ bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const 
 bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorners& before,
                        const TriangleCorners& after)
 {
+    const auto from = [](TriangleCorners t, const glm::dvec3& origin) {
+        for (glm::dvec3& corner : t)
+            corner -= origin;
+        return t;
+    };
     if (shape.solid.field)
-        return false;
+        return std::any_of(shape.deep.begin(), shape.deep.end(), [&](const DeepPoint& p) {
+            return link_goes_through_ball(p.depth, from(before, p.place), from(after, p.place));
+        });
     const glm::dvec3 half = inner_half(shape, edge);
     if (half == glm::dvec3(0))
-    {
-        const glm::dvec3 along = before[1] - before[0] + after[1] - after[0];
-        const glm::dvec3 across = glm::cross(along, after[0] - before[0] + after[1] - before[1]);
-        const double length = glm::length(across);
-        return length > 0 && crosses(0.5 * shape.size / length * across, before, after);
-    }
+        return link_goes_through_ball(shape.size, before, after);
     int thinnest = 0;
     for (int k = 0; k < 3; ++k)
     {

@@ -2,6 +2,7 @@
 // Elements of a mesh against the inside of colliders, of which the methods know only the vertices. Pure
 // functions in fp64; all points are in the frame of the collider, m.
 
+#include "taut/report/field_middle.hpp"
 #include "taut/scene/collider.hpp"
 
 #include <array>
@@ -20,8 +21,8 @@ struct SolidShape
     double radius = 0;
     double size = 0;  ///< the smallest of the three half sizes; of a field how deep its deepest point lies
     double reach = 0; ///< from the centre to the furthest point
-    ColliderSolid solid;
-    std::vector<glm::dvec3> middle; ///< of a field: points deep within, further than `size` from each other
+    ColliderSolid solid;         ///< of a field: to be used while the collider has it
+    std::vector<DeepPoint> deep; ///< of a field
 };
 
 /// Of anything but a plane, which has no inside that an element between vertices outside could reach.
@@ -37,7 +38,8 @@ double depth_of(const SolidShape& shape, const TriangleCorners& element);
 /// Whether an element lies deeper than half the smallest half size. With its vertices outside, that takes an
 /// edge longer than 1.5 radii of a ball or a capsule, 1.4 half sizes of a cube. A box may be thinner than
 /// the cloth's edges, which then cut through it where cloth is laid over its rim: within 1.5 `edge` of a
-/// rim nothing counts. `edge`: the longest of the body at rest, m.
+/// rim nothing counts. Of a field half of how deep the nearest deep point lies. `edge`: the longest of the
+/// body at rest, m.
 bool lies_deep(const SolidShape& shape, const TriangleCorners& element, double edge);
 
 /// Points in the middle of a collider, closer to each other than its size: centre, axis, or middle plane
@@ -50,8 +52,8 @@ bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const 
 
 /// Whether a link that moves likewise goes through the middle of a collider, its axis. One that is a point,
 /// of a ball or a cube, is as good as the disc of half its size that the link comes upon flat; through the
-/// middle plane of a plate an end has to go. Axis and plane of a box end 1.5 `edge` before its rim. Of a
-/// field this is not asked: no.
+/// middle plane of a plate an end has to go. Axis and plane of a box end 1.5 `edge` before its rim. A field
+/// is as a ball at each of its deep points.
 bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorners& before,
                        const TriangleCorners& after);
 

@@ -1,6 +1,6 @@
 // Based on: Doi, Koide. An efficient method of triangulating equi-valued surfaces by using tetrahedral cells.
-// IEICE
-//   Transactions 74, 1991 (marching tetrahedra; six of them round a cell's diagonal, as Kuhn cut the cube).
+//   IEICE Transactions 74, 1991 (marching tetrahedra; six of them round a cell's diagonal, as Kuhn cut the
+//   cube).
 // Departures: none.
 
 #include "taut/report/field_surface.hpp"
@@ -70,35 +70,41 @@ private:
     void march_cell(std::size_t i, std::size_t j, std::size_t k)
     {
         const std::size_t cell = field_.index(i, j, k);
-        for (const auto& path : kPaths)
-        {
-            std::vector<std::size_t> inside, outside;
-            for (const unsigned corner : path)
-                (field_.values[point(cell, corner)] < 0 ? inside : outside).push_back(point(cell, corner));
-            if (!inside.empty() && !outside.empty())
-                march_tetrahedron(inside, outside);
-        }
+        unsigned inside = 0; // a bit a corner
+        for (unsigned corner = 0; corner < 8; ++corner)
+            inside |= unsigned(field_.values[point(cell, corner)] < 0) << corner;
+        if (inside != 0 && inside != 255)
+            for (const auto& path : kPaths)
+                march_tetrahedron(cell, path, inside);
     }
 
-    void march_tetrahedron(const std::vector<std::size_t>& inside, const std::vector<std::size_t>& outside)
+    /// `inside`: of the corners of the cell.
+    void march_tetrahedron(std::size_t cell, const std::array<unsigned, 4>& path, unsigned inside)
     {
-        glm::dvec3 way_out(0);
-        for (const std::size_t p : outside)
-            way_out += place(p) / double(outside.size());
-        for (const std::size_t p : inside)
-            way_out -= place(p) / double(inside.size());
-        if (inside.size() == 2)
+        std::array<std::size_t, 4> order{}; // those inside first
+        std::size_t in = 0, out = 4;
+        glm::dvec3 sum_in(0), sum_out(0);
+        for (const unsigned corner : path)
         {
-            const std::uint32_t a = vertex(inside[0], outside[0]), b = vertex(inside[0], outside[1]),
-                                c = vertex(inside[1], outside[1]), d = vertex(inside[1], outside[0]);
+            const std::size_t p = point(cell, corner);
+            const bool is_in = (inside >> corner & 1) != 0;
+            order[is_in ? in++ : --out] = p;
+            (is_in ? sum_in : sum_out) += place(p);
+        }
+        if (in == 0 || in == 4)
+            return;
+        const glm::dvec3 way_out = sum_out / double(4 - in) - sum_in / double(in);
+        const auto cut = [&](std::size_t a, std::size_t b) { return vertex(order[a], order[b]); };
+        if (in == 2)
+        {
+            const std::uint32_t a = cut(0, 2), b = cut(0, 3), c = cut(1, 3), d = cut(1, 2);
             add({a, b, c}, way_out);
             add({a, c, d}, way_out);
-            return;
         }
-        std::array<std::uint32_t, 3> t{};
-        for (std::size_t n = 0; n < 3; ++n)
-            t[n] = inside.size() == 1 ? vertex(inside[0], outside[n]) : vertex(inside[n], outside[0]);
-        add(t, way_out);
+        else if (in == 1)
+            add({cut(0, 1), cut(0, 2), cut(0, 3)}, way_out);
+        else
+            add({cut(0, 3), cut(1, 3), cut(2, 3)}, way_out);
     }
 
     const DistanceField& field_;

@@ -91,9 +91,8 @@ Surface cuboid_surface(const ColliderFrame& frame, const glm::dvec3& half)
     return out;
 }
 
-Surface field_surface(const ColliderFrame& frame, const DistanceField& field)
+Surface field_surface(const ColliderFrame& frame, const DistanceField& field, const FieldSurface& found)
 {
-    const FieldSurface found = surface_of(field);
     Surface out;
     out.finish = Finish::solid;
     out.front = out.back = kSphere;
@@ -207,7 +206,7 @@ std::vector<Surface> Pictures::cloth_in_place(const World& world) const
 }
 
 void Pictures::add_colliders(std::vector<Surface>& surfaces, const Scene& scene, double time,
-                             const Shot& shot) const
+                             const Shot& shot)
 {
     for (const Collider& collider : scene.colliders)
     {
@@ -220,7 +219,12 @@ void Pictures::add_colliders(std::vector<Surface>& surfaces, const Scene& scene,
                 surfaces.push_back(plane_surface(frame.centre, frame.y, shot));
         }
         else if (solid.field)
-            surfaces.push_back(field_surface(frame, *solid.field));
+        {
+            auto& known = field_surfaces_[collider.field];
+            if (!known)
+                known = std::make_shared<const FieldSurface>(surface_of(*collider.field));
+            surfaces.push_back(field_surface(frame, *collider.field, *known));
+        }
         else if (solid.is_box())
             surfaces.push_back(cuboid_surface(frame, solid.half));
         else

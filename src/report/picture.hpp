@@ -5,6 +5,7 @@
 #include "taut/world/world.hpp"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,6 +35,8 @@ struct PictureOptions
 /// Positions that are not finite are left out.
 Shot frame_shot(const Scene& resolved, std::span<const PictureMoment> moments, std::uint32_t width,
                 std::uint32_t height, double margin = 1.15);
+
+struct FieldSurface; // field_surface.hpp
 
 /// Draws scenes. Not thread-safe.
 class Pictures
@@ -70,13 +73,15 @@ private:
     std::vector<Surface> cloth(const PictureMoment& moment) const;
     std::vector<Surface> cloth_in_place(const World& world) const;
     void add_colliders(std::vector<Surface>& surfaces, const Scene& scene, double time,
-                       const Shot& shot) const;
+                       const Shot& shot);
     void finish_strands(std::vector<Surface>& surfaces, const Shot& shot) const;
 
     Scene scene_;
     PictureOptions options_;
     Renderer renderer_;
     std::vector<PictureMoment> moments_;
+    /// Made once.
+    std::map<std::shared_ptr<const DistanceField>, std::shared_ptr<const FieldSurface>> field_surfaces_;
 };
 
 } // namespace taut

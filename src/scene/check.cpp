@@ -70,6 +70,7 @@ void check_scene(const Scene& scene, const Checker& out)
     warn_of_idle_wind(scene, out);
     check_groups(scene, out);
     warn_of_idle_kinematic(scene, out);
+    warn_of_idle_contact(scene, out);
     if (out.scope() == Scope::meshes)
         return;
     check_names(scene.bodies, "bodies", out);

@@ -66,5 +66,20 @@ void warn_of_idle_kinematic(const Scene& scene, const Checker& out)
             out.at("bodies", b).warning("kinematic", "meets nothing: " + why);
 }
 
+void warn_of_idle_contact(const Scene& scene, const Checker& out)
+{
+    const auto meets = [&](const Body& body) { // of kinematic bodies the warning above speaks
+        return body.contact.self || body.kinematic.used || meets_another(scene, body);
+    };
+    if (!scene.contact.between || scene.bodies.empty() ||
+        std::any_of(scene.bodies.begin(), scene.bodies.end(), meets))
+        return;
+    const std::string why = scene.bodies.size() == 1
+                                ? "bodies meet each other, there is one, and it does not meet itself; "
+                                  "\"contact\": {\"self\": true} in the body lets it"
+                                : "all bodies pass through each other (contact.group)";
+    out.warning("contact", "does nothing: " + why);
+}
+
 } // namespace scene_file
 } // namespace taut

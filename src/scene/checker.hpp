@@ -81,6 +81,8 @@ void check_scene(const Scene& scene, const Checker& out);
 /// Names of groups that bodies pass through.
 void check_groups(const Scene& scene, const Checker& out);
 void warn_of_idle_kinematic(const Scene& scene, const Checker& out);
+/// Of a scene whose `contact` lets nothing meet.
+void warn_of_idle_contact(const Scene& scene, const Checker& out);
 void check_method(const MethodSettings& method, const Checker& out);
 void check_body(const Body& body, const Checker& out);
 void check_grid(const Shape& shape, const Checker& out);

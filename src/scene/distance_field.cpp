@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace taut {
 namespace {
 
-constexpr std::size_t kMostPoints = std::size_t(1) << 30; ///< indices are 32 bits in kernels
+constexpr double kLeastCell = 1e-15; ///< m: squares of it are numbers in single precision
+constexpr double kFlattest = 0.5; ///< somewhere distances of neighbours differ by nearly a cell
 constexpr double kSteepest = 1.5; ///< of distances 1; some files have a little more where they were swept
 
 std::string at_point(const DistanceField& field, std::size_t index)
@@ -28,12 +30,12 @@ std::string fault_of_size(const DistanceField& field)
     {
         if (n < 2)
             return "has " + std::to_string(n) + " points along an axis; there must be two at least";
-        if (n > kMostPoints / wanted)
-            return "has more than " + std::to_string(kMostPoints) + " points; take larger cells";
+        if (n > kMostFieldPoints / wanted)
+            return "has more than " + std::to_string(kMostFieldPoints) + " points; take larger cells";
         wanted *= n;
     }
-    if (!(field.cell > 0) || !std::isfinite(field.cell))
-        return "has cells of " + shown(field.cell) + " m; they must be above 0";
+    if (!(field.cell >= kLeastCell && field.cell <= 1 / kLeastCell))
+        return "has cells of " + shown(field.cell, 4) + " m; they must be from 1e-15 to 1e15";
     const glm::dvec3 high = field.low + 2.0 * field.half_size();
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(field.low[axis]) <= 1e30 && std::abs(high[axis]) <= 1e30))
@@ -44,8 +46,8 @@ std::string fault_of_size(const DistanceField& field)
     return {};
 }
 
-/// Of one point and the next along each axis.
-std::string fault_at(const DistanceField& field, const std::array<std::size_t, 3>& at)
+/// Of one point and the next along each axis; `steepest` becomes the most that neighbours differ by, m.
+std::string fault_at(const DistanceField& field, const std::array<std::size_t, 3>& at, double& steepest)
 {
     const std::size_t index = field.index(at[0], at[1], at[2]);
     const float value = field.values[index];
@@ -59,12 +61,13 @@ std::string fault_at(const DistanceField& field, const std::array<std::size_t, 3
         border = border || at[axis] == 0 || last;
         const double next = last ? value : field.values[index + strides[axis]];
         if (std::abs(next - value) > kSteepest * field.cell)
-            return "goes from " + shown(value) + " to " + shown(next) + " m between point " +
-                   at_point(field, index) + " and its neighbour, which are " + shown(field.cell) +
+            return "goes from " + shown(value, 4) + " to " + shown(next, 4) + " m between point " +
+                   at_point(field, index) + " and its neighbour, which are " + shown(field.cell, 4) +
                    " m apart: distances do not";
+        steepest = std::max(steepest, std::abs(next - value));
     }
     if (border && !(value > 0))
-        return "is " + shown(value) + " m at point " + at_point(field, index) +
+        return "is " + shown(value, 4) + " m at point " + at_point(field, index) +
                " of the grid's border; the surface must lie within, so that all of the border is above 0";
     return {};
 }
@@ -132,15 +135,32 @@ double DistanceField::depth() const
     return values.empty() ? 0 : std::max(0.0, -double(*std::min_element(values.begin(), values.end())));
 }
 
+double DistanceField::margin() const
+{
+    double out = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < points[2]; ++k)
+        for (std::size_t j = 0; j < points[1]; ++j)
+        {
+            const bool side = k == 0 || k + 1 == points[2] || j == 0 || j + 1 == points[1];
+            for (std::size_t i = 0; i < points[0]; i += side ? 1 : points[0] - 1)
+                out = std::min(out, double(values[index(i, j, k)]));
+        }
+    return out;
+}
+
 std::string fault_of(const DistanceField& field)
 {
     if (std::string fault = fault_of_size(field); !fault.empty())
         return fault;
+    double steepest = 0;
     for (std::size_t k = 0; k < field.points[2]; ++k)
         for (std::size_t j = 0; j < field.points[1]; ++j)
             for (std::size_t i = 0; i < field.points[0]; ++i)
-                if (std::string fault = fault_at(field, {i, j, k}); !fault.empty())
+                if (std::string fault = fault_at(field, {i, j, k}, steepest); !fault.empty())
                     return fault;
+    if (steepest < kFlattest * field.cell)
+        return "changes by " + shown(steepest, 4) + " m at most between neighbours that are " +
+               shown(field.cell, 4) + " m apart: its values are no distances, or of another unit";
     if (field.depth() == 0)
         return "has no value below 0: nothing is inside, so there is no surface";
     return {};

@@ -23,8 +23,8 @@ struct DistanceField
     glm::dvec3 half_size() const; ///< m, of the box that the points fill
     glm::dvec3 middle() const;    ///< m, of that box
 
-    /// m, at `p`: linear along each axis between the eight points round it. Beyond the grid what lies between
-    /// at least: the surface is within it, and further from its border than the value there says.
+    /// m, at `p`: linear along each axis between the eight points round it. Beyond the grid a lower bound:
+    /// sqrt(d^2 + phi^2), d from the nearest place of the border and phi there.
     double distance(const glm::dvec3& p) const;
 
     /// The way out at `p`, of length 1: central differences over a cell; upwards where they are 0.
@@ -32,6 +32,8 @@ struct DistanceField
 
     /// m, >= 0: of the point furthest inside.
     double depth() const;
+    /// m: the least value on the border, beyond which distances are bounds.
+    double margin() const;
 
     std::size_t index(std::size_t i, std::size_t j, std::size_t k) const
     {
@@ -43,9 +45,12 @@ struct DistanceField
     }
 };
 
+/// Of one field, and of all that a scene has: indices are 32 bits in kernels.
+inline constexpr std::size_t kMostFieldPoints = std::size_t(1) << 30;
+
 /// What keeps it from being a collider, as a sentence that begins with a verb; empty where nothing does: too
-/// few points or too many values, a number that is not finite, a border that is not outside, no point inside,
-/// or neighbours that differ by more than 1.5 cells, which distances do not.
+/// few points or too many values, a number that is not finite, cells that are no lengths, a border that is
+/// not outside, no point inside, neighbours that differ by more than 1.5 cells, or nowhere by half a cell.
 std::string fault_of(const DistanceField& field);
 
 /// The text that Batty's SDFGen writes: numbers of points, place of the first, distance of neighbours,

@@ -20,7 +20,7 @@ std::uint32_t point_count(Words& words)
 {
     const std::string_view word = words.any_word();
     const std::int64_t count = words.to_integer(word, "a number of points along an axis");
-    if (count < 2 || count > std::int64_t(1) << 30)
+    if (count < 2 || count > static_cast<std::int64_t>(kMostFieldPoints))
         words.fail("a number of points along an axis is " + std::to_string(count) +
                    "; it must be from 2 to 2^30 (the file begins with three of them)");
     return static_cast<std::uint32_t>(count);

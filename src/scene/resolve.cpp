@@ -14,12 +14,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <set>
 
 namespace taut {
 
 namespace {
 
 using scene_file::Checker;
+using scene_file::shown;
 
 [[noreturn]] void fail(const std::vector<SceneIssue>& issues)
 {
@@ -283,18 +286,53 @@ void resolve_body(Body& body, const std::filesystem::path& directory, const Chec
         scene_file::check_counts(body, body.mesh.positions.size(), out);
 }
 
-void read_field(Collider& collider, const std::filesystem::path& directory, const Checker& out)
+/// Files that several colliders name are read once.
+using FieldFiles = std::map<std::pair<std::filesystem::path, double>, std::shared_ptr<const DistanceField>>;
+
+std::shared_ptr<const DistanceField> read_field(const Collider& collider, const std::filesystem::path& file)
 {
-    if (collider.kind != ColliderKind::distance_field || collider.field)
+    DistanceField field = read_distance_field(file);
+    field.low *= collider.field_scale;
+    field.cell *= collider.field_scale;
+    for (float& value : field.values)
+        value = static_cast<float>(value * collider.field_scale);
+    if (const std::string fault = fault_of(field); !fault.empty())
+        throw Error(ErrorCode::bad_input, file.string() + " times distance_field.scale, " +
+                                              shown(collider.field_scale, 4) + ": the grid " + fault + ".");
+    return std::make_shared<const DistanceField>(std::move(field));
+}
+
+void resolve_field(Collider& collider, const Scene& scene, FieldFiles& files, const Checker& out)
+{
+    if (collider.kind != ColliderKind::distance_field)
         return;
-    attempt("distance_field.file", out, [&] {
-        DistanceField field = read_distance_field(directory / collider.field_file);
-        field.low *= collider.field_scale;
-        field.cell *= collider.field_scale;
-        for (float& value : field.values)
-            value = static_cast<float>(value * collider.field_scale);
-        collider.field = std::make_shared<const DistanceField>(std::move(field));
-    });
+    if (!collider.field)
+        attempt("distance_field.file", out, [&] {
+            auto& known = files[{collider.field_file, collider.field_scale}];
+            if (!known)
+                known = read_field(collider, scene.directory / collider.field_file);
+            collider.field = known;
+        });
+    double gap = 0;
+    for (const Body& body : scene.bodies)
+        gap = std::max(gap, body.material.thickness);
+    if (collider.field && collider.field->margin() < gap)
+        out.error("distance_field", "has a grid that ends " + shown(collider.field->margin(), 4) +
+                                        " m from its surface, and a body's material.thickness is " +
+                                        shown(gap, 4) + "; make it with a --margin above that (taut sdf)");
+}
+
+/// Their values are numbered by 32 bits.
+void check_field_sizes(const Scene& resolved, const Checker& out)
+{
+    std::set<const DistanceField*> seen;
+    std::size_t values = 0;
+    for (const Collider& collider : resolved.colliders)
+        if (collider.field && seen.insert(collider.field.get()).second)
+            values += collider.field->values.size();
+    if (values > kMostFieldPoints)
+        out.error("colliders", "have distance fields of " + std::to_string(values) + " points; at most " +
+                                   std::to_string(kMostFieldPoints) + " are told apart: take larger cells");
 }
 
 } // namespace
@@ -320,8 +358,10 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
     throw_if_any(issues, found);
     Scene resolved = scene;
     const Checker out(issues);
+    FieldFiles files;
     for (std::size_t c = 0; c < resolved.colliders.size(); ++c)
-        read_field(resolved.colliders[c], scene.directory, out.at("colliders", c));
+        resolve_field(resolved.colliders[c], scene, files, out.at("colliders", c));
+    check_field_sizes(resolved, out);
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
         Body& body = resolved.bodies[b];

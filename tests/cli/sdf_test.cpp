@@ -5,6 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <sstream>
+
 using program::Folder;
 using program::Result;
 
@@ -31,9 +34,18 @@ TEST_CASE("sdf writes a grid that a scene runs with")
         "material": {"thickness": 0.01},
         "transform": {"translate": [0.5, 1.1, 0.5], "rotate": {"axis": [1, 0, 0], "degrees": -90}}}],
         "colliders": [{"distance_field": {"file": "cube.sdf"}}]})");
-    const Result run = folder.taut({"run", "scene.json", "--device", "cpu", "--no-picture", "--json"});
+    const Result run = folder.taut({"run", "scene.json", "--device", "cpu", "--no-picture", "--out", "made"});
     CAPTURE(run.err);
     CHECK(run.status == 0);
+    const std::string mesh =
+        program::read(folder / "made/mesh_00015.obj"); // the sheet is as wide as the cube
+    std::istringstream lines(mesh);
+    double lowest = 1e300, x = 0, y = 0, z = 0;
+    for (std::string word; lines >> word;)
+        if (word == "v" && lines >> x >> y >> z)
+            lowest = std::min(lowest, y);
+    CHECK(lowest > 0.9);
+    CHECK(lowest < 1.05);
 }
 
 TEST_CASE("sdf says what it does not take, and leaves nothing behind")
@@ -58,4 +70,17 @@ TEST_CASE("sdf says what it does not take, and leaves nothing behind")
     refused({"sdf", cube, "--out", "no/cube.sdf"}, "no/cube.sdf");
     refused({"sdf", cube, "--cell", "3"}, "nothing is inside");
     CHECK_FALSE(std::filesystem::exists(folder / "cube.sdf"));
+}
+
+TEST_CASE("sdf says that parts thinner than its cells are lost")
+{
+    const Folder folder;
+    std::string plate = kCube; // beside the cube a plate of 2 cm
+    for (const char* v : {"3 0 0", "4 0 0", "4 1 0", "3 1 0", "3 0 0.02", "4 0 0.02", "4 1 0.02", "3 1 0.02"})
+        plate += std::string("v ") + v + "\n";
+    plate += "f 9 12 11 10\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
+    const std::string both = folder.file("both.obj", plate);
+    CHECK(folder.taut({"sdf", both, "--cell", "0.1"}).err.find("lost") != std::string::npos);
+    CHECK(folder.taut({"sdf", both, "--cell", "0.01"}).err.find("lost") == std::string::npos);
+    CHECK(folder.taut({"sdf", folder.file("cube.obj", kCube), "--cells", "16"}).err.empty());
 }

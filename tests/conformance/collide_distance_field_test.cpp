@@ -1,5 +1,6 @@
 #include "taut/kernels/collide_distance_field.hpp"
 
+#include "support/box_distance.hpp"
 #include "support/turned.hpp"
 
 #include <functional>
@@ -151,14 +152,17 @@ Touch touch_field(const Shapes<Real>& shapes, const Contacts<Real>& in, std::uin
     double slope = 1;
     glm::dvec3 own(0, 1, 0);
     const double reach = std::min(before, after) - way.length() - grid.cell;
-    bool doubtful = std::abs(reach) < rounding || std::abs(before + 1e-3 * grid.cell) < rounding;
+    bool doubtful = std::abs(reach) < rounding || std::abs(before) < rounding ||
+                    std::abs(way.length() - grid.cell / 2) < rounding;
     Touch t;
     t.gap_before = before;
     t.gap = after;
     double way_terms = 0;
     if (reach < 0)
-        own = grid.normal(way.e, slope);
-    if (reach < 0 && before >= -1e-3 * grid.cell && way.length() > 0)
+        own = grid.normal(before > 0 ? way.e : way.a, slope);
+    if (reach < 0 && before <= 0)
+        t.gap = before + glm::dot(own, way.e - way.a);
+    else if (reach < 0 && way.length() > grid.cell / 2)
     {
         const Entry entry =
             entry_of([&](double time) { return grid.distance(way.at(time)) - kept; }, rounding);
@@ -211,12 +215,7 @@ void check_fields(const Contacts<Real>& in, const Shapes<Real>& shapes, const st
 
 double ball(const glm::dvec3& p) { return glm::length(p) - 0.5; }
 
-/// Exact outside of it; inside the nearest face.
-double box(const glm::dvec3& p)
-{
-    const glm::dvec3 over = glm::abs(p) - glm::dvec3(0.4, 0.3, 0.5);
-    return glm::length(glm::max(over, glm::dvec3(0))) + std::min(std::max({over.x, over.y, over.z}), 0.0);
-}
+double box(const glm::dvec3& p) { return test::box_distance(p, {0.4, 0.3, 0.5}); }
 
 double torus(const glm::dvec3& p) { return std::hypot(std::hypot(p.x, p.z) - 0.5, p.y) - 0.2; }
 
@@ -309,7 +308,8 @@ TEMPLATE_TEST_CASE("a vertex that is nowhere reads no value beyond the grid", "[
             continue;
         CAPTURE(selector);
         const auto delta = reals_of<Real>(run(*device, {launch}, buffers).at("delta"));
-        if (std::abs(far) <= Real(1e30)) // too far to be met
-            CHECK(delta[0] == Real(0));
+        // Too far to be met; what is nowhere ends nowhere, and the read was within bounds (validation, asan).
+        CHECK(((std::abs(far) <= Real(1e30) && delta[0] == Real(0)) || !(std::abs(far) <= Real(1e30))));
+        CHECK(device->counters().validation_messages == 0);
     }
 }

@@ -1,10 +1,13 @@
 // Claims about distance fields as colliders: what lies on one lies as on the shape that it is of.
 
 #include "hard/cases.hpp"
+#include "support/box_distance.hpp"
 #include "support/methods.hpp"
 #include "support/sheets.hpp"
 
 #include "taut/judge/mesh_distance.hpp"
+#include "taut/report/crossing.hpp"
+#include "taut/report/holes.hpp"
 #include "taut/scene/collider.hpp"
 
 #include <algorithm>
@@ -31,16 +34,10 @@ Collider field_of(const std::function<double(const glm::dvec3&)>& distance, doub
     return out;
 }
 
-double box_distance(const glm::dvec3& p, const glm::dvec3& half)
-{
-    const glm::dvec3 over = glm::abs(p) - half;
-    return glm::length(glm::max(over, glm::dvec3(0))) + std::min(std::max({over.x, over.y, over.z}), 0.0);
-}
-
 Collider box_field(const glm::dvec3& half, double cell)
 {
     const double reach = std::max({half.x, half.y, half.z}) + 2 * cell;
-    return field_of([&](const glm::dvec3& p) { return box_distance(p, half); }, reach, cell);
+    return field_of([&](const glm::dvec3& p) { return test::box_distance(p, half); }, reach, cell);
 }
 
 Scene falling(const std::vector<glm::dvec3>& places, const Collider& collider)
@@ -191,6 +188,71 @@ TEST_CASE("what is fast is stopped where it comes in, and does not end on the ot
         check_sound(world);
         CHECK(world.positions()[0].y > 0.045);
     });
+}
+
+TEST_CASE("what starts inside a field is let out as slowly as out of a box", "[distance_field]")
+{
+    const glm::dvec3 half(0.5, 0.025, 0.5);
+    const double height = GENERATE(0.0001, 0.005, 0.01, 0.02, 0.0259); // the last one within the gap alone
+    Scene scene = falling({{0.013, height, 0.021}}, box_field(half, GENERATE(0.025, 0.005)));
+    scene.gravity = {0, 0, 0};
+    scene.depenetration_speed = 0.5;
+    const double cap = 0.5 / scene.timestep * scene.timestep; // m/s
+    World world(scene, test_device("cpu"));
+    for (int step = 0; step < 30; ++step)
+    {
+        world.step();
+        CHECK(std::abs(world.velocities()[0].y) < 1.02 * cap);
+    }
+    check_sound(world);
+    CHECK(world.positions()[0].y > 0.025);
+}
+
+TEST_CASE("what starts within its gap, or inside, does not leave on the other side however fast",
+          "[distance_field]")
+{
+    Scene scene = falling({{0.013, GENERATE(0.0259, 0.02, 0.2), 0.021}}, box_field({0.5, 0.025, 0.5}, 0.025));
+    scene.bodies[0].velocity = {0, -GENERATE(20.0, 100.0), 0};
+    World world(scene, test_device("cpu"));
+    run(world, 30);
+    CHECK(world.positions()[0].y > 0);
+}
+
+TEST_CASE("coarse cloth, or a chain, that goes through a limb of a field is noticed", "[distance_field]")
+{
+    // A body with an arm along x: its deepest point says nothing of the arm.
+    const auto figure = [](const glm::dvec3& p) {
+        return std::min(test::box_distance(p, glm::dvec3(0.2)),
+                        test::box_distance(p - glm::dvec3(0.45, 0, 0), {0.3, 0.03, 0.03}));
+    };
+    Scene scene;
+    scene.colliders = {field_of(figure, 0.8, 0.02)};
+    const bool chain = GENERATE(false, true);
+    if (chain)
+    {
+        Body body;
+        body.shape.kind = ShapeKind::chain;
+        body.shape.links = 2;
+        body.shape.length = 0.5;
+        body.transform.rotate_axis = {1, 0, 0};
+        body.transform.rotate_degrees = 90;
+        body.transform.translate = {0.55, 0.1, 0.37};
+        scene.bodies = {body};
+    }
+    else
+        scene.bodies = {test::level_sheet(2, 0.5, {0.65, 0.1, 0.11}, 0.005)};
+    CHECK(holes_issues(resolve(scene)).size() == (chain ? 0 : 1));
+    World world(scene, test_device("cpu"));
+    CrossingWatch watch(world.scene());
+    const double substep = world.scene().timestep / world.plan().substeps;
+    for (std::uint64_t frame = 0; frame <= 40; ++frame)
+    {
+        watch.look(frame, world.time(), substep, world.positions(), world.velocities());
+        world.step();
+    }
+    CHECK(world.positions()[0].y < -0.1);
+    const Crossings found = watch.found();
+    CHECK(found.passed + found.elements > 0);
 }
 
 TEST_CASE("suite 53: cloth lies on a distance field as on the mesh that it was made of", "[distance_field]")

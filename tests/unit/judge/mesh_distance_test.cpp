@@ -1,5 +1,6 @@
 // Distances to closed meshes.
 
+#include "support/box_distance.hpp"
 #include "support/catch.hpp"
 
 #include "taut/judge/distance.hpp"
@@ -13,17 +14,7 @@
 
 using namespace taut;
 using namespace taut::judging;
-
-namespace {
-
-/// Exact outside, and inside by the nearest face.
-double box_distance(const glm::dvec3& p, const glm::dvec3& half)
-{
-    const glm::dvec3 over = glm::abs(p) - half;
-    return glm::length(glm::max(over, glm::dvec3(0))) + std::min(std::max({over.x, over.y, over.z}), 0.0);
-}
-
-} // namespace
+using test::box_distance;
 
 TEST_CASE("the distance to a box is exact on all sides, beside its edges and corners too")
 {

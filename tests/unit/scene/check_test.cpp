@@ -347,3 +347,22 @@ TEST_CASE("a led mesh that all others pass through is warned of")
     CHECK(issues[0].field == "bodies[1].kinematic");
     CHECK_THAT(issues[0].text, Contains("meets nothing") && Contains("passes through all other bodies"));
 }
+
+TEST_CASE("contact that lets nothing meet is warned of")
+{
+    Scene scene = good_scene();
+    scene.bodies.resize(1);
+    scene.contact.between = true;
+    const auto issues = check(scene);
+    REQUIRE(issues.size() == 1);
+    CHECK(!issues[0].error);
+    CHECK(issues[0].field == "contact");
+    CHECK_THAT(issues[0].text, Contains("does nothing") && Contains("self"));
+    scene.bodies[0].contact.self = true;
+    CHECK(check(scene).empty());
+    scene.bodies[0].contact = {.group = "a", .passes = {"a"}};
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[1].name = "other";
+    REQUIRE(check(scene).size() == 1);
+    CHECK_THAT(check(scene)[0].text, Contains("pass through each other"));
+}

@@ -104,9 +104,10 @@ TEST_CASE("a file that is no field is refused by its line, or by its point")
     CHECK_THAT(with("13 13 13", "13 13 14"), Contains("too short") || Contains("a distance"));
     CHECK_THAT(with("13 13 13", "13 13 12"), Contains("more values"));
     CHECK_THAT(with("13 13 13", "1000000000 1000000000 1000000000"), Contains("too short"));
-    CHECK_THAT(with("\n0.125\n", "\n0\n"), Contains("above 0"));
+    CHECK_THAT(with("\n0.125\n", "\n0\n"), Contains("1e-15"));
     CHECK_THAT(with("\n0.125\n", "\nnear\n"), Contains("bad.sdf: line 3") && Contains("near"));
     CHECK_THAT(with("\n0.125\n", "\n0.0125\n"), Contains("distances do not")); // not the file's unit
+    CHECK_THAT(with("\n0.125\n", "\n12.5\n"), Contains("another unit"));
     CHECK_THAT(with("\n-0.5\n", "\nnan\n"), Contains("finite"));
 }
 
@@ -164,4 +165,31 @@ TEST_CASE("a scene names its grid, which is scaled, turned about its origin and 
         return std::string("nothing");
     }();
     CHECK_THAT(missing, Catch::Matchers::Contains("colliders[0].distance_field.file"));
+}
+
+TEST_CASE(
+    "a grid that ends nearer than the gap that a body keeps is refused, and so is what scale makes of one")
+{
+    const Temporary folder;
+    write_distance_field(folder.path / "ball.sdf", ball_field()); // ends 0.25 m from the ball
+    const auto refused_scene = [&](const std::string& thickness, const std::string& scale) {
+        const std::string text = R"({"taut": 1, "bodies": [{"name": "s", "grid": {"cells": [2, 2]},
+            "material": {"thickness": )" +
+                                 thickness + R"(}}], "colliders": [
+            {"distance_field": {"file": "ball.sdf", "scale": )" +
+                                 scale + "}}]}";
+        try
+        {
+            resolve(parse_scene(text, folder.path, "scene.json"));
+        }
+        catch (const Error& error)
+        {
+            return std::string(error.what());
+        }
+        return std::string("nothing");
+    };
+    using Catch::Matchers::Contains;
+    CHECK(refused_scene("0.24", "1") == "nothing");
+    CHECK_THAT(refused_scene("0.26", "1"), Contains("colliders[0].distance_field") && Contains("--margin"));
+    CHECK_THAT(refused_scene("0.001", "1e-30"), Contains("distance_field.scale"));
 }

@@ -3,6 +3,7 @@
 #include "support/scenes.hpp"
 
 #include "taut/report/report.hpp"
+#include "taut/scene/distance_field.hpp"
 #include "taut/world/beside.hpp"
 #include "taut/world/split.hpp"
 
@@ -114,6 +115,17 @@ TEST_CASE("what methods and materials do is cut without a difference", "[split]"
         scene.bodies[0].mesh.grid_columns = 0;
         scene.bodies.insert(scene.bodies.begin(), one_cloth(4, 6).bodies[0]);
         scene.bodies.push_back(one_cloth(2, 3).bodies[0]);
+        compare_cuts(scene);
+    }
+    SECTION("a distance field, as a collider")
+    {
+        Collider ring;
+        ring.kind = ColliderKind::distance_field;
+        ring.point = {0, -0.2, 0};
+        ring.friction = 0.3;
+        ring.field = std::make_shared<const DistanceField>(
+            read_distance_field(TAUT_SOURCE_DIR "/examples/scenes/shapes/ring.sdf"));
+        scene.colliders.push_back(ring);
         compare_cuts(scene);
     }
     SECTION("gravity alone")

@@ -1,0 +1,77 @@
+#include "taut/report/holes.hpp"
+
+#include "taut/report/crossing_shapes.hpp"
+#include "taut/runtime/base/shown.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace taut {
+namespace {
+
+/// m, radius.
+double largest_hole(const Body& body)
+{
+    double out = 0;
+    for (const auto& t : body.mesh.triangles)
+        out = std::max(
+            out, hole_of({body.mesh.positions[t[0]], body.mesh.positions[t[1]], body.mesh.positions[t[2]]}));
+    return out;
+}
+
+/// m, radius of what a box goes through end first.
+double round_box(const glm::dvec3& half)
+{
+    std::array<double, 3> sorted{half.x, half.y, half.z};
+    std::sort(sorted.begin(), sorted.end());
+    return std::hypot(sorted[0], sorted[1]);
+}
+
+/// m, radius of what a shape goes through end first.
+double slimmest(const SolidShape& shape)
+{
+    if (shape.radius > 0)
+        return shape.size;
+    double least = shape.solid.field ? glm::length(shape.half) : round_box(shape.half);
+    for (const DeepPoint& p : shape.deep)
+        least = std::min(least, round_box(p.half));
+    return least;
+}
+
+std::string called(const std::string& list, std::size_t number, const std::string& name)
+{
+    return list + "[" + std::to_string(number) + "]" + (name.empty() ? "" : " (" + name + ")");
+}
+
+} // namespace
+
+std::vector<SceneIssue> holes_issues(const Scene& resolved)
+{
+    std::vector<SceneIssue> out;
+    for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
+    {
+        const Body& body = resolved.bodies[b];
+        const double hole = body.kinematic.used ? 0 : largest_hole(body) - body.material.thickness;
+        for (std::size_t c = 0; c < resolved.colliders.size() && hole > 0; ++c)
+        {
+            const Collider& collider = resolved.colliders[c];
+            if (!solid_of(collider).bounded)
+                continue;
+            const double radius = slimmest(solid_shape(collider));
+            if (radius < hole)
+                out.push_back({false, "colliders[" + std::to_string(c) + "]",
+                               "goes through the triangles of " + called("bodies", b, body.name) +
+                                   ": colliders meet vertices alone, it is " + shown(radius, 3) +
+                                   " m round, and between vertices there is room for " + shown(hole, 3) +
+                                   " m; take smaller triangles, or a kinematic body, which edges and "
+                                   "triangles meet, too (docs/contact.md, \"Meshes that are led\")"});
+        }
+    }
+    return out;
+}
+
+} // namespace taut
