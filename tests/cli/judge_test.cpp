@@ -98,7 +98,8 @@ TEST_CASE("a run whose surfaces were to meet and cross is unconverged, and says 
     CHECK(folder.taut({"run", "passing.json", "--device", "cpu:serial", "--no-picture"}).status == 0);
     CHECK(folder.taut({"judge", "passing.json", "--device", "cpu:serial", "--frames", "1"}).status == 0);
     CHECK_THAT(folder.taut({"check", "crossed.json"}).out, Contains("at the start"));
-    CHECK_THAT(folder.taut({"check", "passing.json"}).out, Contains("is a sound scene.\n"));
+    CHECK_THAT(folder.taut({"check", "passing.json"}).out,
+               Contains("all bodies pass through") && Contains("is a sound scene"));
     std::string separate = crossed;
     separate.insert(separate.find("\"thickness\": 0.005"), "\"start\": \"separate\", ");
     folder.file("separate.json", separate);
