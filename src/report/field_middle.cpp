@@ -8,8 +8,8 @@
 namespace taut {
 namespace {
 
-constexpr double kFlat =
-    0.6; ///< slope of the distance: 1 beside the axis, 0.71 where two faces meet squarely
+/// Slope of the distance: 1 beside the axis, 0.71 where two faces meet squarely.
+constexpr double kFlat = 0.6;
 constexpr std::size_t kMost = 256;
 
 /// Half the way that is inside, through a point along an axis.

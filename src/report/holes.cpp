@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace taut {
 namespace {
+
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
 /// m, radius.
 double largest_hole(const Body& body)
@@ -52,24 +55,21 @@ std::string called(const std::string& list, std::size_t number, const std::strin
 std::vector<SceneIssue> holes_issues(const Scene& resolved)
 {
     std::vector<SceneIssue> out;
+    std::vector<double> radii; // of colliders; infinite of planes
+    for (const Collider& collider : resolved.colliders)
+        radii.push_back(solid_of(collider).bounded ? slimmest(solid_shape(collider)) : kNoEnd);
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
         const Body& body = resolved.bodies[b];
         const double hole = body.kinematic.used ? 0 : largest_hole(body) - body.material.thickness;
-        for (std::size_t c = 0; c < resolved.colliders.size() && hole > 0; ++c)
-        {
-            const Collider& collider = resolved.colliders[c];
-            if (!solid_of(collider).bounded)
-                continue;
-            const double radius = slimmest(solid_shape(collider));
-            if (radius < hole)
+        for (std::size_t c = 0; c < radii.size(); ++c)
+            if (radii[c] < hole)
                 out.push_back({false, "colliders[" + std::to_string(c) + "]",
                                "goes through the triangles of " + called("bodies", b, body.name) +
-                                   ": colliders meet vertices alone, it is " + shown(radius, 3) +
+                                   ": colliders meet vertices alone, it is " + shown(radii[c], 3) +
                                    " m round, and between vertices there is room for " + shown(hole, 3) +
                                    " m; take smaller triangles, or a kinematic body, which edges and "
                                    "triangles meet, too (docs/contact.md, \"Meshes that are led\")"});
-        }
     }
     return out;
 }

@@ -315,7 +315,8 @@ void resolve_field(Collider& collider, const Scene& scene, FieldFiles& files, co
         });
     double gap = 0;
     for (const Body& body : scene.bodies)
-        gap = std::max(gap, body.material.thickness);
+        if (!body.kinematic.used) // led vertices are not pushed
+            gap = std::max(gap, body.material.thickness);
     if (collider.field && collider.field->margin() < gap)
         out.error("distance_field", "has a grid that ends " + shown(collider.field->margin(), 4) +
                                         " m from its surface, and a body's material.thickness is " +
