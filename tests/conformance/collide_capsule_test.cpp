@@ -130,14 +130,13 @@ TEMPLATE_TEST_CASE("vertices end outside every capsule, swept, and friction take
     for (std::uint32_t j = 0; j < colliders; ++j)
     {
         const bool first = j == 0;
-        const glm::dvec3 centre(random.vec4<double>(1, 0)), way(random.vec4<double>(0.1, 0));
-        const glm::dvec3 axis = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
-        const double turn = random.uniform(0, 0.2), half = random.uniform(0, 0.5);
+        const Drift drift = random_drift(random);
+        const double half = random.uniform(0, 0.5);
         const double radius = random.uniform(0.2, 0.4), friction = random.uniform(0, 1);
         for (std::uint32_t s = 0; s <= in.substeps; ++s)
             poses[s * colliders + j] =
                 first ? make_capsule<Real>({}, 0.5, 0.5, 0.5)
-                      : make_capsule<Real>(make_frame(centre + way * double(s), axis, 1 + turn * s), half,
+                      : make_capsule<Real>(drift.at(s), half,
                                            radius, friction);
     }
     plant(in);

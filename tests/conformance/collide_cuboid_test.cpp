@@ -175,14 +175,13 @@ TEMPLATE_TEST_CASE("vertices end outside every box, swept, and friction takes sl
     for (std::uint32_t j = 0; j < colliders; ++j)
     {
         const bool first = j == 0;
-        const glm::dvec3 centre(random.vec4<double>(1, 0)), way(random.vec4<double>(0.1, 0));
-        const glm::dvec3 axis = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
+        const Drift drift = random_drift(random);
         const glm::dvec3 half(random.uniform(0.1, 0.5), random.uniform(0.1, 0.5), random.uniform(0.1, 0.5));
-        const double turn = random.uniform(0, 0.2), friction = random.uniform(0, 1);
+        const double friction = random.uniform(0, 1);
         for (std::uint32_t s = 0; s <= in.substeps; ++s)
             poses[s * colliders + j] =
                 first ? make_cuboid<Real>({}, {1, 0.5, 0.25}, 0.5)
-                      : make_cuboid<Real>(make_frame(centre + way * double(s), axis, 1 + turn * s), half,
+                      : make_cuboid<Real>(drift.at(s), half,
                                           friction);
     }
     plant(in);

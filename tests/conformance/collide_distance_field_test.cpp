@@ -264,12 +264,11 @@ TEMPLATE_TEST_CASE(
     {
         const auto& distance = j == 0 ? ball : j == 1 ? box : torus;
         shapes.grids.push_back(make_grid<Real>({17 + j, 18, 19}, {-0.9, -0.85, -0.91}, 0.1, distance));
-        const glm::dvec3 centre(random.vec4<double>(1, 0)), way(random.vec4<double>(0.1, 0));
-        const glm::dvec3 axis = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
-        const double turn = random.uniform(0, 0.2), friction = random.uniform(0, 1);
+        const Drift drift = random_drift(random);
+        const double friction = random.uniform(0, 1);
         for (std::uint32_t s = 0; s <= in.substeps; ++s)
             shapes.poses[s * colliders + j] =
-                record_of<Real>(j == 0 ? Frame{} : make_frame(centre + way * double(s), axis, 1 + turn * s),
+                record_of<Real>(j == 0 ? Frame{} : drift.at(s),
                                 shapes.grids[j], first, friction);
         first += shapes.grids[j].values.size();
     }
@@ -308,8 +307,8 @@ TEMPLATE_TEST_CASE("a vertex that is nowhere reads no value beyond the grid", "[
             continue;
         CAPTURE(selector);
         const auto delta = reals_of<Real>(run(*device, {launch}, buffers).at("delta"));
-        // Too far to be met; what is nowhere ends nowhere, and the read was within bounds (validation, asan).
-        CHECK(((std::abs(far) <= Real(1e30) && delta[0] == Real(0)) || !(std::abs(far) <= Real(1e30))));
+        if (std::abs(far) <= Real(1e30)) // too far to be met; what is nowhere ends nowhere
+            CHECK(delta[0] == Real(0));
         CHECK(device->counters().validation_messages == 0);
     }
 }

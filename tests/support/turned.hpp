@@ -31,6 +31,28 @@ inline Frame make_frame(const glm::dvec3& centre, const glm::dvec3& axis, double
     return {centre, turn({1, 0, 0}), turn({0, 1, 0}), turn({0, 0, 1})};
 }
 
+/// A collider that goes and turns steadily, seen at the ends of substeps.
+struct Drift
+{
+    glm::dvec3 centre{0}, way{0}, axis{0, 1, 0}; ///< m; m a substep; of length 1
+    double turn = 0;                             ///< rad a substep
+
+    Frame at(std::uint32_t substep) const
+    {
+        return make_frame(centre + way * double(substep), axis, 1 + turn * substep);
+    }
+};
+
+inline Drift random_drift(Random& random)
+{
+    Drift out;
+    out.centre = glm::dvec3(random.vec4<double>(1, 0));
+    out.way = glm::dvec3(random.vec4<double>(0.1, 0));
+    out.axis = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
+    out.turn = random.uniform(0, 0.2);
+    return out;
+}
+
 template <typename Real, template <typename> typename Record>
 void put_frame(Record<Real>& c, const Frame& f)
 {

@@ -37,17 +37,29 @@ std::string text_of(const std::filesystem::path& file)
     return out.str();
 }
 
-std::string refused(const std::filesystem::path& file)
+/// The message that a call ends with; "nothing" where it ends well.
+template <typename F>
+std::string message_of(const F& call)
 {
     try
     {
-        read_distance_field(file);
+        call();
     }
     catch (const Error& error)
     {
         return error.what();
     }
     return "nothing";
+}
+
+std::string refused(const std::filesystem::path& file)
+{
+    return message_of([&] { read_distance_field(file); });
+}
+
+std::string refused(const std::string& json, const std::filesystem::path& folder)
+{
+    return message_of([&] { resolve(parse_scene(json, folder, "scene.json")); });
 }
 
 } // namespace
@@ -153,18 +165,8 @@ TEST_CASE("a scene names its grid, which is scaled, turned about its origin and 
     CHECK(glm::distance(solid.half, glm::dvec3(0.375)) < 1e-12);
     CHECK(solid.field_distance({0, 0, 0}) == Approx(-0.25));
     CHECK(solid.field_distance(frame.inside({1, 0.3, -1})) == Approx(0.05).margin(1e-3));
-    const std::string missing = [&] {
-        try
-        {
-            resolve(parse_scene(text, folder.path / "elsewhere", "scene.json"));
-        }
-        catch (const Error& error)
-        {
-            return std::string(error.what());
-        }
-        return std::string("nothing");
-    }();
-    CHECK_THAT(missing, Catch::Matchers::Contains("colliders[0].distance_field.file"));
+    CHECK_THAT(refused(text, folder.path / "elsewhere"),
+               Catch::Matchers::Contains("colliders[0].distance_field.file"));
 }
 
 TEST_CASE(
@@ -178,15 +180,7 @@ TEST_CASE(
                                  thickness + R"(}}], "colliders": [
             {"distance_field": {"file": "ball.sdf", "scale": )" +
                                  scale + "}}]}";
-        try
-        {
-            resolve(parse_scene(text, folder.path, "scene.json"));
-        }
-        catch (const Error& error)
-        {
-            return std::string(error.what());
-        }
-        return std::string("nothing");
+        return refused(text, folder.path);
     };
     using Catch::Matchers::Contains;
     CHECK(refused_scene("0.24", "1") == "nothing");
