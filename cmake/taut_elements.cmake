@@ -41,7 +41,7 @@ function(taut_generate_kernel kernel stem folder out)
     file(STRINGS ${kernel} has_lanes REGEX "^//! lanes$")
     set(has_values)
     if(ARGN)
-        file(STRINGS ${element} has_values REGEX "^//! collider .* values$") # indexes with what it works out
+        file(STRINGS ${element} has_values REGEX "^//! collider .* values") # indexes with what it works out
     endif()
     if(has_lanes AND NOT has_values)
         list(APPEND outputs ${folder}/${stem}.lanes.cpp)
@@ -157,16 +157,19 @@ endfunction()
 
 # taut_is_for(KERNEL FILE OUT): whether the kernel is compiled for the element in FILE: its line "//! each element
 # of METHOD" names one of the element's line "//! methods". Kernels with a line "//! each collider" are compiled
-# for the files with a line "//! collider".
+# for the files with a line "//! collider", and with a line "//! each collider with faces" for those that say
+# "faces" in it.
 function(taut_is_for kernel file out)
     file(STRINGS ${kernel} method REGEX "^//! each element of ")
     file(STRINGS ${file} methods REGEX "^//! methods .*")
     file(STRINGS ${kernel} each_collider REGEX "^//! each collider$")
+    file(STRINGS ${kernel} each_with_faces REGEX "^//! each collider with faces$")
     file(STRINGS ${file} collider REGEX "^//! collider ")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
     string(REPLACE "//! each element of " "" method "${method}")
     set(${out} OFF PARENT_SCOPE)
-    if((method AND "${methods} " MATCHES " ${method} ") OR (each_collider AND collider))
+    if((method AND "${methods} " MATCHES " ${method} ") OR (each_collider AND collider)
+       OR (each_with_faces AND collider MATCHES " faces"))
         set(${out} ON PARENT_SCOPE)
     endif()
 endfunction()

@@ -8,7 +8,7 @@
 // In the frame of the capsule, which may move and turn, the vertex goes from `a` to `e`, taken as a straight
 // way. If `e` lies inside on the side where the vertex came from, the nearest surface point decides; if the
 // way enters and ends on the other side or outside again, the point of entry does.
-//! collider each_substep
+//! collider each_substep faces
 #include "shared/turned.glsl"
 
 #define capsule_record CapsuleCollider
@@ -66,3 +66,66 @@ INLINE Contact capsule_contact(CapsuleCollider c, CapsuleCollider next, rvec3 x,
     met.friction = c.friction;
     return met;
 }
+
+#if COLLIDER_MEETS_FACES
+#include "shared/face.glsl"
+
+INLINE real capsule_reach(CapsuleCollider c) { return c.half_length + c.radius; }
+
+INLINE bool capsule_contains(CapsuleCollider c, real gap_kept, rvec3 x)
+{
+    rvec3 off = off_axis(x, c.half_length);
+    real r = c.radius + gap_kept;
+    return dot(off, off) < r * r;
+}
+
+INLINE bool capsule_apart(CapsuleCollider c, Face f) { return false; } // it may have gone through
+
+/// The axis, of radius `r`, against the edge from the corner of the weights `first` to that of `second`; its
+/// ends are balls, and met on their own. If the axis went through the edge during the substep, the point
+/// where it did goes back.
+INLINE Face press_axis(Face f, real half_length, real r, rvec3 first, rvec3 second)
+{
+    rvec3 up = rvec3(real(0), half_length, real(0));
+    rvec3 pa = place_at_start(f, first), pb = place_at_start(f, second);
+    rvec3 ea = place_at_end(f, first), eb = place_at_end(f, second);
+    Closest near = closest_edges(up * real(2), ea + up, eb + up);
+    rvec3 across_before = unit_or_zero(cross(up, pb - pa));
+    rvec3 across_after = unit_or_zero(cross(up, eb - ea));
+    real before = dot(across_before, pa), after = dot(across_after, ea);
+    rvec3 normal = unit_or_zero(SELECT(near.squared > real(0), -near.way, across_before));
+    bool meets = near.inside;
+    rvec3 b = first * -near.weight_c + second * -near.weight_d;
+    if (before * after < real(0))
+    {
+        real t = before / (before - after);
+        Closest met = closest_edges(up * real(2), (pa + up) + (ea - pa) * t, (pb + up) + (eb - pb) * t);
+        if (met.inside)
+        {
+            meets = true;
+            b = first * -met.weight_c + second * -met.weight_d;
+            normal = SELECT(before < real(0), -across_after, across_after);
+        }
+    }
+    real height = dot(normal, place_at_end(f, b)) - r;
+    if (meets && height < real(0))
+    {
+        rvec3 off = off_axis(place_at_start(f, b), half_length);
+        f = press(f, normal, length(off) - r, height, b);
+    }
+    return f;
+}
+
+INLINE Face capsule_face(CapsuleCollider c, Face f)
+{
+    real r = c.radius + f.gap_kept;
+    rvec3 up = rvec3(real(0), c.half_length, real(0));
+    rvec3 x = rvec3(real(1), real(0), real(0)), y = rvec3(real(0), real(1), real(0));
+    rvec3 z = rvec3(real(0), real(0), real(1));
+    f = press_axis(f, c.half_length, r, x, y);
+    f = press_axis(f, c.half_length, r, y, z);
+    f = press_axis(f, c.half_length, r, z, x);
+    f = press_ball(f, up, r);
+    return press_ball(f, -up, r);
+}
+#endif

@@ -6,7 +6,7 @@
 //
 // In the frame of the box, which may move and turn, the vertex goes from `a` to `e`, taken as a straight way.
 // The face by which it enters decides; if it was inside already, the face nearest to `a` does.
-//! collider each_substep
+//! collider each_substep faces
 #include "shared/turned.glsl"
 
 #define cuboid_record CuboidCollider
@@ -65,3 +65,139 @@ INLINE Contact cuboid_contact(CuboidCollider c, CuboidCollider next, rvec3 x, rv
     met.friction = c.friction;
     return met;
 }
+
+#if COLLIDER_MEETS_FACES
+#include "shared/face.glsl"
+
+INLINE real cuboid_reach(CuboidCollider c) { return length(rvec3(c.half_x, c.half_y, c.half_z)); }
+
+INLINE real smallest(rvec3 v) { return min(v.x, min(v.y, v.z)); }
+
+INLINE rvec3 extent_for(CuboidCollider c, real gap_kept)
+{
+    return rvec3(c.half_x + gap_kept, c.half_y + gap_kept, c.half_z + gap_kept);
+}
+
+INLINE bool cuboid_contains(CuboidCollider c, real gap_kept, rvec3 x)
+{
+    return smallest(extent_for(c, gap_kept) - abs(x)) > real(0);
+}
+
+/// How far the points between `low` and `high` would have to go along an axis of the box to be out of it;
+/// none is in it where that is not above 0.
+INLINE real way_out(rvec3 low, rvec3 high, rvec3 extent)
+{
+    return min(smallest(extent - low), smallest(extent + high));
+}
+
+INLINE real one_with_sign(real v) { return v < real(0) ? real(-1) : real(1); }
+
+/// The corner `o` of the box, where it stands out of the triangle on the side that the middle of the box is
+/// not on, which is that of the normals. Where less is needed to push the corners of the triangle out, they
+/// are left to do it.
+INLINE Face press_corner(Face f, rvec3 extent, rvec3 o, rvec3 normal_before, rvec3 normal)
+{
+    real height = dot(normal, f.e0 - o);
+    rvec3 low = min(f.e0, min(f.e1, f.e2)), high = max(f.e0, max(f.e1, f.e2));
+    if (height < real(0) && -height <= REAL(1.0625) * way_out(low, high, extent))
+    {
+        Closest near = closest_vertex_triangle(f.e0 - o, f.e1 - o, f.e2 - o);
+        rvec3 b = weights_of(near);
+        rvec3 at = abs(place_at_end(f, b));
+        if (near.inside && smallest(extent * REAL(1.001) - at) >= real(0))
+            f = press(f, normal, dot(normal_before, place_at_start(f, b) - o), height, b);
+    }
+    return f;
+}
+
+/// How an edge from `a` to `b` lies to the edges of the box along `axis`: out of the way of them is `normal`,
+/// on the side of the middle where it came from, and `height` is over the one that reaches furthest there.
+struct EdgeSide
+{
+    rvec3 normal, corner; // the middle of the box's edge
+    real height;
+};
+
+INLINE EdgeSide edge_side(rvec3 axis, rvec3 a, rvec3 b, rvec3 a_before, rvec3 b_before, rvec3 extent)
+{
+    EdgeSide answer;
+    rvec3 across = cross(b - a, axis);
+    real size = length(across);
+    real side = one_with_sign(dot(cross(b_before - a_before, axis), a_before));
+    bool askew = size > REAL(1e-4) * length(b - a);
+    answer.normal = askew ? across * (side / size) : rvec3(real(0));
+    rvec3 n = answer.normal;
+    rvec3 o = extent * rvec3(one_with_sign(n.x), one_with_sign(n.y), one_with_sign(n.z));
+    answer.corner = o * (rvec3(real(1)) - axis);
+    answer.height = askew ? dot(n, a - answer.corner) : REAL(-1e30);
+    return answer;
+}
+
+/// The edge from the corner of the weights `first` to that of `second` against the edges of the box: the way
+/// out across both is taken where it is the shortest of all.
+INLINE Face press_edge(Face f, rvec3 extent, rvec3 first, rvec3 second)
+{
+    rvec3 pa = place_at_start(f, first), pb = place_at_start(f, second);
+    rvec3 ea = place_at_end(f, first), eb = place_at_end(f, second);
+    rvec3 x = rvec3(real(1), real(0), real(0)), y = rvec3(real(0), real(1), real(0));
+    rvec3 axis = rvec3(real(0), real(0), real(1));
+    real least = way_out(min(ea, eb), max(ea, eb), extent);
+    EdgeSide best = edge_side(axis, ea, eb, pa, pb, extent);
+    EdgeSide along_x = edge_side(x, ea, eb, pa, pb, extent);
+    EdgeSide along_y = edge_side(y, ea, eb, pa, pb, extent);
+    if (along_x.height > best.height)
+    {
+        best = along_x;
+        axis = x;
+    }
+    if (along_y.height > best.height)
+    {
+        best = along_y;
+        axis = y;
+    }
+    if (best.height < real(0) && -best.height < least)
+    {
+        rvec3 half_edge = axis * extent;
+        rvec3 begin = best.corner - half_edge;
+        Closest near = closest_edges(half_edge * real(2), ea - begin, eb - begin);
+        if (near.inside)
+        {
+            rvec3 b = first * -near.weight_c + second * -near.weight_d;
+            f = press(f, best.normal, dot(best.normal, place_at_start(f, b) - best.corner), best.height, b);
+        }
+    }
+    return f;
+}
+
+/// Whether a face of the box, or the plane of the triangle, has them on different sides. What lies flat on a
+/// face is a rounding inside as often as outside, and needs no more than its corners.
+INLINE bool cuboid_apart(CuboidCollider c, Face f)
+{
+    rvec3 extent = extent_for(c, f.gap_kept);
+    rvec3 low = min(f.e0, min(f.e1, f.e2)), high = max(f.e0, max(f.e1, f.e2));
+    real least = REAL(2e-5) * smallest(extent);
+    rvec3 across = cross(f.e1 - f.e0, f.e2 - f.e0);
+    real reach = dot(abs(across), extent) - least * length(across);
+    return way_out(low, high, extent) <= least || abs(dot(across, f.e0)) >= reach;
+}
+
+INLINE Face cuboid_face(CuboidCollider c, Face f)
+{
+    rvec3 extent = extent_for(c, f.gap_kept);
+    rvec3 normal_before = unit_or_zero(cross(f.p1 - f.p0, f.p2 - f.p0));
+    real side = one_with_sign(dot(normal_before, f.p0));
+    normal_before *= side;
+    rvec3 normal = unit_or_zero(cross(f.e1 - f.e0, f.e2 - f.e0)) * side;
+    for (uint k = 0u; k < 8u; ++k)
+    {
+        rvec3 o = extent * rvec3((k & 1u) == 0u ? real(-1) : real(1), (k & 2u) == 0u ? real(-1) : real(1),
+                                 (k & 4u) == 0u ? real(-1) : real(1));
+        f = press_corner(f, extent, o, normal_before, normal);
+    }
+    rvec3 x = rvec3(real(1), real(0), real(0)), y = rvec3(real(0), real(1), real(0));
+    rvec3 z = rvec3(real(0), real(0), real(1));
+    f = press_edge(f, extent, x, y);
+    f = press_edge(f, extent, y, z);
+    return press_edge(f, extent, z, x);
+}
+#endif

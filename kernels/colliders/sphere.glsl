@@ -7,7 +7,7 @@
 // In the frame of the ball the vertex moves on the segment from `a` to `e`. If `e` lies inside on the side
 // where the vertex came from, the nearest surface point decides; if the segment enters and ends on the
 // other side or outside again, the point of entry does.
-//! collider once
+//! collider once faces
 
 #define sphere_record SphereCollider
 
@@ -44,3 +44,22 @@ INLINE rvec3 sphere_slide(Contact met, rvec3 d)
 {
     return along_surface(met.normal, d - met.motion);
 }
+
+#if COLLIDER_MEETS_FACES
+#include "shared/face.glsl"
+
+INLINE real sphere_reach(SphereCollider c) { return c.radius; }
+
+INLINE bool sphere_contains(SphereCollider c, real gap_kept, rvec3 x)
+{
+    real r = c.radius + gap_kept;
+    return dot(x, x) < r * r;
+}
+
+INLINE bool sphere_apart(SphereCollider c, Face f) { return false; } // it may have gone through
+
+INLINE Face sphere_face(SphereCollider c, Face f)
+{
+    return press_ball(f, rvec3(real(0)), c.radius + f.gap_kept);
+}
+#endif

@@ -7,8 +7,8 @@
 // of the end of the last ("each_substep"). A shape that says `values` behind that has COLLIDER_VALUES 1, a
 // buffer `values` that it indexes as it likes, and no second form of several elements at once
 // (docs/lanes.md), which only index with what records hold. The kernel includes TAUT_COLLIDER, which is that
-// file. Of a shape
-// `cuboid` it uses
+// file. A shape that says `faces` is met by triangles, too (shared/face.glsl), in kernels with the line
+// `//! each collider with faces`. Of a shape `cuboid` a kernel uses
 //   cuboid_record                             the record in the buffer of colliders
 //   cuboid_contact(record, next, x, d, kept)  what the vertex at x meets that goes by d; of a shape "once",
 //   plane_contact(record, substep, substeps, x, d, kept)

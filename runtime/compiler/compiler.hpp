@@ -34,14 +34,15 @@ struct ElementFile
     std::vector<std::string> abilities; ///< `//! with dampers`: variants and a macro of its own
     std::string collider;               ///< of a shape "once" or "each_substep": `//! collider once`
     bool has_values = false;            ///< of a shape with a buffer `values`: `//! collider once values`
+    bool has_faces = false; ///< of a shape that triangles meet (shared/face.glsl): `//! collider once faces`
 };
 
 /// Reads the `//!` lines. Throws Error{kernel_compilation} for a file without `//! collider` that has no
 /// `//! corners 2` to 4 or no `//! methods`.
 ElementFile element_file(const std::string& path, std::string_view text);
 
-/// "element of METHOD" or "collider" of a kernel with the line `//! each element of METHOD` or
-/// `//! each collider`; empty for all others.
+/// "element of METHOD", "collider" or "collider with faces" of a kernel with the line `//! each element of
+/// METHOD`, `//! each collider` or `//! each collider with faces`; empty for all others.
 std::string each_of(std::string_view text);
 
 /// Whether kernels with that line are compiled for this.

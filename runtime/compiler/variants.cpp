@@ -146,12 +146,17 @@ ElementFile element_file(const std::string& path, std::string_view text)
     {
         const std::vector<std::string> words = split(line);
         out.collider = words.empty() ? "" : words.front();
-        out.has_values = words.size() == 2 && words[1] == "values";
-        if ((out.collider == "once" || out.collider == "each_substep") && words.size() == 1u + out.has_values)
+        const auto has = [&](std::string_view word) {
+            return std::find(words.begin(), words.end(), word) != words.end();
+        };
+        out.has_values = has("values");
+        out.has_faces = has("faces");
+        if ((out.collider == "once" || out.collider == "each_substep") &&
+            words.size() == 1u + out.has_values + out.has_faces)
             return out;
         refuse("shape " + path +
-               ": expected \"//! collider once\" or \"//! collider each_substep\", and \" values\" behind it "
-               "where the shape has a buffer of numbers");
+               ": expected \"//! collider once\" or \"//! collider each_substep\", and behind it \" values\" "
+               "where the shape has a buffer of numbers and \" faces\" where triangles meet it");
     }
     if (out.corners == 0)
         refuse("element " + path + ": expected a line \"//! corners N\" with N from 2 to 4");
@@ -169,7 +174,7 @@ std::string each_of(std::string_view text)
 bool is_for(std::string_view each, const ElementFile& element)
 {
     if (!element.collider.empty())
-        return each == "collider";
+        return each == "collider" || (each == "collider with faces" && element.has_faces);
     return std::any_of(element.methods.begin(), element.methods.end(),
                        [&](const std::string& method) { return each == "element of " + method; });
 }

@@ -69,6 +69,17 @@ struct SurfaceBuffers
                   partials = kNoBuffer, multiplier = kNoBuffer;
     std::uint32_t groups = 0, surfaces = 0, vertices = 0;
 };
+/// Of one shape of colliders, what its triangles need; 0 and kNoBuffer where none meets it (faces.hpp).
+struct FaceBuffers
+{
+    std::uint32_t corners = kNoBuffer; ///< three vertices a triangle
+    std::uint32_t which = kNoBuffer;   ///< the colliders that triangles meet, among those of the shape
+    std::uint32_t slots = kNoBuffer;   ///< four a triangle: what its corners would go, and friction
+    std::uint32_t state = kNoBuffer;   ///< of each triangle whether its slots are of this pass
+    std::uint32_t near = kNoBuffer;    ///< of each vertex whether any of its triangles may come near
+    std::uint32_t start = kNoBuffer, incident = kNoBuffer; ///< slots at each vertex
+    std::uint32_t triangles = 0, listed = 0;
+};
 struct ForceBuffers;
 struct BlockBuffers;
 struct MomentumBuffers; // momentum.cpp
@@ -175,6 +186,7 @@ public:
     std::array<bool, kColliderKinds> friction = {}; ///< by ColliderKind
     ColliderBuffers friction_taken = kNoColliders;
     ColliderBuffers collider_values = kNoColliders; ///< of shapes that have a buffer of numbers
+    std::array<FaceBuffers, kColliderKinds> faces = {}; ///< by ColliderKind
     std::shared_ptr<ForceBuffers> forces; ///< mass_spring.hpp
     std::shared_ptr<BlockBuffers> blocks; ///< vbd.hpp
     std::shared_ptr<Plasticity> plasticity; ///< plasticity.hpp

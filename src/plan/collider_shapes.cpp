@@ -8,6 +8,7 @@
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -142,6 +143,12 @@ static_assert(std::size(kShapes) == kColliderKinds);
 } // namespace
 
 const ColliderShape& collider_shape(ColliderKind kind) { return kShapes[static_cast<std::size_t>(kind)]; }
+
+std::uint32_t collider_count(const Scene& scene, ColliderKind kind)
+{
+    return static_cast<std::uint32_t>(std::count_if(scene.colliders.begin(), scene.colliders.end(),
+                                                    [&](const Collider& c) { return c.kind == kind; }));
+}
 
 ColliderShape::Records collider_records(const Scene& scene, ColliderKind kind, Precision precision,
                                         std::uint32_t substeps, double from, double to)

@@ -35,6 +35,8 @@ struct ColliderShape
 
 const ColliderShape& collider_shape(ColliderKind kind);
 
+std::uint32_t collider_count(const Scene& scene, ColliderKind kind);
+
 /// The values of the distance fields of a resolved scene, one after the other, each once.
 std::vector<float> collider_values(const Scene& scene);
 

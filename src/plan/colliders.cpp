@@ -2,6 +2,7 @@
 
 #include "taut/kernels/collide_distance_field.hpp"
 #include "taut/plan/collider_shapes.hpp"
+#include "taut/plan/faces.hpp"
 
 #include <algorithm>
 #include <string>
@@ -15,12 +16,6 @@ bool wanted(const Scene& scene)
 {
     return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
                                             [](const Collider& c) { return c.kind == Kind; });
-}
-
-std::uint32_t collider_count(const Scene& scene, ColliderKind kind)
-{
-    return static_cast<std::uint32_t>(std::count_if(scene.colliders.begin(), scene.colliders.end(),
-                                                    [&](const Collider& c) { return c.kind == kind; }));
 }
 
 bool has_friction(const Scene& scene, ColliderKind kind)
@@ -46,6 +41,7 @@ void prepare(PlanBuilder& b)
             b.collider_values[static_cast<std::size_t>(Kind)] =
                 b.add_buffer(shape.name, "values of " + std::string(shape.name) + "s", std::span(all));
         });
+    prepare_faces(b, Kind);
 }
 
 /// Of the values, read of a vertex that is far from the surface: at both ends of its way.
@@ -70,6 +66,7 @@ void record(PlanBuilder& b, const Moment& moment, ColliderKind kind)
         collider_shape(kind).name, collider_shape(kind).kernel, variant, uses,
         {b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
         b.plan.vertex_count);
+    record_faces(b, moment, kind);
 }
 
 template <ColliderKind Kind>

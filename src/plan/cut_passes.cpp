@@ -60,11 +60,14 @@ constexpr std::pair<std::string_view, Each> kBindings[] = {
 
 [[noreturn]] void refuse(const Dispatch& pass)
 {
+    const bool of_faces = pass.kernel->name.starts_with("face_");
     throw Error(ErrorCode::unsupported,
                 "effect \"" + pass.label + "\" (kernel " + std::string(pass.kernel->name) +
                     ") cannot be cut between two devices; springs, hinges, tetrahedra of bodies with pins, "
                     "strain limits, pins, "
-                    "colliders, damping and external forces can: divide whole bodies, or use one device");
+                    "colliders, damping and external forces can: " +
+                    (of_faces ? "let it meet vertices (\"meets\": \"vertices\"), " : "") +
+                    "divide whole bodies, or use one device");
 }
 
 const KernelRow& row_of(const Dispatch& pass)

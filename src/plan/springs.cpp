@@ -27,6 +27,18 @@ Incidence incidence_of(std::uint32_t vertex_count, std::span<const std::uint32_t
     return out;
 }
 
+Incidence triangles_at(const PlanBuilder& b, std::string_view effect, std::span<const std::uint32_t> corners)
+{
+    Incidence out = incidence_of(b.plan.vertex_count, corners, 3);
+    for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
+        if (const std::uint32_t count = out.start[v + 1] - out.start[v]; count >= kMaxLoopTrips)
+            throw Error(ErrorCode::limit, std::string(effect) + ": vertex " +
+                                              std::to_string(b.plan.original[v]) + " has " +
+                                              std::to_string(count) + " triangles, at most " +
+                                              std::to_string(kMaxLoopTrips - 1) + " can act on one");
+    return out;
+}
+
 void refuse_rigid(const Scene& scene)
 {
     for (std::size_t body = 0; body < scene.bodies.size(); ++body)

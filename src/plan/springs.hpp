@@ -21,6 +21,10 @@ struct Incidence
 /// `corners` lists `arity` vertices an element.
 Incidence incidence_of(std::uint32_t vertex_count, std::span<const std::uint32_t> corners,
                        std::uint32_t arity);
+/// The same of triangles that an invocation per vertex loops over. Throws Error{limit} naming the effect and
+/// the first vertex that has too many.
+Incidence triangles_at(const PlanBuilder& builder, std::string_view effect,
+                       std::span<const std::uint32_t> corners);
 
 /// The vertices of an element, in the order of its record.
 inline std::array<std::uint32_t, 2> corners_of(const StretchElement& e) { return {e.a, e.b}; }

@@ -3,7 +3,6 @@
 #include "taut/plan/grouping.hpp"
 #include "taut/plan/material.hpp"
 #include "taut/plan/springs.hpp"
-#include "taut/runtime/base/error.hpp"
 #include "taut/kernels/wind.hpp"
 #include "taut/kernels/wind_pressure.hpp"
 
@@ -78,13 +77,7 @@ void prepare_wind(PlanBuilder& b)
         std::vector<std::uint32_t> corners;
         for (const auto& t : triangles)
             corners.insert(corners.end(), {t.a, t.b, t.c});
-        Incidence at = incidence_of(b.plan.vertex_count, corners, 3);
-        for (std::uint32_t v = 0; v < b.plan.vertex_count; ++v)
-            if (at.start[v + 1] - at.start[v] >= kMaxLoopTrips)
-                throw Error(ErrorCode::limit, "wind: vertex " + std::to_string(b.plan.original[v]) +
-                                                  " has " + std::to_string(at.start[v + 1] - at.start[v]) +
-                                                  " triangles, at most " +
-                                                  std::to_string(kMaxLoopTrips - 1) + " can act on one");
+        Incidence at = triangles_at(b, "wind", corners);
         for (std::uint32_t& entry : at.entries)
             entry /= 3;
         b.wind_triangles = b.add_buffer<layout::WindTriangle<Real>>("wind", "wind triangles", triangles);

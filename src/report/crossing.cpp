@@ -111,7 +111,9 @@ CrossingWatch::CrossingWatch(const Scene& resolved)
                               led_speed(collider.motion, frame_at(collider, 0).centre, shape.reach)});
     }
     set_scene(resolved);
-    pairs_.resize(bodies_.size() * colliders_.size());
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        for (const WatchedCollider& c : colliders_)
+            pairs_.emplace_back().by_triangles = meets_surface(resolved.bodies[b], c.collider);
 }
 
 void CrossingWatch::set_scene(const Scene& resolved)
@@ -212,7 +214,9 @@ void CrossingWatch::look_at(const WatchedBody& body, const Bounds& last, const M
 void CrossingWatch::look_closely(const WatchedBody& body, double speed, const WatchedCollider& collider,
                                  Pair& pair, const LookMoment& now)
 {
-    const LookBounds bounds{speed, kTunnelHole * width_of(body, collider, now), timestep_, gravity_,
+    const double width = pair.by_triangles ? std::numeric_limits<double>::infinity()
+                                           : kTunnelHole * width_of(body, collider, now);
+    const LookBounds bounds{speed, width, timestep_, gravity_,
                             !pair.inside && !first_};
     const LookFound seen = close_.look(body, collider, motions_, now, bounds);
     found_.depth = std::max(found_.depth, seen.depth);

@@ -84,6 +84,7 @@ private:
     {
         bool inside = false; ///< since the start of the run
         bool seen = false, likely = false;
+        bool by_triangles = false; ///< the collider meets the body's triangles, so no hole lets it through
     };
 
     Motion motion_of(const WatchedBody& body, const LookMoment& now);

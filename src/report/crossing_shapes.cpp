@@ -354,13 +354,13 @@ bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorne
     return pierces(half, thinnest, before[0], after[0]) || pierces(half, thinnest, before[1], after[1]);
 }
 
-double hole_of(const TriangleCorners& t)
+bool comes_near(const SolidShape& shape, const TriangleCorners& triangle, double way)
 {
-    double edges[] = {glm::length(t[1] - t[0]), glm::length(t[2] - t[1]), glm::length(t[0] - t[2])};
-    std::sort(std::begin(edges), std::end(edges));
-    if (edges[0] * edges[0] + edges[1] * edges[1] <= edges[2] * edges[2])
-        return 0.5 * edges[2];
-    return edges[0] * edges[1] * edges[2] / (2 * glm::length(glm::cross(t[1] - t[0], t[2] - t[0])));
+    if (shape.solid.field)
+        return false;
+    if (shape.radius > 0)
+        return axis_triangle(shape.half, triangle) <= shape.radius + way;
+    return meets_box(shape.half + way, triangle);
 }
 
 } // namespace taut

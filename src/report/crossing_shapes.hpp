@@ -4,6 +4,7 @@
 
 #include "taut/report/field_middle.hpp"
 #include "taut/scene/collider.hpp"
+#include "taut/scene/faces.hpp"
 
 #include <array>
 #include <vector>
@@ -57,7 +58,8 @@ bool goes_through(const glm::dvec3& point, const TriangleCorners& before, const 
 bool link_goes_through(const SolidShape& shape, double edge, const TriangleCorners& before,
                        const TriangleCorners& after);
 
-/// Radius of the smallest ball round an element: what is less wide may pass between the corners.
-double hole_of(const TriangleCorners& element);
+/// Whether a triangle comes within `way` (m, >= 0) of a shape, or into it. Of a box: into the box grown by it
+/// on every face; a field: never.
+bool comes_near(const SolidShape& shape, const TriangleCorners& triangle, double way);
 
 } // namespace taut

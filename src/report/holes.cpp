@@ -2,6 +2,7 @@
 
 #include "taut/report/crossing_shapes.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/scene/faces.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -15,16 +16,6 @@ namespace taut {
 namespace {
 
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-
-/// m, radius.
-double largest_hole(const Body& body)
-{
-    double out = 0;
-    for (const auto& t : body.mesh.triangles)
-        out = std::max(
-            out, hole_of({body.mesh.positions[t[0]], body.mesh.positions[t[1]], body.mesh.positions[t[2]]}));
-    return out;
-}
 
 /// m, radius of what a box goes through end first.
 double round_box(const glm::dvec3& half)
@@ -50,6 +41,14 @@ std::string called(const std::string& list, std::size_t number, const std::strin
     return list + "[" + std::to_string(number) + "]" + (name.empty() ? "" : " (" + name + ")");
 }
 
+std::string cure_of(const Collider& collider)
+{
+    if (has_faces(collider.kind))
+        return "let it meet triangles (\"meets\": \"surface\"), or take smaller ones";
+    return "take smaller triangles, or a kinematic body, which edges and triangles meet, too "
+           "(docs/contact.md, \"Meshes that are led\")";
+}
+
 } // namespace
 
 std::vector<SceneIssue> holes_issues(const Scene& resolved)
@@ -63,13 +62,12 @@ std::vector<SceneIssue> holes_issues(const Scene& resolved)
         const Body& body = resolved.bodies[b];
         const double hole = body.kinematic.used ? 0 : largest_hole(body) - body.material.thickness;
         for (std::size_t c = 0; c < radii.size(); ++c)
-            if (radii[c] < hole)
+            if (radii[c] < hole && !meets_surface(body, resolved.colliders[c]))
                 out.push_back({false, "colliders[" + std::to_string(c) + "]",
                                "goes through the triangles of " + called("bodies", b, body.name) +
-                                   ": colliders meet vertices alone, it is " + shown(radii[c], 3) +
+                                   ": it meets vertices alone, is " + shown(radii[c], 3) +
                                    " m round, and between vertices there is room for " + shown(hole, 3) +
-                                   " m; take smaller triangles, or a kinematic body, which edges and "
-                                   "triangles meet, too (docs/contact.md, \"Meshes that are led\")"});
+                                   " m; " + cure_of(resolved.colliders[c])});
     }
     return out;
 }

@@ -10,6 +10,7 @@
 #include "taut/plan/methods.hpp"
 #include "taut/report/contact.hpp"
 #include "taut/report/contact_depth.hpp"
+#include "taut/report/crossing_shapes.hpp"
 #include "taut/report/load_residual.hpp"
 
 #include <glm/geometric.hpp>
@@ -113,6 +114,30 @@ void mark_limited(const View& view, std::vector<bool>& marks)
 /// of 55, what the ring carries; with it of 0.65.
 constexpr double kOffGrid = 2e-3;
 
+/// Marks the corners of a body's triangles that a collider holds: no further from it than `near` of a corner.
+template <typename Near>
+void mark_held_triangles(const View& view, std::size_t body, const Collider& collider, const Near& near,
+                         std::vector<bool>& marks)
+{
+    const SolidShape shape = solid_shape(collider);
+    const ColliderFrame frame = frame_at(collider, view.world.time());
+    const std::size_t first = view.model.body_start[body];
+    for (const auto& [a, b, c] : view.world.scene().bodies[body].mesh.triangles)
+    {
+        const std::size_t corner[] = {first + a, first + b, first + c};
+        TriangleCorners own;
+        double way = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            own[k] = frame.inside(view.x[corner[k]]);
+            way = std::max(way, near(corner[k]));
+        }
+        if (comes_near(shape, own, way))
+            for (const std::size_t v : corner)
+                marks[v] = true;
+    }
+}
+
 } // namespace
 
 bool has_effect(const View& view, std::string_view name)
@@ -121,14 +146,24 @@ bool has_effect(const View& view, std::string_view name)
                        [&](const EffectCost& e) { return e.name == name; });
 }
 
-bool touches_collider(const View& view, std::size_t vertex, double way)
+std::vector<bool> touching_colliders(const View& view, std::span<const double> ways)
 {
-    const auto& colliders = view.world.scene().colliders;
-    const double near = view.model.gap[vertex] + 1e-6 * view.model.diameter + way;
-    return std::any_of(colliders.begin(), colliders.end(), [&](const Collider& c) {
+    const Scene& scene = view.world.scene();
+    const auto near = [&](std::size_t i) {
+        return view.model.gap[i] + 1e-6 * view.model.diameter + (ways.empty() ? 0 : ways[i]);
+    };
+    std::vector<bool> out(view.x.size(), false);
+    for (const Collider& c : scene.colliders)
+    {
         const double beside = c.field ? kOffGrid * c.field->cell : 0;
-        return reference::surface_at(c, view.world.time()).touch(view.x[vertex], 0).height <= near + beside;
-    });
+        const reference::Surface surface = reference::surface_at(c, view.world.time());
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = out[i] || surface.touch(view.x[i], 0).height <= near(i) + beside;
+        for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+            if (meets_surface(scene.bodies[b], c))
+                mark_held_triangles(view, b, c, near, out);
+    }
+    return out;
 }
 
 void measure_implicit_residual(const View& view, StepReport& out)
@@ -139,10 +174,11 @@ void measure_implicit_residual(const View& view, StepReport& out)
     const double gravity = glm::length(last->model->gravity);
     std::vector<double> size(view.x.size(), 0.0);
     add_force_sizes(*last->model, view.x, size);
+    const std::vector<bool> touches = touching_colliders(view);
     double worst = 0, lefts = 0, sizes = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
-        if (last->model->pinned[i] || last->model->flows[i] || touches_collider(view, i))
+        if (last->model->pinned[i] || last->model->flows[i] || touches[i])
             continue;
         const double mass = last->model->mass[i], left = glm::length(last->left.force[i]);
         worst = std::max(worst, left / mass / (gravity > 0 ? gravity : 1.0));
@@ -188,14 +224,17 @@ void put_loads(const View& view, Substep& last)
 {
     const double h = view.plan.timestep / view.plan.substeps, gravity = glm::length(view.model.gravity);
     const std::vector<double> least = least_loads(view, h);
+    std::vector<double> ways;
     for (std::size_t b = 0; b < least.size(); ++b)
         for (std::size_t i = view.model.body_start[b]; i < view.model.body_start[b + 1]; ++i)
         {
-            const double moved = glm::length(last.moved[i]);
             last.left.load[i] = last.model->mass[i] * std::max(least[b], glm::length(last.inertia[i]));
             // One that a collider pushed may have left it in the same substep.
-            last.left.touches[i] = view.model.flows[i] || touches_collider(view, i, moved + gravity * h * h);
+            ways.push_back(glm::length(last.moved[i]) + gravity * h * h);
         }
+    last.left.touches = touching_colliders(view, ways);
+    for (std::size_t i = 0; i < ways.size(); ++i)
+        last.left.touches[i] = last.left.touches[i] || view.model.flows[i];
     mark_limited(view, last.left.touches);
     const std::vector<bool> met = in_contact(view.world);
     for (std::size_t i = 0; i < met.size(); ++i)

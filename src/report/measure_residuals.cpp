@@ -99,10 +99,11 @@ void measure_residuals(const View& view, StepReport& out)
     out.stretch_residual = distance_residual(view, h, moved, impulse);
     out.dual_residual = std::max(out.stretch_residual, bending_residual(view, h, impulse));
     const double gravity = glm::length(view.model.gravity);
+    const std::vector<bool> touches = touching_colliders(view);
     double worst = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
-        if (view.model.pinned[i] || touches_collider(view, i))
+        if (view.model.pinned[i] || touches[i])
             continue;
         const double mass = view.model.mass[i];
         const glm::dvec3 r = mass * (moved[i] - guess[i]) - impulse[i];

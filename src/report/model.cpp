@@ -4,6 +4,7 @@
 #include "taut/report/hinge.hpp"
 #include "taut/report/looks.hpp"
 #include "taut/report/plate_energy.hpp"
+#include "taut/scene/faces.hpp"
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
@@ -124,6 +125,9 @@ PhysicalModel make_model(const Scene& resolved)
     model.timestep = resolved.timestep;
     model.duration = resolved.duration;
     model.colliders = resolved.colliders;
+    for (const Collider& collider : resolved.colliders)
+        for (const Body& body : resolved.bodies)
+            model.faces_meet = model.faces_meet || meets_surface(body, collider);
     model.diameter = rest_diameter(resolved);
     model.springs = scene_springs(resolved);
     model.added = scene_elements(resolved);

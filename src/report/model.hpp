@@ -61,6 +61,7 @@ struct PhysicalModel
     std::size_t dropped_hinges = 0;           ///< without an angle at rest
     std::vector<ModelPin> pins;               ///< ascending, one a vertex
     std::vector<Collider> colliders;
+    bool faces_meet = false; ///< a collider pushes triangles (scene/faces.hpp): references do not follow
     std::vector<std::uint32_t> body_start;    ///< first vertex of each body, and the total
     glm::dvec3 gravity{0};                    ///< m/s^2
     double damping = 0;                       ///< 1/s

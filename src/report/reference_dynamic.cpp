@@ -163,6 +163,8 @@ std::string refusal(const PhysicalModel& model, const DynamicOptions& options, d
         return std::to_string(rigid) + " elements are rigid (compliance 0): no step is small enough";
     if (options.scheme == Scheme::verlet && !model.colliders.empty())
         return "contacts are first order: ask for symplectic_euler with colliders";
+    if (model.faces_meet)
+        return "a collider meets triangles: the dynamic reference knows those that meet vertices";
     if (starts_inside(model))
         return "a vertex starts inside a collider: how fast it comes out is a choice, not physics";
     if (!(element_steps <= options.max_element_steps))

@@ -2,6 +2,7 @@
 
 #include "taut/scene/checker.hpp"
 #include "taut/scene/distance_field.hpp"
+#include "taut/scene/faces.hpp"
 #include "taut/scene/pin_words.hpp"
 
 #include <glm/geometric.hpp>
@@ -148,6 +149,9 @@ void check_collider(const Collider& collider, const Checker& out)
             out.error("distance_field", fault);
         if (!collider.field && collider.field_file.empty())
             out.error("distance_field.file", "is empty; it must name a grid that `taut sdf` wrote");
+        if (collider.meets == kMeetsSurface)
+            out.error("meets", "is \"surface\"; a distance field meets vertices alone so far, a kinematic "
+                               "body of the mesh meets triangles, too");
     }
     for (std::size_t i = 0; collider.kind == ColliderKind::plane && i < collider.motion.size(); ++i)
         if (collider.motion[i].rotate_degrees != 0)

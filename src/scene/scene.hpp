@@ -263,6 +263,7 @@ struct Collider
     double field_scale = 1;           ///< > 0
     std::shared_ptr<const DistanceField> field;
     double friction = 0; ///< Coulomb coefficient, >= 0; 0 = no friction effect
+    std::string meets = "automatic"; ///< "vertices" of bodies, or their "surface": faces.hpp
     std::vector<Keyframe> motion;
     /// Set by a World whose program moves the collider: `motion` is then that of the last step alone, and the
     /// last key is where it is.

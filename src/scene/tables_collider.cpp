@@ -1,6 +1,7 @@
 // Keys of colliders. Their shapes are parts of one struct.
 
 #include "taut/scene/checker.hpp"
+#include "taut/scene/faces.hpp"
 #include "taut/scene/tables.hpp"
 
 namespace taut::scene_file {
@@ -42,6 +43,12 @@ constexpr Key kCollider[] = {
     key<&Collider::friction>("friction", "Coulomb's coefficient; 0: no friction effect")
         .unit("(Coulomb coefficient)")
         .at_least(0),
+    key<&Collider::meets>("meets",
+                          "what of a body it holds up: its vertices, or whole triangles, too, so that "
+                          "nothing comes through between vertices; \"automatic\": triangles where it could "
+                          "by a quarter of their size")
+        .words(kMeets)
+        .see("which", "contact.md#colliders-and-triangles"),
     list<&Collider::motion>("motion", "how it moves", kKeyframeTable),
 };
 

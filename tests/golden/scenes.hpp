@@ -65,9 +65,45 @@ inline Scene effects()
     block.kind = ColliderKind::cuboid;
     block.point = {2.25, -0.5, 0};
     block.half_size = {1, 0.25, 0.25};
+    capsule.meets = block.meets = "vertices"; // faces() has the rest
     scene.colliders.insert(scene.colliders.end(), {capsule, block});
     scene = resolve(scene);
     scene.bodies.push_back(gas); // it has its mesh
+    return scene;
+}
+
+/// Coarse cloths that fall onto a ball, a capsule and a turned box that goes up, each less wide than a cell.
+inline Scene faces()
+{
+    Scene scene;
+    const double at[] = {-1.5, 0, 1.5};
+    Collider ball, capsule, block;
+    ball.radius = 0.0625;
+    ball.friction = 0.25;
+    capsule.kind = ColliderKind::capsule;
+    capsule.end = {0.5, 0.0625, 0.125};
+    capsule.radius = 0.03125;
+    capsule.friction = 0.5;
+    block.kind = ColliderKind::cuboid;
+    block.half_size = {0.0625, 0.125, 0.0625};
+    block.rotate_axis = {1, 0, -1};
+    block.rotate_degrees = 30;
+    block.motion = {{0, {0, 0, 0}}, {1, {0, 0.5, 0}}};
+    scene.colliders = {ball, capsule, block};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        Body sheet = cloth("sheet " + std::to_string(k), 3);
+        sheet.pins.clear();
+        sheet.material.thickness = 0.01;
+        sheet.transform.rotate_axis = {1, 0, 0};
+        sheet.transform.rotate_degrees = -90;
+        sheet.transform.translate = {at[k], 0.1875, 0.0625};
+        sheet.velocity = {0.5, -2, 0};
+        scene.bodies.push_back(sheet);
+        scene.colliders[k].point += glm::dvec3(at[k], 0, 0);
+        scene.colliders[k].end += glm::dvec3(at[k], 0, 0);
+    }
+    scene.method.substeps = 8;
     return scene;
 }
 
@@ -191,6 +227,7 @@ inline std::map<std::string, Scene> scenes()
                                            {"hanging", hanging()},
                                            {"drape", drape()},
                                            {"field", field()},
+                                           {"faces", faces()},
                                            {"chain", chain()},
                                            {"busy", busy()},
                                            {"star", star()},

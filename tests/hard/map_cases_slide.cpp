@@ -220,10 +220,12 @@ void add_spinning(std::vector<MapCase>& out, bool solid)
         out.push_back({"E13", of + "on a " + (round ? "capsule" : "box") + " that spins with 50 rad/s", s, 60,
                        [tip](const Journey& j) {
                            const glm::dvec3 way = mean(j.world.positions()) - mean(j.start);
-                           return each_of(
-                               above("missing of 5 cm sideways", 0.05 - std::hypot(way.x, way.z), 0),
-                               above("speed / that of the tip and of the fall",
-                                     glm::length(mean(j.world.velocities())) / (tip + 9.81), 1));
+                           // What is wound round it stays there, and goes round.
+                           const double thrown = std::hypot(way.x, way.z) / 0.05;
+                           return each_of(above("missing of 5 cm sideways, or of 1 m/s",
+                                                1 - std::max(thrown, j.last.max_speed), 0),
+                                          above("speed / that of the tip and of the fall",
+                                                glm::length(mean(j.world.velocities())) / (tip + 9.81), 1));
                        },
                        solid ? kForces : 0});
         out.back().work = pushed_by(tip);

@@ -135,6 +135,7 @@ TEST_CASE("a small ball slips through a coarse grid without touching a vertex, a
         scene.gravity = glm::dvec3(0);
         scene.colliders.resize(1);
         scene.colliders[0].radius = 0.04;
+        scene.colliders[0].meets = "vertices";
         scene.colliders[0].point = {0.08, 0.3, 0.15}; // over a triangle
         scene.colliders[0].motion = {{0, {}}, {1, {0, -0.6, 0}}};
         REQUIRE(passes(scene, 60));

@@ -37,10 +37,11 @@ struct Row
     std::uint64_t each_contact = 0, each_substep = 0, each_step = 0; ///< dispatches
 };
 
-void add_collider(Scene& scene, ColliderKind kind, double friction = 0)
+void add_collider(Scene& scene, ColliderKind kind, double friction = 0, const std::string& meets = "vertices")
 {
     Collider c;
     c.kind = kind;
+    c.meets = meets;
     c.friction = friction;
     c.point = {0, -3, 0};
     c.end = {0, -4, 0};
@@ -52,6 +53,7 @@ std::vector<Row> rows()
     return {
         {"capsule", [](Scene& s) { add_collider(s, ColliderKind::capsule); }, 1, 0, 0},
         {"cuboid", [](Scene& s) { add_collider(s, ColliderKind::cuboid); }, 1, 0, 0},
+        {"cuboid", [](Scene& s) { add_collider(s, ColliderKind::cuboid, 0, "surface"); }, 9, 0, 0},
         {"attachment", [](Scene& s) { s.bodies[0].material.attachment_slack = 0.1; }, 1, 0, 0},
         {"wind",
          [](Scene& s) {

@@ -285,8 +285,11 @@ TEST_CASE("what starts within a collider is not said to have come through it, un
 
 TEST_CASE("may_tunnel: wide holes or long ways, and only near the collider")
 {
-    const auto likely = [](double around, double radius, double height, double speed) {
-        Watched run(flat(height, around), ball(radius));
+    std::string meets = "vertices";
+    const auto likely = [&](double around, double radius, double height, double speed) {
+        Collider collider = ball(radius);
+        collider.meets = meets;
+        Watched run(flat(height, around), collider);
         return run.look(0, flat(height, around), {0, -speed, 0}).likely.size();
     };
     CHECK(likely(0.5, 0.4, 0.401, 0) == 0);   // at rest, apart
@@ -296,6 +299,9 @@ TEST_CASE("may_tunnel: wide holes or long ways, and only near the collider")
     CHECK(likely(0.5, 0.6, 3, 170) == 0); // 0.28 a substep
     CHECK(likely(0.5, 0.6, 3, 200) == 1); // 0.33 a substep is more than half of 0.6
     CHECK(likely(0.5, 0.6, 9, 200) == 0); // not within this frame
+    meets = "surface";
+    CHECK(likely(0.5, 0.4, 0.401, 0.5) == 0); // no hole lets it through
+    CHECK(likely(0.5, 0.6, 3, 200) == 1);     // but speed may
 }
 
 TEST_CASE("each element's own distance and speed tell when to look again")

@@ -24,7 +24,8 @@ Scene one_cloth(std::uint32_t columns, std::uint32_t rows)
                     "pins": [{"corners": ["top_left"],
                               "motion": [{"time": 0}, {"time": 0.5, "translate": [0, 0.2, 0.1]}]},
                              {"corners": ["bottom_right"]}]}],
-        "colliders": [{"sphere": {"centre": [0, -0.2, 0], "radius": 0.15}, "friction": 0.3},
+        "colliders": [{"sphere": {"centre": [0, -0.2, 0], "radius": 0.15},
+                       "friction": 0.3, "meets": "vertices"},
                       {"plane": {"point": [0, -0.3, 0]}, "friction": 0.2}]})");
     scene.bodies[0].shape.cells = {columns, rows};
     return resolve(scene);
@@ -280,6 +281,11 @@ TEST_CASE("what cannot be cut is refused in words", "[split]")
     {
         scene.bodies[0].material.tear_strain = 0.5;
         CHECK_THROWS_WITH(make(scene), Contains("\"tearing\""));
+    }
+    SECTION("colliders that meet triangles")
+    {
+        scene.colliders[0].meets = "surface";
+        CHECK_THROWS_WITH(make(scene), Contains("\"sphere\"") && Contains("\"meets\": \"vertices\""));
     }
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+// Whether colliders meet the triangles of a body or its vertices alone.
+
+#include "taut/scene/scene.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace taut {
+
+/// The words of Collider::meets.
+inline constexpr std::string_view kMeetsAutomatic = "automatic", kMeetsVertices = "vertices",
+                                  kMeetsSurface = "surface";
+inline constexpr std::array<std::string_view, 3> kMeets = {kMeetsAutomatic, kMeetsVertices, kMeetsSurface};
+
+/// Radius of the smallest ball round a triangle, m: what is less wide may pass between the corners.
+double hole_of(const std::array<glm::dvec3, 3>& triangle);
+
+/// The largest of a body's triangles at rest, m; 0 without any.
+double largest_hole(const Body& body);
+
+/// Whether there are passes over triangles for a collider of that kind. Of a plane vertices say it all;
+/// points between the vertices of a triangle are not looked for in a distance field.
+bool has_faces(ColliderKind kind);
+
+/// Of a resolved scene. "automatic": where the collider could stand out between vertices that just do not
+/// touch it by a quarter of the largest hole and the body's thickness. That is the whole hole at an edge of a
+/// box, r - sqrt(r^2 - hole^2) of a ball or a capsule. Of kinematic bodies never.
+bool meets_surface(const Body& body, const Collider& collider);
+
+} // namespace taut
