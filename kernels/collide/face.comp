@@ -22,7 +22,6 @@ PARAMS
     uint substeps;
     uint look;  // 1: which triangles may come near in this time step is not known yet
     uint again; // 1: the first sweep of the substep has been
-    float fall; // m, that gravity adds to a way within it
 };
 
 READ(0, uint, corner);    // three vertices a triangle
@@ -97,8 +96,10 @@ INLINE bool comes_near(uint j, uint v0, uint v1, uint v2)
     rvec3 come2 = own - rvec3(delta[v2]) * left;
     real come = sqrt(max(dot(come0, come0), max(dot(come1, come1), dot(come2, come2))));
     real size = sqrt(max(dot(side, side), dot(other, other)));
-    real reach = OF_COLLIDER(reach)(record_after(j)) + delta[v0].w;
-    real near = (reach + size) + (real(2) * come + real(fall));
+    StepValues step = step_values[0];
+    real time = step.substep * left;
+    real fall = length(rvec3(step.gravity_x, step.gravity_y, step.gravity_z)) * (time * time);
+    real near = (OF_COLLIDER(reach)(record_after(j), delta[v0].w) + size) + (real(2) * come + fall);
     return dot(x - here, x - here) <= near * near;
 }
 

@@ -70,7 +70,10 @@ INLINE Contact capsule_contact(CapsuleCollider c, CapsuleCollider next, rvec3 x,
 #if COLLIDER_MEETS_FACES
 #include "shared/face.glsl"
 
-INLINE real capsule_reach(CapsuleCollider c) { return c.half_length + c.radius; }
+INLINE real capsule_reach(CapsuleCollider c, real gap_kept)
+{
+    return (c.half_length + c.radius) + gap_kept;
+}
 
 INLINE bool capsule_contains(CapsuleCollider c, real gap_kept, rvec3 x)
 {

@@ -69,14 +69,14 @@ INLINE Contact cuboid_contact(CuboidCollider c, CuboidCollider next, rvec3 x, rv
 #if COLLIDER_MEETS_FACES
 #include "shared/face.glsl"
 
-INLINE real cuboid_reach(CuboidCollider c) { return length(rvec3(c.half_x, c.half_y, c.half_z)); }
-
 INLINE real smallest(rvec3 v) { return min(v.x, min(v.y, v.z)); }
 
 INLINE rvec3 extent_for(CuboidCollider c, real gap_kept)
 {
     return rvec3(c.half_x + gap_kept, c.half_y + gap_kept, c.half_z + gap_kept);
 }
+
+INLINE real cuboid_reach(CuboidCollider c, real gap_kept) { return length(extent_for(c, gap_kept)); }
 
 INLINE bool cuboid_contains(CuboidCollider c, real gap_kept, rvec3 x)
 {
@@ -92,11 +92,12 @@ INLINE real way_out(rvec3 low, rvec3 high, rvec3 extent)
 
 INLINE real one_with_sign(real v) { return v < real(0) ? real(-1) : real(1); }
 
-/// The corner `o` of the box, where it stands out of the triangle on the side that the middle of the box is
-/// not on, which is that of the normals. Where less is needed to push the corners of the triangle out, they
-/// are left to do it.
-INLINE Face press_corner(Face f, rvec3 extent, rvec3 o, rvec3 normal_before, rvec3 normal)
+/// The corner `o` of the box, where it stands out of the triangle, which other corners may have pushed by
+/// now, on the side that the middle of the box is not on: that of the normal before. Where less is needed to
+/// push the corners of the triangle out, they are left to do it.
+INLINE Face press_corner(Face f, rvec3 extent, rvec3 o, rvec3 normal_before, real side)
 {
+    rvec3 normal = unit_or_zero(cross(f.e1 - f.e0, f.e2 - f.e0)) * side;
     real height = dot(normal, f.e0 - o);
     rvec3 low = min(f.e0, min(f.e1, f.e2)), high = max(f.e0, max(f.e1, f.e2));
     if (height < real(0) && -height <= REAL(1.0625) * way_out(low, high, extent))
@@ -187,12 +188,11 @@ INLINE Face cuboid_face(CuboidCollider c, Face f)
     rvec3 normal_before = unit_or_zero(cross(f.p1 - f.p0, f.p2 - f.p0));
     real side = one_with_sign(dot(normal_before, f.p0));
     normal_before *= side;
-    rvec3 normal = unit_or_zero(cross(f.e1 - f.e0, f.e2 - f.e0)) * side;
     for (uint k = 0u; k < 8u; ++k)
     {
         rvec3 o = extent * rvec3((k & 1u) == 0u ? real(-1) : real(1), (k & 2u) == 0u ? real(-1) : real(1),
                                  (k & 4u) == 0u ? real(-1) : real(1));
-        f = press_corner(f, extent, o, normal_before, normal);
+        f = press_corner(f, extent, o, normal_before, side);
     }
     rvec3 x = rvec3(real(1), real(0), real(0)), y = rvec3(real(0), real(1), real(0));
     rvec3 z = rvec3(real(0), real(0), real(1));

@@ -48,7 +48,7 @@ INLINE rvec3 sphere_slide(Contact met, rvec3 d)
 #if COLLIDER_MEETS_FACES
 #include "shared/face.glsl"
 
-INLINE real sphere_reach(SphereCollider c) { return c.radius; }
+INLINE real sphere_reach(SphereCollider c, real gap_kept) { return c.radius + gap_kept; }
 
 INLINE bool sphere_contains(SphereCollider c, real gap_kept, rvec3 x)
 {

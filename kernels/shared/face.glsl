@@ -2,10 +2,10 @@
 // to a shape, and how a point of the triangle is pushed out.
 //
 // A shape with the word `faces` in its line `//! collider` (shared/contact.glsl) has, of a shape `cuboid`,
-//   cuboid_reach(record)         how far its surface is from the origin of its frame at most, m
+//   cuboid_reach(record, gap kept)         how far its surface is from the origin of its frame at most, m
 //   cuboid_contains(record, gap kept, x)   whether a point of the frame is in it
-//   cuboid_apart(record, face)   whether nothing of the triangle is in its way, by the ends of its ways alone
-//   cuboid_face(record, face)    pushes the points of the triangle that are in its way
+//   cuboid_apart(record, face)             whether nothing of the triangle is in its way where ways end
+//   cuboid_face(record, face)              pushes the points of the triangle that are in its way
 //
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014, section 6.1 (a contact
 //   as a constraint of positions), for the point sum_k b_k x_k with b_0 + b_1 + b_2 = 1.

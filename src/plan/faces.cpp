@@ -6,8 +6,6 @@
 #include "taut/plan/springs.hpp"
 #include "taut/scene/faces.hpp"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <string>
 
@@ -93,13 +91,12 @@ void record_faces(PlanBuilder& b, const Moment& moment, ColliderKind kind)
                                                     .state = {f.state, 6},
                                                     .delta = {b.plan.delta},
                                                     .near = {f.near}};
-    const float fall = static_cast<float>(glm::length(b.scene.gravity) * b.plan.timestep * b.plan.timestep);
     for (std::uint32_t sweep = 0; sweep < kFaceSweeps; ++sweep)
     {
         const bool look = moment.substep == 0 && moment.iteration == 0 && sweep == 0;
         b.dispatch_by_name(name, "face_" + name, "", push,
                            {f.triangles, collider_count(b.scene, kind), f.listed, moment.substep,
-                            b.plan.substeps, look, sweep > 0, fall},
+                            b.plan.substeps, look, sweep > 0},
                            f.triangles);
         b.dispatch(name, "", move, {b.plan.vertex_count, look}, b.plan.vertex_count);
     }

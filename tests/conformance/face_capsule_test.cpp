@@ -129,7 +129,7 @@ TEMPLATE_TEST_CASE("triangles leave capsules by their edges across the axis, and
     }
     const Params params{in.count,   in.colliders, static_cast<std::uint32_t>(in.which.size()),
                         in.substep, in.substeps,  in.look,
-                        in.again,   in.fall};
+                        in.again};
     check_turned_faces(in, kernels::face_capsule::info("", precision_of<Real>()),
                        bytes_of(std::vector{params}), poses, ref_capsule<Real>);
 }

@@ -40,8 +40,9 @@ bool apart(RefFace& f, const glm::dvec3& extent)
 }
 
 void ref_corner(RefFace& f, const glm::dvec3& extent, const glm::dvec3& o, const glm::dvec3& before,
-                const glm::dvec3& normal)
+                double side)
 {
+    const glm::dvec3 normal = normal_of(f.e) * side;
     const double height = glm::dot(normal, f.e[0] - o), most = 1.0625 * way_out(f.e, extent);
     f.doubt(height);
     f.doubt(height + most);
@@ -115,11 +116,11 @@ void ref_cuboid(RefFace& f, const Cuboid<Real>& c)
         return;
     const double side = glm::dot(normal_of(f.p), f.p[0]) < 0 ? -1 : 1;
     f.doubt(glm::dot(normal_of(f.p), f.p[0]));
-    const glm::dvec3 before = normal_of(f.p) * side, normal = normal_of(f.e) * side;
+    const glm::dvec3 before = normal_of(f.p) * side;
     f.size *= 1 + turn_of(f.e) + turn_of(f.p);
     for (int k = 0; k < 8; ++k)
         ref_corner(f, extent, extent * glm::dvec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), before,
-                   normal);
+                   side);
     ref_edge(f, extent, 0, 1);
     ref_edge(f, extent, 1, 2);
     ref_edge(f, extent, 2, 0);
@@ -162,7 +163,49 @@ TEMPLATE_TEST_CASE("triangles leave boxes by the corners and edges that stand ou
     }
     const Params params{in.count,   in.colliders, static_cast<std::uint32_t>(in.which.size()),
                         in.substep, in.substeps,  in.look,
-                        in.again,   in.fall};
+                        in.again};
     check_turned_faces(in, kernels::face_cuboid::info("", precision_of<Real>()),
                        bytes_of(std::vector{params}), poses, ref_cuboid<Real>);
+}
+
+TEMPLATE_TEST_CASE("a post under one corner of a triangle lifts it to its top, and no higher", "[face]",
+                   float, double)
+{
+    using Real = TestType;
+    const int under = GENERATE(0, 1, 2);
+    const double deep = 0.01, half = 0.02;
+    Faces<Real> in;
+    in.count = in.colliders = 1;
+    const glm::dvec3 corner[] = {{-1, 0, -1}, {2, 0, -1}, {-1, 0, 2}};
+    glm::dvec3 post(0); // 0.8 of the corner that it is under
+    for (int k = 0; k < 3; ++k)
+        post += corner[k] * (k == under ? 0.8 : 0.1);
+    for (const glm::dvec3& x : corner)
+        in.position.emplace_back(glm::vec<3, Real>(x + glm::dvec3(0, half, 0)), Real(1)); // at its top
+    in.delta.assign(3, {Real(0), static_cast<Real>(-deep), Real(0), Real(0)});
+    in.slot.assign(4, glm::vec<4, Real>(0));
+    in.corner = {0, 1, 2};
+    in.which = {0};
+    in.state = {TAUT_FACE_FAR};
+    std::vector<Cuboid<Real>> poses(2);
+    for (Cuboid<Real>& c : poses)
+    {
+        put_frame<Real>(c, Frame{post});
+        c.half_x = c.half_y = c.half_z = static_cast<Real>(half);
+    }
+    const Launch launch =
+        make_launch(kernels::face_cuboid::info("", precision_of<Real>()), Params{1, 1, 1, 0, 1, 1, 0}, 1);
+    for (const std::string& selector : test_devices())
+    {
+        const auto device = test_device(selector);
+        if (!can_run(*device, precision_of<Real>()))
+            continue;
+        CAPTURE(selector, under);
+        const auto slot = reals_of<Real>(run(*device, {launch}, inputs_of(in, poses)).at("slot"));
+        double height = -deep; // of the triangle over the middle of the post
+        for (int k = 0; k < 3; ++k)
+            height += slot[4 * static_cast<std::size_t>(k) + 1] * (k == under ? 0.8 : 0.1);
+        CHECK(height > -0.01 * deep);
+        CHECK(height < 0.1 * deep);
+    }
 }

@@ -21,9 +21,8 @@ Sphere<Real> make_sphere(const glm::dvec3& start, const glm::dvec3& end, double 
 template <typename Real>
 Params params_of(const Faces<Real>& in)
 {
-    return {in.count,   in.colliders, static_cast<std::uint32_t>(in.which.size()),
-            in.substep, in.substeps,  in.look,
-            in.again,   in.fall};
+    return {in.count, in.colliders, static_cast<std::uint32_t>(in.which.size()), in.substep, in.substeps,
+            in.look,  in.again};
 }
 
 template <typename Real>

@@ -18,7 +18,6 @@ struct Faces
     std::vector<std::uint32_t> corner, which, state;
     layout::StepValues<Real> step{};
     std::uint32_t count = 0, colliders = 0, substep = 0, substeps = 1, look = 1, again = 0;
-    float fall = 0;
 };
 
 /// A triangle in the frame of a collider, and what was pushed so far.
@@ -190,7 +189,8 @@ Faces<Real> random_faces(Random& random, std::uint32_t count, std::uint32_t coll
             in.which.push_back(j);
     in.slot = random.vec4s<Real>(4 * std::size_t(count) + 4, 0.01, 0, 0.05);
     in.step.depenetration = Real(0.05);
-    in.fall = 0.01f;
+    in.step.substep = Real(0.01);
+    in.step.gravity_y = Real(-9.81);
     return in;
 }
 
@@ -213,6 +213,15 @@ bool is_asked(const Faces<Real>& in, std::uint32_t t)
     return in.look != 0 || told != TAUT_FACE_FAR;
 }
 
+template <typename Real, typename Record>
+Buffers inputs_of(const Faces<Real>& in, const std::vector<Record>& records)
+{
+    return {{"corner", bytes_of(in.corner)}, {"position", bytes_of(in.position)},
+            {"delta", bytes_of(in.delta)},   {"collider", bytes_of(records)},
+            {"which", bytes_of(in.which)},   {"step_values", bytes_of(std::vector{in.step})},
+            {"slot", bytes_of(in.slot)},     {"state", bytes_of(in.state)}};
+}
+
 /// Runs `face(triangle, collider's number, ways so far)` of each triangle and listed collider in turn, which
 /// adds to the ways and to `share`, and checks the kernel on every executor.
 template <typename Real, typename Record, typename FaceOf>
@@ -221,10 +230,7 @@ void check_faces(const Faces<Real>& in, const KernelInfo& kernel, Bytes params,
 {
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"corner", bytes_of(in.corner)}, {"position", bytes_of(in.position)},
-            {"delta", bytes_of(in.delta)},   {"collider", bytes_of(records)},
-            {"which", bytes_of(in.which)},   {"step_values", bytes_of(std::vector{in.step})},
-            {"slot", bytes_of(in.slot)},     {"state", bytes_of(in.state)}};
+    c.in = inputs_of(in, records);
     c.launches = {{&kernel, std::move(params), in.count}};
     Field& slot = c.expected["slot"];
     std::uint32_t open = 0, pushed = 0;
