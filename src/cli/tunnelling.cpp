@@ -60,7 +60,7 @@ void describe_crossings(const Crossings& crossings, std::map<std::string, std::u
     for (std::size_t k = 0; k < std::min(crossings.seen.size(), kSentences); ++k)
         messages.push_back(std::string(crossings.seen[k].through ? "passed through" : "pierced") + ": body " +
                            where(crossings.seen[k]) +
-                           "; only vertices collide: use finer meshes or more substeps");
+                           "; use more substeps, or finer meshes where vertices alone collide");
     for (std::size_t k = 0; k < std::min(crossings.likely.size(), kSentences); ++k)
         messages.push_back("may pass through each other by speed and size: body " +
                            where(crossings.likely[k]));

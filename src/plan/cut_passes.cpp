@@ -65,8 +65,8 @@ constexpr std::pair<std::string_view, Each> kBindings[] = {
                 "effect \"" + pass.label + "\" (kernel " + std::string(pass.kernel->name) +
                     ") cannot be cut between two devices; springs, hinges, tetrahedra of bodies with pins, "
                     "strain limits, pins, "
-                    "colliders, damping and external forces can: " +
-                    (of_faces ? "let it meet vertices (\"meets\": \"vertices\"), " : "") +
+                    "colliders that meet vertices, damping and external forces can: " +
+                    (of_faces ? "say \"meets\": \"vertices\", " : "") +
                     "divide whole bodies, or use one device");
 }
 
