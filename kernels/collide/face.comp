@@ -3,8 +3,9 @@
 // What each corner would go is left for face_move, since a vertex has several triangles.
 //
 // Based on: shared/face.glsl, and the shape's own file for which points of a triangle are in its way.
-// Departures: friction is of the triangle as a whole, and knows of the pushes of one pass alone.
-// Bytes per triangle: 8, of one that is near a collider 12 + 96 more, and 64 where it is pushed (float).
+// Departures: friction is of the triangle as a whole against each collider, not of each point.
+// Bytes per triangle: 8, of one that is near a collider 16 + 96 + 32 a collider more, and 48 where it is
+// pushed (float).
 //! each collider with faces
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
@@ -17,21 +18,22 @@ PARAMS
 {
     uint count;     // triangles
     uint colliders; // of the shape
-    uint listed;    // of them, those that triangles meet
+    uint slots;     // a triangle: 3 and the length of the longest list
     uint substep;
     uint substeps;
     uint look;  // 1: which triangles may come near in this time step is not known yet
-    uint again; // 1: the first sweep of the substep has been
+    uint first; // 1: the first sweep of the substep
+    uint again; // 1: a sweep after the first of an iteration
 };
 
-READ(0, uint, corner);    // three vertices a triangle
+READ(0, uint, corner);    // four a triangle: its vertices, and where its list begins among `which`
 READ(1, rvec4, position); // w = inverse mass
 READ(2, rvec4, delta);    // m, w = gap kept from colliders
 READ(3, OF_COLLIDER(record), collider);
-READ(4, uint, which);     // the listed colliders
+READ(4, uint, which);     // lists of colliders: how many, then which of the shape
 READ_ONE(5, StepValues, step_values);
-// Four a triangle that was pushed: of each corner m, and the share of pushes that it has; then friction in
-// the substep so far and, w, its push, m.
+// Of a triangle that was pushed, of each corner m, and the share of pushes that it has. Then of each collider
+// of its list the impulse of friction in the substep so far, kg m, and w, the largest that there may be.
 UPDATE(6, rvec4, slot);
 UPDATE(7, uint, state); // of each triangle: TAUT_FACE_FAR, ...
 
@@ -115,7 +117,7 @@ INLINE bool is_stuck(uint j, Face f)
 
 APART void push_triangle(uint i)
 {
-    uint v0 = corner[3u * i], v1 = corner[3u * i + 1u], v2 = corner[3u * i + 2u];
+    uint v0 = corner[4u * i], v1 = corner[4u * i + 1u], v2 = corner[4u * i + 2u];
     rvec3 x0 = rvec3(position[v0]), x1 = rvec3(position[v1]), x2 = rvec3(position[v2]);
     rvec3 d0 = rvec3(delta[v0]), d1 = rvec3(delta[v1]), d2 = rvec3(delta[v2]);
     rvec3 guess0 = d0, guess1 = d1, guess2 = d2;
@@ -124,14 +126,14 @@ APART void push_triangle(uint i)
     f.w1 = position[v1].w;
     f.w2 = position[v2].w;
     f.share = rvec3(real(0));
-    rvec4 taken = rvec4(real(0));
-    if (again != 0u)
-        taken = slot[4u * i + 3u];
     f.gap_kept = delta[v0].w;
     f.depenetration = step_values[0].depenetration;
+    uint list = corner[4u * i + 3u];
+    uint listed = which[list];
     for (uint k = 0u; k < listed; ++k)
     {
-        uint j = which[k];
+        uint j = which[list + 1u + k], mine = slots * i + 3u + k;
+        rvec4 taken = first != 0u ? rvec4(real(0)) : slot[mine];
         rvec3 here = middle_at(j, substep), there = middle_at(j, substep + 1u);
         f.e0 = seen_after(j, (x0 - there) + d0);
         f.e1 = seen_after(j, (x1 - there) + d1);
@@ -150,14 +152,14 @@ APART void push_triangle(uint i)
             f.share = after.share;
             taken = rvec4(in_world(j, rvec3(after.taken)), after.taken.w);
         }
+        slot[mine] = taken;
     }
     if ((f.share.x + f.share.y) + f.share.z > real(0))
     {
         state[i] = TAUT_FACE_PUSHED;
-        slot[4u * i] = rvec4(d0 - guess0, f.share.x);
-        slot[4u * i + 1u] = rvec4(d1 - guess1, f.share.y);
-        slot[4u * i + 2u] = rvec4(d2 - guess2, f.share.z);
-        slot[4u * i + 3u] = taken;
+        slot[slots * i] = rvec4(d0 - guess0, f.share.x);
+        slot[slots * i + 1u] = rvec4(d1 - guess1, f.share.y);
+        slot[slots * i + 2u] = rvec4(d2 - guess2, f.share.z);
     }
 }
 
@@ -169,8 +171,10 @@ KERNEL(count)
     if (look != 0u)
     {
         near = false;
+        uint list = corner[4u * i + 3u];
+        uint listed = which[list];
         for (uint k = 0u; k < listed && !near; ++k)
-            near = comes_near(which[k], corner[3u * i], corner[3u * i + 1u], corner[3u * i + 2u]);
+            near = comes_near(which[list + 1u + k], corner[4u * i], corner[4u * i + 1u], corner[4u * i + 2u]);
     }
     // Only what the first sweep pushed can still be in the way, but for what its neighbours draw in: the next
     // substep finds that.

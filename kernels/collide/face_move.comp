@@ -16,11 +16,12 @@
 PARAMS
 {
     uint count; // vertices
+    uint slots; // a triangle (face.comp)
     uint look;  // 1: triangles have just been told to be near or not
 };
 
 READ(0, uint, start);    // of each vertex among `incident`, and the end
-READ(1, uint, incident); // 4 triangle + corner
+READ(1, uint, incident); // slots times triangle + corner
 READ(2, rvec4, slot);    // as face leaves it
 READ(3, uint, state);    // likewise, of each triangle
 UPDATE(4, rvec4, delta); // m
@@ -36,7 +37,7 @@ KERNEL(count)
     for (uint k = begin; k < end; ++k)
     {
         uint corner = incident[k];
-        uint told = state[corner / 4u];
+        uint told = state[corner / slots];
         any = max(any, told);
         if (told == TAUT_FACE_PUSHED)
         {

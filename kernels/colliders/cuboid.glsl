@@ -179,7 +179,7 @@ INLINE bool cuboid_apart(CuboidCollider c, Face f)
     real least = REAL(2e-5) * smallest(extent);
     rvec3 across = cross(f.e1 - f.e0, f.e2 - f.e0);
     real reach = dot(abs(across), extent) - least * length(across);
-    return way_out(low, high, extent) <= least || abs(dot(across, f.e0)) >= reach;
+    return way_out(low, high, extent) <= least || abs(dot(across, f.e0)) > reach;
 }
 
 INLINE Face cuboid_face(CuboidCollider c, Face f)

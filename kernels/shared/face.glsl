@@ -24,7 +24,7 @@ struct Face
     rvec3 e0, e1, e2;    // at its end
     real w0, w1, w2;     // inverse masses, 1/kg
     rvec3 share;         // of pushes so far at each corner: the sum of their b
-    rvec4 taken;         // in the substep so far: friction, w = push, m
+    rvec4 taken;         // in the substep so far: impulses of friction, w = the sum of mu times pushes, kg m
     real gap_kept;       // m
     real depenetration;  // m a substep
     real friction;       // Coulomb coefficient
@@ -33,8 +33,8 @@ struct Face
 /// Pushes the point b from the height `gap` above the surface out along `normal`, and holds it back by
 /// friction:
 ///
-///   push = min(0, before + max(depenetration, before - gap)) - gap,
-///   e_k += (n push - f) w_k b_k / max(sum_k w_k b_k^2, max_k w_k b_k / 2),  |sum f| <= mu sum push.
+///   push = min(0, before + max(depenetration, before - gap)) - gap,  p = push / W,
+///   e_k += (n p - f) w_k b_k,  W = max(sum_k w_k b_k^2, max_k w_k b_k / 2),  |sum f| <= sum mu p.
 INLINE Face press(Face f, rvec3 normal, real before, real gap, rvec3 b)
 {
     real back = max(f.depenetration, before - gap);
@@ -44,8 +44,10 @@ INLINE Face press(Face f, rvec3 normal, real before, real gap, rvec3 b)
     if (push > real(0) && weight > real(0))
     {
         rvec3 travel = ((f.e0 - f.p0) * b.x + (f.e1 - f.p1) * b.y) + (f.e2 - f.p2) * b.z;
-        rvec4 held = friction_taken(f.taken, along_surface(normal, travel), push, f.friction);
-        rvec3 way = (normal * push - rvec3(held - f.taken)) / weight;
+        real impulse = push / weight;
+        rvec4 held = friction_taken(f.taken, along_surface(normal, travel) / weight, f.friction * impulse,
+                                    real(1));
+        rvec3 way = normal * impulse - rvec3(held - f.taken);
         f.taken = held;
         f.e0 += way * wb.x;
         f.e1 += way * wb.y;

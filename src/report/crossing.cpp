@@ -112,8 +112,11 @@ CrossingWatch::CrossingWatch(const Scene& resolved)
     }
     set_scene(resolved);
     for (std::size_t b = 0; b < bodies_.size(); ++b)
+    {
+        SurfaceRule rule(resolved.bodies[b]);
         for (const WatchedCollider& c : colliders_)
-            pairs_.emplace_back().by_triangles = meets_surface(resolved.bodies[b], c.collider);
+            pairs_.emplace_back().by_triangles = rule.meets(c.collider);
+    }
 }
 
 void CrossingWatch::set_scene(const Scene& resolved)

@@ -153,6 +153,7 @@ std::vector<bool> touching_colliders(const View& view, std::span<const double> w
         return view.model.gap[i] + 1e-6 * view.model.diameter + (ways.empty() ? 0 : ways[i]);
     };
     std::vector<bool> out(view.x.size(), false);
+    std::vector<SurfaceRule> rules(scene.bodies.begin(), scene.bodies.end());
     for (const Collider& c : scene.colliders)
     {
         const double beside = c.field ? kOffGrid * c.field->cell : 0;
@@ -160,7 +161,7 @@ std::vector<bool> touching_colliders(const View& view, std::span<const double> w
         for (std::size_t i = 0; i < out.size(); ++i)
             out[i] = out[i] || surface.touch(view.x[i], 0).height <= near(i) + beside;
         for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-            if (meets_surface(scene.bodies[b], c))
+            if (rules[b].meets(c))
                 mark_held_triangles(view, b, c, near, out);
     }
     return out;

@@ -125,9 +125,12 @@ PhysicalModel make_model(const Scene& resolved)
     model.timestep = resolved.timestep;
     model.duration = resolved.duration;
     model.colliders = resolved.colliders;
-    for (const Collider& collider : resolved.colliders)
-        for (const Body& body : resolved.bodies)
-            model.faces_meet = model.faces_meet || meets_surface(body, collider);
+    for (const Body& body : resolved.bodies)
+    {
+        SurfaceRule rule(body);
+        for (const Collider& collider : resolved.colliders)
+            model.faces_meet = model.faces_meet || rule.meets(collider);
+    }
     model.diameter = rest_diameter(resolved);
     model.springs = scene_springs(resolved);
     model.added = scene_elements(resolved);

@@ -164,7 +164,8 @@ std::string refusal(const PhysicalModel& model, const DynamicOptions& options, d
     if (options.scheme == Scheme::verlet && !model.colliders.empty())
         return "contacts are first order: ask for symplectic_euler with colliders";
     if (model.faces_meet)
-        return "a collider meets triangles: the dynamic reference knows those that meet vertices";
+        return "a collider meets triangles, and the dynamic reference knows those that meet vertices: say "
+               "\"meets\": \"vertices\" where that is what you want to study";
     if (starts_inside(model))
         return "a vertex starts inside a collider: how fast it comes out is a choice, not physics";
     if (!(element_steps <= options.max_element_steps))

@@ -43,14 +43,16 @@ bool has_faces(ColliderKind kind)
     return kind != ColliderKind::plane && kind != ColliderKind::distance_field;
 }
 
-bool meets_surface(const Body& body, const Collider& collider)
+bool SurfaceRule::meets(const Collider& collider)
 {
-    if (!has_faces(collider.kind) || body.kinematic.used || body.mesh.triangles.empty() ||
+    if (!has_faces(collider.kind) || body_.kinematic.used || body_.mesh.triangles.empty() ||
         collider.meets == kMeetsVertices)
         return false;
-    const double hole = largest_hole(body);
-    return collider.meets == kMeetsSurface ||
-           stands_out(collider, hole) > kSeen * hole + body.material.thickness;
+    if (collider.meets == kMeetsSurface)
+        return true;
+    if (!hole_)
+        hole_ = largest_hole(body_);
+    return stands_out(collider, *hole_) > kSeen * *hole_ + body_.material.thickness;
 }
 
 } // namespace taut

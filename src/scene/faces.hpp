@@ -4,6 +4,7 @@
 #include "taut/scene/scene.hpp"
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 namespace taut {
@@ -23,9 +24,24 @@ double largest_hole(const Body& body);
 /// points between the vertices of a triangle are not looked for in a distance field.
 bool has_faces(ColliderKind kind);
 
-/// Of a resolved scene. "automatic": where the collider could stand out between vertices that just do not
-/// touch it by a quarter of the largest hole and the body's thickness. That is the whole hole at an edge of a
-/// box, r - sqrt(r^2 - hole^2) of a ball or a capsule. Of kinematic bodies never.
-bool meets_surface(const Body& body, const Collider& collider);
+/// Which colliders meet the surface of a body of a resolved scene. "automatic": where the collider could
+/// stand out between vertices that just do not touch it by a quarter of the largest hole and the body's
+/// thickness. That is the whole hole at an edge of a box, r - sqrt(r^2 - hole^2) of a ball or a capsule. Of
+/// kinematic bodies never. The body must outlive it.
+class SurfaceRule
+{
+public:
+    explicit SurfaceRule(const Body& body) : body_(body) {}
+    bool meets(const Collider& collider);
+
+private:
+    const Body& body_;
+    std::optional<double> hole_; ///< m; triangles are measured once, and only where it matters
+};
+
+inline bool meets_surface(const Body& body, const Collider& collider)
+{
+    return SurfaceRule(body).meets(collider);
+}
 
 } // namespace taut

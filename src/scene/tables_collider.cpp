@@ -44,9 +44,9 @@ constexpr Key kCollider[] = {
         .unit("(Coulomb coefficient)")
         .at_least(0),
     key<&Collider::meets>("meets",
-                          "what of a body it holds up: its vertices, or whole triangles, too, so that "
-                          "nothing comes through between vertices; \"automatic\": triangles where it could "
-                          "by a quarter of their size")
+                          "what of a body it pushes: its vertices, or points of its triangles, too, so that "
+                          "nothing comes through between vertices; \"automatic\": triangles, too, where it "
+                          "could stand out by a quarter of the largest hole between vertices")
         .words(kMeets)
         .see("which", "contact.md#colliders-and-triangles"),
     list<&Collider::motion>("motion", "how it moves", kKeyframeTable),

@@ -102,15 +102,14 @@ TEMPLATE_TEST_CASE("triangles leave capsules by their edges across the axis, and
     const std::uint32_t count = GENERATE(1u, 64u, 65u, 129u);
     const std::uint32_t colliders = GENERATE(1u, 2u);
     const double speed = GENERATE(0.05, 0.5);
-    const std::uint32_t look = GENERATE(0u, 1u, 2u); // 2: a later sweep
+    const std::uint32_t sweep = GENERATE(0u, 1u, 2u, 3u);
     const std::uint64_t seed = 7200 + count;
-    CAPTURE(count, colliders, speed, look, seed);
+    CAPTURE(count, colliders, speed, sweep, seed);
     Random random(seed);
     auto in = random_faces<Real>(random, count, colliders, 0.35, 0.4, speed);
     in.substeps = 4;
     in.substep = count % 4;
-    in.look = look == 1;
-    in.again = look == 2;
+    in.set_sweep(sweep);
     std::vector<Capsule<Real>> poses(std::max((in.substeps + 1) * colliders, 1u));
     for (std::uint32_t j = 0; j < colliders; ++j)
     {
@@ -127,9 +126,7 @@ TEMPLATE_TEST_CASE("triangles leave capsules by their edges across the axis, and
             c.friction = static_cast<Real>(friction);
         }
     }
-    const Params params{in.count,   in.colliders, static_cast<std::uint32_t>(in.which.size()),
-                        in.substep, in.substeps,  in.look,
-                        in.again};
+    const auto params = in.template params<Params>();
     check_turned_faces(in, kernels::face_capsule::info("", precision_of<Real>()),
                        bytes_of(std::vector{params}), poses, ref_capsule<Real>);
 }

@@ -135,15 +135,14 @@ TEMPLATE_TEST_CASE("triangles leave boxes by the corners and edges that stand ou
     const std::uint32_t count = GENERATE(1u, 64u, 65u, 129u);
     const std::uint32_t colliders = GENERATE(1u, 2u);
     const double speed = GENERATE(0.02, 0.3);
-    const std::uint32_t look = GENERATE(0u, 1u, 2u); // 2: a later sweep
+    const std::uint32_t sweep = GENERATE(0u, 1u, 2u, 3u);
     const std::uint64_t seed = 7300 + count;
-    CAPTURE(count, colliders, speed, look, seed);
+    CAPTURE(count, colliders, speed, sweep, seed);
     Random random(seed);
     auto in = random_faces<Real>(random, count, colliders, 0.3, 0.5, speed);
     in.substeps = 4;
     in.substep = count % 4;
-    in.look = look == 1;
-    in.again = look == 2;
+    in.set_sweep(sweep);
     std::vector<Cuboid<Real>> poses(std::max((in.substeps + 1) * colliders, 1u));
     for (std::uint32_t j = 0; j < colliders; ++j)
     {
@@ -161,9 +160,7 @@ TEMPLATE_TEST_CASE("triangles leave boxes by the corners and edges that stand ou
             c.friction = static_cast<Real>(friction);
         }
     }
-    const Params params{in.count,   in.colliders, static_cast<std::uint32_t>(in.which.size()),
-                        in.substep, in.substeps,  in.look,
-                        in.again};
+    const auto params = in.template params<Params>();
     check_turned_faces(in, kernels::face_cuboid::info("", precision_of<Real>()),
                        bytes_of(std::vector{params}), poses, ref_cuboid<Real>);
 }
@@ -184,8 +181,8 @@ TEMPLATE_TEST_CASE("a post under one corner of a triangle lifts it to its top, a
         in.position.emplace_back(glm::vec<3, Real>(x + glm::dvec3(0, half, 0)), Real(1)); // at its top
     in.delta.assign(3, {Real(0), static_cast<Real>(-deep), Real(0), Real(0)});
     in.slot.assign(4, glm::vec<4, Real>(0));
-    in.corner = {0, 1, 2};
-    in.which = {0};
+    in.corner = {0, 1, 2, 0};
+    in.which = {1, 0};
     in.state = {TAUT_FACE_FAR};
     std::vector<Cuboid<Real>> poses(2);
     for (Cuboid<Real>& c : poses)
@@ -194,7 +191,7 @@ TEMPLATE_TEST_CASE("a post under one corner of a triangle lifts it to its top, a
         c.half_x = c.half_y = c.half_z = static_cast<Real>(half);
     }
     const Launch launch =
-        make_launch(kernels::face_cuboid::info("", precision_of<Real>()), Params{1, 1, 1, 0, 1, 1, 0}, 1);
+        make_launch(kernels::face_cuboid::info("", precision_of<Real>()), in.template params<Params>(), 1);
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);

@@ -7,6 +7,8 @@
 #include "taut/kernels/shared/face_state.h"
 
 #include <array>
+#include <optional>
+#include <span>
 
 namespace taut::conformance {
 
@@ -14,10 +16,30 @@ namespace taut::conformance {
 template <typename Real>
 struct Faces
 {
-    std::vector<glm::vec<4, Real>> position, delta, slot; ///< slot: four a triangle, and some more
+    std::vector<glm::vec<4, Real>> position, delta, slot; ///< slot: so many a triangle, and some more
     std::vector<std::uint32_t> corner, which, state;
     layout::StepValues<Real> step{};
-    std::uint32_t count = 0, colliders = 0, substep = 0, substeps = 1, look = 1, again = 0;
+    std::uint32_t count = 0, colliders = 0, slots = 4, substep = 0, substeps = 1;
+    std::uint32_t look = 1, first = 1, again = 0;
+
+    /// The colliders that a triangle meets.
+    std::span<const std::uint32_t> list(std::uint32_t t) const
+    {
+        const std::uint32_t begin = corner[4 * t + 3];
+        return std::span(which).subspan(begin + 1, which[begin]);
+    }
+    template <typename Params>
+    Params params() const
+    {
+        return {count, colliders, slots, substep, substeps, look, first, again};
+    }
+    /// In the first sweep of a time step, of a substep, of a later iteration, and in a later sweep.
+    void set_sweep(std::uint32_t kind)
+    {
+        look = kind == 0;
+        first = kind < 2;
+        again = kind == 3;
+    }
 };
 
 /// A triangle in the frame of a collider, and what was pushed so far.
@@ -26,10 +48,11 @@ struct RefFace
     std::array<glm::dvec3, 3> p, e; ///< m, at the start and the end of the substep
     std::array<double, 3> w;
     glm::dvec3 share{0};
-    glm::dvec4 taken{0}; ///< friction in the substep so far, and w = push, m
+    glm::dvec4 taken{0}; ///< impulses of friction in the substep so far, w = sum of mu times pushes, kg m
     double gap_kept = 0, depenetration = 0, friction = 0;
-    double size = 0;   ///< of the numbers that were rounded, times what angles make of it
-    bool open = false; ///< a rounding could decide otherwise
+    double size = 0;    ///< of the numbers that were rounded, times what angles make of it, m
+    double impulse = 0; ///< of those in `taken`, kg m
+    bool open = false;  ///< a rounding could decide otherwise
 
     glm::dvec3 at_start(const glm::dvec3& b) const { return p[0] * b.x + p[1] * b.y + p[2] * b.z; }
     glm::dvec3 at_end(const glm::dvec3& b) const { return e[0] * b.x + e[1] * b.y + e[2] * b.z; }
@@ -52,15 +75,16 @@ inline void ref_press(RefFace& f, const glm::dvec3& normal, double before, doubl
     if (!(push > 0) || !(weight > 0))
         return;
     const glm::dvec3 travel = f.at_end(b) - f.at_start(b);
-    const glm::dvec3 slide = travel - normal * glm::dot(normal, travel) + glm::dvec3(f.taken);
-    const double length = glm::length(slide), limit = f.friction * (f.taken.w + push);
-    const glm::dvec3 held = length > limit ? slide * (limit / length) : slide;
-    const glm::dvec3 way = normal * push - (held - glm::dvec3(f.taken));
-    f.taken = glm::dvec4(held, f.taken.w + push);
+    const glm::dvec3 stop = (travel - normal * glm::dot(normal, travel)) / weight + glm::dvec3(f.taken);
+    const double length = glm::length(stop), limit = f.taken.w + f.friction * push / weight;
+    const glm::dvec3 held = length > limit ? stop * (limit / length) : stop;
+    const glm::dvec3 impulse = normal * (push / weight) - (held - glm::dvec3(f.taken));
     for (int k = 0; k < 3; ++k)
-        f.e[static_cast<std::size_t>(k)] += way * (f.w[static_cast<std::size_t>(k)] * b[k] / weight);
+        f.e[static_cast<std::size_t>(k)] += impulse * (f.w[static_cast<std::size_t>(k)] * b[k]);
+    f.size += (glm::length(travel) + push) * most / weight + (length + glm::length(f.taken)) * most;
+    f.impulse += f.size / weight + length + glm::length(f.taken);
+    f.taken = glm::dvec4(held, limit);
     f.share += b;
-    f.size += (glm::length(travel) + length + push) * most / weight;
 }
 
 /// The nearest point of a triangle to the origin.
@@ -182,12 +206,17 @@ Faces<Real> random_faces(Random& random, std::uint32_t count, std::uint32_t coll
                                   static_cast<Real>(kept));
             in.corner.push_back(3 * t + static_cast<std::uint32_t>(k));
         }
+        const std::uint32_t all = colliders > 1 ? colliders - 1 : 1;
+        in.corner.push_back(t % 11 == 7 ? all + 3 : t % 3 == 2 ? all + 1 : 0);
         in.state.push_back(random.below(4));
     }
+    in.which.push_back(colliders > 1 ? colliders - 1 : 1); // most triangles meet all but the second
     for (std::uint32_t j = 0; j < colliders; ++j)
-        if (j != 1) // one that triangles do not meet
+        if (j != 1)
             in.which.push_back(j);
-    in.slot = random.vec4s<Real>(4 * std::size_t(count) + 4, 0.01, 0, 0.05);
+    in.which.insert(in.which.end(), {1, colliders - 1, 0}); // some the last alone, and some none
+    in.slots = 3 + in.which[0];
+    in.slot = random.vec4s<Real>(in.slots * std::size_t(count) + 4, 0.01, 0, 0.05);
     in.step.depenetration = Real(0.05);
     in.step.substep = Real(0.01);
     in.step.gravity_y = Real(-9.81);
@@ -198,8 +227,8 @@ template <typename Real>
 std::array<glm::dvec3, 3> corners_of(const Faces<Real>& in, const std::vector<glm::vec<4, Real>>& of,
                                      std::uint32_t t)
 {
-    return {glm::dvec3(of[in.corner[3 * t]]), glm::dvec3(of[in.corner[3 * t + 1]]),
-            glm::dvec3(of[in.corner[3 * t + 2]])};
+    return {glm::dvec3(of[in.corner[4 * t]]), glm::dvec3(of[in.corner[4 * t + 1]]),
+            glm::dvec3(of[in.corner[4 * t + 2]])};
 }
 
 /// Whether a triangle is looked at: in the first sweep of a time step all, in the first of a substep those
@@ -222,8 +251,66 @@ Buffers inputs_of(const Faces<Real>& in, const std::vector<Record>& records)
             {"slot", bytes_of(in.slot)},     {"state", bytes_of(in.state)}};
 }
 
-/// Runs `face(triangle, collider's number, ways so far)` of each triangle and listed collider in turn, which
-/// adds to the ways and to `share`, and checks the kernel on every executor.
+/// What a triangle's slots must be: `face(triangle, places, ways so far, collider's number)` of each listed
+/// collider in turn adds to the ways and to `share`.
+template <typename Real, typename FaceOf>
+RefFace expect_slots(Field& slot, const Faces<Real>& in, std::uint32_t t, FaceOf face)
+{
+    const auto guess = corners_of(in, in.delta, t);
+    auto d = guess;
+    RefFace f;
+    for (std::size_t k = 0; k < 3; ++k)
+        f.w[k] = static_cast<double>(in.position[in.corner[4 * t + k]].w);
+    f.gap_kept = static_cast<double>(in.delta[in.corner[4 * t]].w);
+    f.depenetration = static_cast<double>(in.step.depenetration);
+    const auto* was = &in.slot[in.slots * t];
+    std::vector<glm::dvec4> taken(was + 3, was + in.slots);
+    const std::span<const std::uint32_t> list = in.list(t);
+    for (std::size_t k = 0; k < list.size() && is_asked(in, t); ++k)
+    {
+        f.taken = in.first != 0 ? glm::dvec4(0) : taken[k];
+        face(f, corners_of(in, in.position, t), d, list[k]);
+        taken[k] = f.taken;
+    }
+    const bool moved = f.share != glm::dvec3(0);
+    const auto add = [&](double value, double scale) { slot.add(value, f.open ? kAnyFinite : scale); };
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            add(moved ? (d[k] - guess[k])[axis] : static_cast<double>(was[k][axis]), moved ? f.size : 0);
+        add(moved ? f.share[static_cast<int>(k)] : static_cast<double>(was[k].w), moved ? f.size : 0);
+    }
+    const bool open = in.look != 0 && !moved; // it may be far, and not be looked at
+    for (const glm::dvec4& held : taken)
+        for (int axis = 0; axis < 4; ++axis)
+            add(held[axis], open ? kAnyFinite : is_asked(in, t) ? f.impulse + glm::length(held) : 0);
+    return f;
+}
+
+/// What is said of a triangle. Nothing where that is open, and where it is asked whether it comes near at
+/// all: then only the pushed ones are sure to.
+template <typename Real>
+std::optional<std::uint32_t> expected_state(const Faces<Real>& in, std::uint32_t t, const RefFace& f)
+{
+    const bool pushed = f.share != glm::dvec3(0);
+    if (!is_asked(in, t))
+        return in.state[t];
+    if (f.open || (in.look != 0 && !pushed))
+        return std::nullopt;
+    return pushed ? TAUT_FACE_PUSHED : in.again != 0 ? TAUT_FACE_FREE : TAUT_FACE_NEAR;
+}
+
+/// How many triangles are said to be something else.
+inline std::size_t wrong_states(const std::vector<std::optional<std::uint32_t>>& expected, const Buffers& out)
+{
+    const auto told = values_of<std::uint32_t>(out.at("state"));
+    std::size_t wrong = 0;
+    for (std::size_t t = 0; t < told.size(); ++t)
+        wrong += expected[t] && *expected[t] != told[t];
+    return wrong;
+}
+
+/// Checks the kernel on every executor.
 template <typename Real, typename Record, typename FaceOf>
 void check_faces(const Faces<Real>& in, const KernelInfo& kernel, Bytes params,
                  const std::vector<Record>& records, FaceOf face)
@@ -233,46 +320,23 @@ void check_faces(const Faces<Real>& in, const KernelInfo& kernel, Bytes params,
     c.in = inputs_of(in, records);
     c.launches = {{&kernel, std::move(params), in.count}};
     Field& slot = c.expected["slot"];
+    std::vector<std::optional<std::uint32_t>> states;
     std::uint32_t open = 0, pushed = 0;
     for (std::uint32_t t = 0; t < in.count; ++t)
     {
-        const auto guess = corners_of(in, in.delta, t);
-        auto d = guess;
-        RefFace f;
-        for (std::size_t k = 0; k < 3; ++k)
-            f.w[k] = static_cast<double>(in.position[in.corner[3 * t + k]].w);
-        f.gap_kept = static_cast<double>(in.delta[in.corner[3 * t]].w);
-        f.depenetration = static_cast<double>(in.step.depenetration);
-        if (in.again != 0)
-            f.taken = glm::dvec4(in.slot[4 * t + 3]);
-        if (is_asked(in, t))
-            for (const std::uint32_t j : in.which)
-                face(f, corners_of(in, in.position, t), d, j);
+        const RefFace f = expect_slots(slot, in, t, face);
+        states.push_back(expected_state(in, t, f));
         open += f.open;
-        const bool moved = f.share != glm::dvec3(0);
-        pushed += moved;
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            const auto& was = in.slot[4 * t + k];
-            const double scale = f.open ? kAnyFinite : moved ? f.size : 0;
-            for (int axis = 0; axis < 3; ++axis)
-                slot.add(moved ? (d[k] - guess[k])[axis] : static_cast<double>(was[axis]), scale);
-            slot.add(moved ? f.share[static_cast<int>(k)] : static_cast<double>(was.w), scale);
-        }
-        for (int axis = 0; axis < 4; ++axis)
-            slot.add(moved ? f.taken[axis] : static_cast<double>(in.slot[4 * t + 3][axis]), f.open
-                                                                                                ? kAnyFinite
-                                                                                            : moved ? f.size
-                                                                                                    : 0);
+        pushed += f.share != glm::dvec3(0);
     }
-    for (std::size_t n = 4 * std::size_t(in.count); n < in.slot.size(); ++n)
+    for (std::size_t n = in.slots * std::size_t(in.count); n < in.slot.size(); ++n)
         for (int axis = 0; axis < 4; ++axis)
             slot.add(static_cast<double>(in.slot[n][axis]), 0);
     CAPTURE(open, pushed);
     CHECK(open * 10 <= in.count + 9); // else the reference would say nothing
-    if (in.count > 100 && !in.which.empty() && in.look != 0)
+    if (in.count > 100 && in.look != 0)
         CHECK(pushed >= 5);
-    check_on_every_device(c);
+    look_on_every_device(c, [&](const Buffers& out) { CHECK(wrong_states(states, out) == 0); });
 }
 
 /// The same of a shape that turns: `shape(face, record)` in its frame.
