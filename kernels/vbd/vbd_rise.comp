@@ -4,11 +4,10 @@
 // changes the shape of no element between vertices that move.
 //
 // Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2 (the potential).
-// Departures: differences are formed element by element (shared/rise.glsl); a damper counts with the square
-//   of how much it became longer; displacements are taken against that of one vertex of the body, so that the
-//   common way of a body that flies does not swallow the digits.
-// Bytes per row: 4 + 16 + 64 read; per spring 24 + 48, per hinge 24 + 192, per held volume 24 + 192, per
-//   elastic tetrahedron 72 + 192 (float), each once for every vertex of it that moves.
+// Departures: differences are formed element by element (shared/rise.glsl); displacements are taken against
+//   that of one vertex of the body, so that the common way of a body that flies does not swallow the digits.
+// Bytes per row: 4 + 16 + 64 read; per spring 24 + 48 (damped 80), per hinge 24 + 192, per held volume
+//   24 + 192, per elastic tetrahedron 72 + 192 (float), each once for every vertex of it that moves.
 //! variant hinges HINGES=1
 //! variant volumes HINGES=1 VOLUMES=1
 //! variant elastic HINGES=1 ELASTIC=1
@@ -70,6 +69,16 @@ Edge edge_of(uint from, uint to)
     return edge;
 }
 
+/// By how much a spring is longer in the fallback than before the substep: held ends move in both.
+real longer_before(Spring s, Edge e, uint v)
+{
+    rvec3 ends = still(v, position[v].w > real(0)) - still(s.b, position[s.b].w > real(0));
+    rvec3 came = ends - (rvec3(low[v]) - rvec3(low[s.b]));
+    rvec3 first = e.before - came;
+    return lengthening(first, came, length(first) + length(e.before), real(1));
+}
+
+/// The potential of a damper is c/2 (length - first length)^2 / h, as in vbd_solve.
 real springs_rise(uint k, uint v, real inverse_substep)
 {
     real rise = real(0);
@@ -82,7 +91,10 @@ real springs_rise(uint k, uint v, real inverse_substep)
         real both = length(e.before) + length(e.before + e.change);
         real longer = lengthening(e.before, e.change, both, real(1));
         real stretch = (both - s.rest_length) - s.rest_length;
-        rise += real(0.5) * (longer * (s.stiffness * stretch + (s.damping * inverse_substep) * longer));
+        real both_longer = longer;
+        if (s.damping > real(0))
+            both_longer += real(2) * longer_before(s, e, v);
+        rise += real(0.5) * (longer * (s.stiffness * stretch + (s.damping * inverse_substep) * both_longer));
     }
     return rise;
 }

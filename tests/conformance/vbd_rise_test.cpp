@@ -32,13 +32,15 @@ Rise elements_rise(const BlockNet<Real>& net, const BlockNet<Real>& still, std::
     const double per_substep = std::sqrt(double(net.predicted[v].w) * double(net.position[v].w));
     Rise out;
     const auto add = [&](const Rise& more) { out.add(more.value, more.size); };
+    const auto moved = [&](std::uint32_t u) { return glm::dvec3(still.delta[u]) - glm::dvec3(net.low[u]); };
     for (std::uint32_t k = net.row[4 * i + 1]; k < net.row[4 * i + 5]; ++k)
     {
         const auto& s = net.end[k];
         if (!leads(net, v, s.b))
             continue;
         const glm::dvec3 d = still.place(v) - still.place(s.b), then = net.place(v) - net.place(s.b);
-        Rise rise = spring_rise(s, d, then - d, glm::dvec3(0), per_substep, net.size(v) + net.size(s.b));
+        const glm::dvec3 came = moved(v) - moved(s.b); // held ends, since before the substep
+        Rise rise = spring_rise(s, d, then - d, came, per_substep, net.size(v) + net.size(s.b));
         const double way = glm::length(glm::dvec3(net.delta[v])) + glm::length(glm::dvec3(net.delta[s.b]));
         rise.size += (double(s.stiffness) + double(s.damping) * per_substep) * way *
                      (net.size(v) + net.size(s.b) + double(s.rest_length));
