@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace taut {
 namespace {
@@ -24,15 +25,6 @@ constexpr double kFarthest = 3; ///< finalists cost at most so many times the fi
 // Parts of TuneOptions::seconds: what a reference may take, and when the race changes and ends.
 constexpr double kOwnReference = 0.5, kPerturbedReference = 0.1, kHalfRace = 0.55, kRace = 0.75,
                  kRaceCut = 0.8;
-
-/// A candidate that passed everything.
-struct Finalist
-{
-    Candidate candidate;
-    double predicted = 0, confirmed = 0;
-    std::size_t starts = 0;
-    std::optional<cost::Timing> timing;
-};
 
 class Tuner
 {
@@ -119,17 +111,17 @@ private:
     {
         end_ = 1;
         std::stable_sort(run_.begin(), run_.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.prior < b.prior; });
-        for (const Candidate& candidate : std::vector<Candidate>(run_))
+                         [](const Ran& a, const Ran& b) { return a.candidate.prior < b.candidate.prior; });
+        for (const auto& [candidate, error] : std::vector<Ran>(run_))
         {
             const auto fell = std::find_if(out_.rejected.begin(), out_.rejected.end(), [&](const auto& r) {
                 return settings_block(r.settings) == settings_block(candidate.settings);
             });
             const bool may = fell != out_.rejected.end() && fell->error.value_or(1) <= kMargin * out_.bound;
-            if (!may || !left_out(candidate, 1).empty())
+            if (!may || (error && !(*error <= own_bound(0))) || !left_out(candidate, 1).empty())
                 continue;
             out_.rejected.erase(fell);
-            try_candidate(candidate);
+            try_candidate(candidate, error);
         }
     }
 
@@ -190,7 +182,7 @@ private:
             out_.not_tried.push_back({twin.settings, "it fell in float"});
     }
 
-    /// Halfway through its time without a find it goes for accuracy: most substeps first.
+    /// Halfway through its time without a find it goes for accuracy.
     void pass(std::vector<Candidate> all, std::vector<Candidate>* twins)
     {
         bool hurried = false;
@@ -199,9 +191,8 @@ private:
             if (!hurried && finalists_.empty() && watch_.over(kHalfRace))
             {
                 hurried = true;
-                std::stable_sort(at, all.end(), [](const Candidate& a, const Candidate& b) {
-                    return a.settings.substeps > b.settings.substeps;
-                });
+                std::stable_sort(at, all.end(),
+                                 [this](auto& a, auto& b) { return accuracy_of(b) < accuracy_of(a); });
             }
             if (twins && fell_in_float(out_.rejected, at->settings))
                 twins->push_back(*at);
@@ -210,6 +201,13 @@ private:
             else
                 try_candidate(*at);
         }
+    }
+
+    /// Most substeps; then the method that the reference is refined from, which converges to it for sure.
+    std::pair<std::uint32_t, bool> accuracy_of(const Candidate& candidate) const
+    {
+        const auto& by = starts_[0].reference.methods;
+        return {candidate.settings.substeps, !by.empty() && candidate.settings.type == method_name(by[0])};
     }
 
     /// Why a candidate is not tried when the race ends at that part of the time; empty: it is.
@@ -231,18 +229,19 @@ private:
         return candidate.prior >= first ? "dearer than what was found" : "enough others were found before it";
     }
 
-    void try_candidate(const Candidate& candidate)
+    /// `known`: its error over all frames, where it need not be simulated again.
+    void try_candidate(const Candidate& candidate, std::optional<double> known = std::nullopt)
     {
         try
         {
-            const Lap lap = on_start(0, candidate.settings);
+            const Lap lap = known ? Lap{known, 0, {}, false} : on_start(0, candidate.settings);
             if (lap.cut)
                 return out_.not_tried.push_back({candidate.settings, "the time was up"});
-            note_run(candidate);
+            note_run(candidate, lap);
             if (!lap.reason.empty())
                 return reject(candidate, "race", lap.reason, lap.error);
-            const Verdict law =
-                broken_law(scene_, device_, candidate.settings, out_.kind, [this] { return watch_.over(1); });
+            const Verdict law = broken_law(scene_, device_, candidate.settings, out_.kind, starts_[0].frames,
+                                           [this] { return watch_.over(1); });
             if (!law)
                 return out_.not_tried.push_back({candidate.settings, "the time was up"});
             if (!law->empty())
@@ -257,22 +256,25 @@ private:
         }
     }
 
-    void note_run(const Candidate& candidate)
+    void note_run(const Candidate& candidate, const Lap& lap)
     {
         const std::string block = settings_block(candidate.settings);
         if (std::any_of(run_.begin(), run_.end(),
-                        [&](const Candidate& c) { return settings_block(c.settings) == block; }))
+                        [&](const Ran& r) { return settings_block(r.candidate.settings) == block; }))
             return; // again, with a looser bound
-        run_.push_back(candidate);
+        run_.push_back({candidate, lap.frames == starts_[0].frames ? lap.error : std::nullopt});
         out_.tried.push_back(candidate.settings);
     }
 
-    /// The bound holds with the margin, and the reference's own error counts.
+    /// What is left of the bound on a start: with the margin, and less the reference's own error.
+    double own_bound(std::size_t which) const
+    {
+        return kMargin * out_.bound - starts_[which].reference.error.value_or(0);
+    }
+
     Lap on_start(std::size_t which, const MethodSettings& settings)
     {
-        const Start& start = starts_[which];
-        const double bound = kMargin * out_.bound - start.reference.error.value_or(0);
-        return run_lap(start, device_, settings, out_.kind, bound, options_.rest_seconds,
+        return run_lap(starts_[which], device_, settings, out_.kind, own_bound(which), options_.rest_seconds,
                        [this] { return watch_.over(end_); });
     }
 
@@ -377,8 +379,8 @@ private:
     CostOptions references_;
     std::size_t total_ = 0;     ///< candidates that the filter let pass
     std::vector<Start> starts_; ///< the scene's own, then perturbed ones
-    std::vector<Candidate> run_; ///< simulated
-    double end_ = kRaceCut;      ///< the part of the time at which a candidate's run is cut off
+    std::vector<Ran> run_;      ///< simulated
+    double end_ = kRaceCut;     ///< the part of the time at which a candidate's run is cut off
     std::vector<Finalist> finalists_;
     TuneResult out_;
 };

@@ -15,7 +15,7 @@
 namespace taut::tuning {
 namespace {
 
-constexpr int kFrames = 18;
+constexpr std::size_t kMostFrames = 18, kFewestFrames = 6;
 constexpr double kMomentum = 1e-3; ///< of M sqrt(g D)
 constexpr double kRest = 1e-5;     ///< of the diagonal
 constexpr double kPush = 1e-4;     ///< of the diagonal a frame
@@ -47,10 +47,10 @@ double chance(std::uint32_t number, std::uint32_t which)
     return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-/// False: the time was up before.
-bool steps(World& world, const std::function<bool()>& late)
+/// As many frames as an error is bounded over, within limits. False: the time was up before.
+bool steps(World& world, std::size_t frames, const std::function<bool()>& late)
 {
-    for (int f = 0; f < kFrames; ++f)
+    for (std::size_t f = 0; f < std::clamp(frames, kFewestFrames, kMostFrames); ++f)
     {
         if (late && late())
             return false;
@@ -70,7 +70,8 @@ glm::dvec3 direction(std::uint32_t number, std::uint32_t which)
 } // namespace
 
 Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                       const MethodSettings& settings, const std::function<bool()>& late)
+                       const MethodSettings& settings, std::size_t frames,
+                       const std::function<bool()>& late)
 {
     Scene scene = alone(resolved, settings);
     if (glm::length(scene.gravity) == 0)
@@ -80,7 +81,7 @@ Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& dev
     const PhysicalModel model = make_model(scene);
     const ErrorWeights weights = error_weights(model);
     World world(scene, device);
-    if (!steps(world, late))
+    if (!steps(world, frames, late))
         return std::nullopt;
     const std::vector<glm::dvec3> v = world.velocities();
     if (!all_finite(v))
@@ -92,7 +93,7 @@ Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& dev
 }
 
 Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                   const MethodSettings& settings, const std::function<bool()>& late)
+                   const MethodSettings& settings, std::size_t frames, const std::function<bool()>& late)
 {
     Scene scene = alone(resolved, settings);
     const double weight = std::max(1.0, glm::length(scene.gravity)); // what forces are compared with
@@ -111,7 +112,7 @@ Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
         if (!model.pinned[i] && glm::length(force[i]) > 1e-6 * weight * model.mass[i])
             return "";
     World world(scene, device);
-    if (!steps(world, late))
+    if (!steps(world, frames, late))
         return std::nullopt;
     const std::vector<glm::dvec3> x = world.positions();
     if (!all_finite(x))
@@ -122,11 +123,13 @@ Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
 }
 
 Verdict broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
-                   const MethodSettings& settings, CostKind kind, const std::function<bool()>& late)
+                   const MethodSettings& settings, CostKind kind, std::size_t frames,
+                   const std::function<bool()>& late)
 {
     const bool falls = kind != CostKind::at_rest || !held_still(resolved);
-    const Verdict fall = falls ? momentum_guard(resolved, device, settings, late) : "";
-    return fall && fall->empty() ? rest_guard(resolved, device, settings, late) : fall;
+    const std::size_t count = kind == CostKind::at_rest ? kMostFrames : frames;
+    const Verdict fall = falls ? momentum_guard(resolved, device, settings, count, late) : "";
+    return fall && fall->empty() ? rest_guard(resolved, device, settings, count, late) : fall;
 }
 
 Scene perturbed(const Scene& resolved, std::uint32_t number)

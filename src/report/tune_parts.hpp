@@ -60,18 +60,23 @@ std::string filtered(const Scene& resolved, const SceneFacts& facts, const Devic
 /// for all.
 std::string other_material(const SceneFacts& facts, const MethodSettings& settings);
 
-/// Why a law is broken, "" when it is kept, nothing when `late` ended the run before.
+/// Why a law is broken, "" when it is kept, nothing when `late` ended the run before. `frames`: 6 to 18 are
+/// run.
 using Verdict = std::optional<std::string>;
 /// Free fall without pins, colliders, damping and wind: the whole keeps its momentum.
 Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                       const MethodSettings& settings, const std::function<bool()>& late = {});
+                       const MethodSettings& settings, std::size_t frames,
+                       const std::function<bool()>& late = {});
 /// The rest shape without gravity stays where it is. Kept, too, where the rest shape pulls by itself (a
 /// stretched net).
 Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
-                   const MethodSettings& settings, const std::function<bool()>& late = {});
-/// The first of both laws that a setting breaks. Free fall tells nothing of the rest of what pins hold up.
+                   const MethodSettings& settings, std::size_t frames,
+                   const std::function<bool()>& late = {});
+/// The first of both laws that a setting breaks, looked at over as many frames as the error is bounded. Free
+/// fall tells nothing of the rest of what pins hold up.
 Verdict broken_law(const Scene& resolved, const std::shared_ptr<Device>& device,
-                   const MethodSettings& settings, CostKind kind, const std::function<bool()>& late = {});
+                   const MethodSettings& settings, CostKind kind, std::size_t frames,
+                   const std::function<bool()>& late = {});
 
 /// Every body is given a push of 1e-4 of the diagonal a frame; `number` picks the directions.
 Scene perturbed(const Scene& resolved, std::uint32_t number);
@@ -130,6 +135,21 @@ std::vector<std::string> never_rests_note(const Scene& resolved);
 /// Where the bound is not the one that the options have.
 std::string loosened_note(const TuneResult& result, const TuneOptions& options);
 std::string perturbed_note(std::uint32_t which, const CostReference& reference, double bound);
+
+/// A candidate that was simulated.
+struct Ran
+{
+    Candidate candidate;
+    std::optional<double> error; ///< on the scene's own start over all frames, where it went so far
+};
+/// A candidate that passed everything.
+struct Finalist
+{
+    Candidate candidate;
+    double predicted = 0, confirmed = 0;
+    std::size_t starts = 0;
+    std::optional<cost::Timing> timing;
+};
 
 /// A candidate on one start, rung by rung.
 struct Lap

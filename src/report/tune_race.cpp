@@ -60,6 +60,7 @@ bool passes(const Start& start, const Motion& motion, double bound, Lap& lap)
 {
     if (!motion.reason.empty())
     {
+        lap.error.reset(); // that of a rung before says nothing of this one
         lap.reason = motion.reason;
         return false;
     }

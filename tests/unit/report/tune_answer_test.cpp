@@ -220,7 +220,9 @@ TEST_CASE("free fall does not judge what pins hold up to its rest", "[tune]")
     settings.type = "mass_spring";
     settings.substeps = 1;
     settings.stability = "ignore";
-    const auto broken = [&](CostKind kind) { return *tuning::broken_law(scene, serial(), settings, kind); };
+    const auto broken = [&](CostKind kind) {
+        return *tuning::broken_law(scene, serial(), settings, kind, 18);
+    };
     CHECK_THAT(broken(CostKind::moving), Contains("free fall"));
     CHECK(broken(CostKind::at_rest) == "");
     scene.bodies[0].pins.clear(); // then it does fall

@@ -206,8 +206,8 @@ TEST_CASE("XPBD passes the guards: free fall keeps momentum, rest stays at rest"
     for (const std::uint32_t substeps : {1u, 10u})
     {
         settings.substeps = substeps;
-        CHECK(tuning::momentum_guard(sheet(6, 500), serial(), settings) == "");
-        CHECK(tuning::rest_guard(sheet(6, 500), serial(), settings) == "");
+        CHECK(tuning::momentum_guard(sheet(6, 500), serial(), settings, 18) == "");
+        CHECK(tuning::rest_guard(sheet(6, 500), serial(), settings, 18) == "");
     }
 }
 

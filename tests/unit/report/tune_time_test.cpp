@@ -135,8 +135,9 @@ TEST_CASE("a guard that the time cuts off has no verdict", "[tune]")
 {
     MethodSettings settings;
     const auto late = [] { return true; };
-    CHECK_FALSE(tuning::broken_law(sheet(4, 500), serial(), settings, CostKind::moving, late).has_value());
-    CHECK(tuning::broken_law(sheet(4, 500), serial(), settings, CostKind::moving) == "");
+    CHECK_FALSE(
+        tuning::broken_law(sheet(4, 500), serial(), settings, CostKind::moving, 18, late).has_value());
+    CHECK(tuning::broken_law(sheet(4, 500), serial(), settings, CostKind::moving, 18) == "");
 }
 
 TEST_CASE("a reference is not cut to frames in which nothing has moved yet", "[tune]")
