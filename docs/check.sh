@@ -2,14 +2,14 @@
 # What the pages conclude is what their tables say, and the tables of a page are the CSV files beside it: exit status 0
 # when all of it holds. In CI.
 #
-#   docs/check.sh [PAGE...]      cloth, contact, fabric, solids, hybrid, linear, acad, accuracy; all without
+#   docs/check.sh [PAGE...]      cloth, contact, fabric, solids, hybrid, linear, acad, accuracy, bench, gpu; all without
 set -eu
 cd "$(dirname "$0")"
 . ./put.sh
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 bad=0
-[ $# -gt 0 ] || set -- cloth contact fabric solids hybrid linear acad accuracy
+[ $# -gt 0 ] || set -- cloth contact fabric solids hybrid linear acad accuracy bench gpu
 for page in "$@"; do
     case $page in
         accuracy) sh accuracy/check.sh ;;
@@ -19,10 +19,15 @@ for page in "$@"; do
         acad) check_tables methods/acad.md methods/acad || bad=1
             awk -f claims.awk -f methods/acad/claims.awk methods/acad.md methods/acad/compress.csv \
             ../tests/bench/results/acad.csv ;;
+        bench) for shown in ../README.md bench.md; do
+            awk -v whole=1 -f claims.awk -f bench/claims.awk $shown ../tests/bench/results/epyc-2-cores.csv \
+            ../tests/bench/results/solid.csv ../tests/bench/results/acad.csv || bad=1
+            done ;;
         contact) check_tables results/contact.md results/contact || bad=1
             awk -f claims.awk -f results/contact/claims.awk results/contact.md results/contact/*.csv ;;
         fabric) awk -f claims.awk -f fabric/claims.awk fabric.md fabric/overhang.csv ;;
         hybrid) awk -f claims.awk -f hybrid/claims.awk hybrid.md ../tests/bench/results/split.csv ;;
+        gpu) awk -f results/gpu/claims.awk results/gpu.md ../tests/hardware/radv.csv || bad=1 ;;
         linear) awk -f claims.awk -f linear/claims.awk linear.md ../tests/bench/results/linear_*.csv ;;
         *) check_tables "$page.md" "$page" || bad=1
             awk -f claims.awk -f "$page/claims.awk" "$page.md" "$page"/*.csv ;;

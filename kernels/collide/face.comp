@@ -18,7 +18,7 @@ PARAMS
 {
     uint count;     // triangles
     uint colliders; // of the shape
-    uint slots;     // a triangle: 3 and the length of the longest list
+    uint listed;    // of them, those that any triangle meets
     uint substep;
     uint substeps;
     uint look;  // 1: which triangles may come near in this time step is not known yet
@@ -26,16 +26,22 @@ PARAMS
     uint again; // 1: a sweep after the first of an iteration
 };
 
-READ(0, uint, corner);    // four a triangle: its vertices, and where its list begins among `which`
+READ(0, uint, corner);    // four a triangle: its vertices, and where its bits begin among `which`
 READ(1, rvec4, position); // w = inverse mass
 READ(2, rvec4, delta);    // m, w = gap kept from colliders
 READ(3, OF_COLLIDER(record), collider);
-READ(4, uint, which);     // lists of colliders: how many, then which of the shape
+READ(4, uint, which);     // the listed colliders, then bits by body: those that its triangles meet
 READ_ONE(5, StepValues, step_values);
-// Of a triangle that was pushed, of each corner m, and the share of pushes that it has. Then of each collider
-// of its list the impulse of friction in the substep so far, kg m, and w, the largest that there may be.
+// Of a triangle that was pushed, of each corner m, and the share of pushes that it has. Then of each listed
+// collider the impulse of friction in the substep so far, kg m, and w, the largest that there may be.
 UPDATE(6, rvec4, slot);
 UPDATE(7, uint, state); // of each triangle: TAUT_FACE_FAR, ...
+
+/// Whether a triangle meets the collider in that place of the list.
+INLINE bool meets(uint i, uint k)
+{
+    return ((which[listed + corner[4u * i + 3u] + k / 32u] >> (k % 32u)) & 1u) != 0u;
+}
 
 /// Where the middle of collider j is after so many substeps of the time step.
 INLINE rvec3 middle_at(uint j, uint substeps_made)
@@ -128,11 +134,12 @@ APART void push_triangle(uint i)
     f.share = rvec3(real(0));
     f.gap_kept = delta[v0].w;
     f.depenetration = step_values[0].depenetration;
-    uint list = corner[4u * i + 3u];
-    uint listed = which[list];
+    uint slots = 3u + listed;
     for (uint k = 0u; k < listed; ++k)
     {
-        uint j = which[list + 1u + k], mine = slots * i + 3u + k;
+        if (!meets(i, k))
+            continue;
+        uint j = which[k], mine = slots * i + 3u + k;
         rvec4 taken = first != 0u ? rvec4(real(0)) : slot[mine];
         rvec3 here = middle_at(j, substep), there = middle_at(j, substep + 1u);
         f.e0 = seen_after(j, (x0 - there) + d0);
@@ -171,10 +178,9 @@ KERNEL(count)
     if (look != 0u)
     {
         near = false;
-        uint list = corner[4u * i + 3u];
-        uint listed = which[list];
-        for (uint k = 0u; k < listed && !near; ++k)
-            near = comes_near(which[list + 1u + k], corner[4u * i], corner[4u * i + 1u], corner[4u * i + 2u]);
+        for (uint k = 0u; k < listed; ++k)
+            near = near || (meets(i, k) && comes_near(which[k], corner[4u * i], corner[4u * i + 1u],
+                                                      corner[4u * i + 2u]));
     }
     // Only what the first sweep pushed can still be in the way, but for what its neighbours draw in: the next
     // substep finds that.

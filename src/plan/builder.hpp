@@ -72,13 +72,13 @@ struct SurfaceBuffers
 /// Of one shape of colliders, what its triangles need; 0 and kNoBuffer where none meets it (faces.hpp).
 struct FaceBuffers
 {
-    std::uint32_t corners = kNoBuffer; ///< four a triangle: its vertices, and where its list begins
-    std::uint32_t which = kNoBuffer;   ///< lists of the colliders that triangles meet, one after another
-    std::uint32_t slots = kNoBuffer;   ///< what corners would go, and friction of each collider of a list
+    std::uint32_t corners = kNoBuffer; ///< four a triangle: its vertices, and where its bits begin
+    std::uint32_t which = kNoBuffer;   ///< the colliders that triangles meet, and bits by body
+    std::uint32_t slots = kNoBuffer;   ///< what corners would go, and friction of each collider
     std::uint32_t state = kNoBuffer;   ///< of each triangle whether its slots are of this pass
     std::uint32_t near = kNoBuffer;    ///< of each vertex whether any of its triangles may come near
     std::uint32_t start = kNoBuffer, incident = kNoBuffer; ///< slots at each vertex
-    std::uint32_t triangles = 0, slots_each = 0;
+    std::uint32_t triangles = 0, listed = 0;
 };
 struct ForceBuffers;
 struct BlockBuffers;

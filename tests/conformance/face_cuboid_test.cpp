@@ -182,7 +182,7 @@ TEMPLATE_TEST_CASE("a post under one corner of a triangle lifts it to its top, a
     in.delta.assign(3, {Real(0), static_cast<Real>(-deep), Real(0), Real(0)});
     in.slot.assign(4, glm::vec<4, Real>(0));
     in.corner = {0, 1, 2, 0};
-    in.which = {1, 0};
+    in.which = {0, 1}; // collider 0, and its bit
     in.state = {TAUT_FACE_FAR};
     std::vector<Cuboid<Real>> poses(2);
     for (Cuboid<Real>& c : poses)

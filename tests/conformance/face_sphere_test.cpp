@@ -59,7 +59,7 @@ Faces<Real> level(double height, const glm::dvec3& way)
     in.delta.assign(3, {glm::vec<3, Real>(way), Real(0)});
     in.slot.assign(4, glm::vec<4, Real>(7));
     in.corner = {0, 1, 2, 0};
-    in.which = {1, 0};
+    in.which = {0, 1}; // collider 0, and its bit
     in.state = {TAUT_FACE_FAR};
     return in;
 }

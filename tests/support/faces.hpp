@@ -8,7 +8,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 
 namespace taut::conformance {
 
@@ -19,19 +18,19 @@ struct Faces
     std::vector<glm::vec<4, Real>> position, delta, slot; ///< slot: so many a triangle, and some more
     std::vector<std::uint32_t> corner, which, state;
     layout::StepValues<Real> step{};
-    std::uint32_t count = 0, colliders = 0, slots = 4, substep = 0, substeps = 1;
+    std::uint32_t count = 0, colliders = 0, listed = 1, substep = 0, substeps = 1;
     std::uint32_t look = 1, first = 1, again = 0;
 
-    /// The colliders that a triangle meets.
-    std::span<const std::uint32_t> list(std::uint32_t t) const
+    std::uint32_t slots() const { return 3 + listed; } ///< a triangle
+    /// Whether a triangle meets the collider in that place of the list.
+    bool meets(std::uint32_t t, std::uint32_t k) const
     {
-        const std::uint32_t begin = corner[4 * t + 3];
-        return std::span(which).subspan(begin + 1, which[begin]);
+        return (which[listed + corner[4 * t + 3] + k / 32] >> (k % 32) & 1) != 0;
     }
     template <typename Params>
     Params params() const
     {
-        return {count, colliders, slots, substep, substeps, look, first, again};
+        return {count, colliders, listed, substep, substeps, look, first, again};
     }
     /// In the first sweep of a time step, of a substep, of a later iteration, and in a later sweep.
     void set_sweep(std::uint32_t kind)
@@ -192,6 +191,8 @@ Faces<Real> random_faces(Random& random, std::uint32_t count, std::uint32_t coll
     Faces<Real> in;
     in.count = count;
     in.colliders = colliders;
+    in.listed = colliders > 1 ? colliders - 1 : 1;
+    const std::uint32_t words = (in.listed + 31) / 32;
     const auto put = [&](const glm::dvec3& x) {
         in.position.emplace_back(glm::vec<3, Real>(x), random.inverse_mass<Real>());
     };
@@ -206,17 +207,18 @@ Faces<Real> random_faces(Random& random, std::uint32_t count, std::uint32_t coll
                                   static_cast<Real>(kept));
             in.corner.push_back(3 * t + static_cast<std::uint32_t>(k));
         }
-        const std::uint32_t all = colliders > 1 ? colliders - 1 : 1;
-        in.corner.push_back(t % 11 == 7 ? all + 3 : t % 3 == 2 ? all + 1 : 0);
+        in.corner.push_back(words * (t % 11 == 7 ? 2 : t % 3 == 2 ? 1 : 0));
         in.state.push_back(random.below(4));
     }
-    in.which.push_back(colliders > 1 ? colliders - 1 : 1); // most triangles meet all but the second
     for (std::uint32_t j = 0; j < colliders; ++j)
-        if (j != 1)
+        if (j != 1) // one that triangles do not meet
             in.which.push_back(j);
-    in.which.insert(in.which.end(), {1, colliders - 1, 0}); // some the last alone, and some none
-    in.slots = 3 + in.which[0];
-    in.slot = random.vec4s<Real>(in.slots * std::size_t(count) + 4, 0.01, 0, 0.05);
+    in.which.resize(in.listed + 3 * words,
+                    0); // most meet all that are listed, some the last alone, some none
+    for (std::uint32_t k = 0; k < in.listed; ++k)
+        in.which[in.listed + k / 32] |= 1u << (k % 32);
+    in.which[in.listed + words + (in.listed - 1) / 32] |= 1u << ((in.listed - 1) % 32);
+    in.slot = random.vec4s<Real>(in.slots() * std::size_t(count) + 4, 0.01, 0, 0.05);
     in.step.depenetration = Real(0.05);
     in.step.substep = Real(0.01);
     in.step.gravity_y = Real(-9.81);
@@ -263,15 +265,15 @@ RefFace expect_slots(Field& slot, const Faces<Real>& in, std::uint32_t t, FaceOf
         f.w[k] = static_cast<double>(in.position[in.corner[4 * t + k]].w);
     f.gap_kept = static_cast<double>(in.delta[in.corner[4 * t]].w);
     f.depenetration = static_cast<double>(in.step.depenetration);
-    const auto* was = &in.slot[in.slots * t];
-    std::vector<glm::dvec4> taken(was + 3, was + in.slots);
-    const std::span<const std::uint32_t> list = in.list(t);
-    for (std::size_t k = 0; k < list.size() && is_asked(in, t); ++k)
-    {
-        f.taken = in.first != 0 ? glm::dvec4(0) : taken[k];
-        face(f, corners_of(in, in.position, t), d, list[k]);
-        taken[k] = f.taken;
-    }
+    const auto* was = &in.slot[in.slots() * t];
+    std::vector<glm::dvec4> taken(was + 3, was + in.slots());
+    for (std::uint32_t k = 0; k < in.listed && is_asked(in, t); ++k)
+        if (in.meets(t, k))
+        {
+            f.taken = in.first != 0 ? glm::dvec4(0) : taken[k];
+            face(f, corners_of(in, in.position, t), d, in.which[k]);
+            taken[k] = f.taken;
+        }
     const bool moved = f.share != glm::dvec3(0);
     const auto add = [&](double value, double scale) { slot.add(value, f.open ? kAnyFinite : scale); };
     for (std::size_t k = 0; k < 3; ++k)
@@ -329,7 +331,7 @@ void check_faces(const Faces<Real>& in, const KernelInfo& kernel, Bytes params,
         open += f.open;
         pushed += f.share != glm::dvec3(0);
     }
-    for (std::size_t n = in.slots * std::size_t(in.count); n < in.slot.size(); ++n)
+    for (std::size_t n = in.slots() * std::size_t(in.count); n < in.slot.size(); ++n)
         for (int axis = 0; axis < 4; ++axis)
             slot.add(static_cast<double>(in.slot[n][axis]), 0);
     CAPTURE(open, pushed);
