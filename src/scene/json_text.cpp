@@ -3,7 +3,7 @@
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
-#include <set>
+#include <utility>
 #include <vector>
 
 namespace taut::scene_file {
@@ -31,65 +31,86 @@ std::string reason(std::string what)
     return what;
 }
 
-/// Reads the text once before it is parsed, for what the parser does not tell: keys that stand twice, depth,
-/// and where. (Its own callback looks through a list again after each of its entries.)
-class Watcher final : public nlohmann::json_sax<json>
+/// Builds the tree, and notices what the library's own parser does not tell: keys that stand twice, depth,
+/// and where. (Its callback looks through a list again after each of its entries.)
+class Builder final : public nlohmann::json_sax<json>
 {
 public:
-    explicit Watcher(const std::string& file) : file_(file) {}
+    explicit Builder(const std::string& file) : file_(file) {}
 
-    bool null() override { return count(); }
-    bool boolean(bool) override { return count(); }
-    bool number_integer(number_integer_t) override { return count(); }
-    bool number_unsigned(number_unsigned_t) override { return count(); }
-    bool number_float(number_float_t, const string_t&) override { return count(); }
-    bool string(string_t&) override { return count(); }
-    bool binary(binary_t&) override { return count(); }
-    bool start_object(std::size_t) override { return enter(false); }
-    bool start_array(std::size_t) override { return enter(true); }
+    json take() { return std::move(root_); }
+
+    bool null() override { return put(nullptr); }
+    bool boolean(bool value) override { return put(value); }
+    bool number_integer(number_integer_t value) override { return put(value); }
+    bool number_unsigned(number_unsigned_t value) override { return put(value); }
+    bool number_float(number_float_t value, const string_t&) override { return put(value); }
+    bool string(string_t& value) override { return put(std::move(value)); }
+    bool binary(binary_t& value) override { return put(std::move(value)); }
+    bool start_object(std::size_t) override { return enter(json::object()); }
+    bool start_array(std::size_t) override { return enter(json::array()); }
     bool end_object() override { return leave(); }
     bool end_array() override { return leave(); }
-    /// Left to the parser, whose message it is.
-    bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
+
+    bool parse_error(std::size_t, const std::string&, const json::exception& error) override
+    {
+        if (const auto* broken = dynamic_cast<const json::parse_error*>(&error))
+            throw *broken;
+        if (const auto* large = dynamic_cast<const json::out_of_range*>(&error))
+            throw *large;
+        return false;
+    }
 
     bool key(string_t& name) override
     {
         Level& level = levels_.back();
-        if (!level.seen.insert(name).second)
+        const auto [entry, is_new] = level.tree->emplace(name, nullptr);
+        if (!is_new)
         {
             levels_.pop_back();
             const std::string where = levels_.empty() ? "the scene" : path();
             throw Error(ErrorCode::bad_input, file_ + ": the key \"" + name + "\" stands twice in " + where +
                                                   "; keep one of the two");
         }
-        level.key = name;
+        level.entry = &*entry;
+        level.key = std::move(name);
         return true;
     }
 
 private:
+    /// Pointers hold: nothing is added to a list or an object while one of its entries is open.
     struct Level
     {
-        bool array = false;
-        std::size_t elements = 0;
+        json* tree = nullptr;
+        json* entry = nullptr; ///< of an object, what the value of the last key becomes
         std::string key;
-        std::set<std::string> seen;
     };
 
-    bool count()
+    json& placed(json value)
     {
-        if (!levels_.empty())
-            ++levels_.back().elements;
+        if (levels_.empty())
+            return root_ = std::move(value);
+        Level& level = levels_.back();
+        if (!level.tree->is_array())
+            return *level.entry = std::move(value);
+        level.tree->push_back(std::move(value));
+        return level.tree->back();
+    }
+
+    bool put(json value)
+    {
+        placed(std::move(value));
         return true;
     }
 
-    bool enter(bool array)
+    bool enter(json container)
     {
-        count();
+        json& tree = placed(std::move(container));
         if (levels_.size() > kMaxDepth)
             throw Error(ErrorCode::bad_input, file_ + ": " + path() + " is nested more than " +
                                                   std::to_string(kMaxDepth) +
                                                   " levels deep; a scene needs 8");
-        levels_.push_back({array, 0, {}, {}});
+        levels_.push_back({&tree, nullptr, {}});
         return true;
     }
 
@@ -103,14 +124,15 @@ private:
     {
         std::string out;
         for (const Level& level : levels_)
-            if (level.array)
-                out += '[' + std::to_string(level.elements == 0 ? 0 : level.elements - 1) + ']';
+            if (level.tree->is_array())
+                out += '[' + std::to_string(level.tree->empty() ? 0 : level.tree->size() - 1) + ']';
             else
                 out += (out.empty() ? "" : ".") + level.key;
         return out;
     }
 
     std::string file_;
+    json root_;
     std::vector<Level> levels_;
 };
 
@@ -120,9 +142,9 @@ json parse_json(std::string_view text, const std::string& file)
 {
     try
     {
-        Watcher watcher(file);
-        json::sax_parse(text.begin(), text.end(), &watcher);
-        return json::parse(text.begin(), text.end());
+        Builder builder(file);
+        json::sax_parse(text.begin(), text.end(), &builder);
+        return builder.take();
     }
     catch (const json::parse_error& error)
     {
