@@ -5,8 +5,8 @@
 #include "support/methods.hpp"
 #include "support/random.hpp"
 #include "support/sheets.hpp"
+#include "support/tilted_block.hpp"
 
-#include "taut/plan/material.hpp"
 #include "taut/report/crossing.hpp"
 #include "taut/report/crossing_shapes.hpp"
 #include "taut/report/holes.hpp"
@@ -109,24 +109,12 @@ Depths deepest_in(World& world, int steps)
     return out;
 }
 
-/// A block of 60 cm on a box of 20 cm whose top is tilted about z; its corners hang over on all sides.
+/// A block on a post of 20 cm; its corners hang over on all sides.
 Scene block_on_post(double degrees, double friction)
 {
     Scene scene;
-    Body block;
-    block.shape.kind = ShapeKind::box;
-    block.shape.box_cells = {3, 1, 3};
-    block.shape.box_size = {0.6, 0.2, 0.6};
-    block.material.youngs_modulus = 1e6;
-    block.material.model = "neo_hookean";
-    block.material.density = 1000;
-    const double tilt = glm::radians(degrees);
-    block.transform.rotate_axis = {0, 0, 1};
-    block.transform.rotate_degrees = degrees;
-    block.transform.translate = glm::dvec3(-std::sin(tilt), std::cos(tilt), 0) * 0.2001;
-    scene.bodies = {block};
-    scene.colliders = {box({0.1, 0.1, 0.1}, {0, 0, 1}, degrees)};
-    scene.colliders[0].friction = friction;
+    scene.bodies = {test::tilted_block(degrees, 3)};
+    scene.colliders = {test::tilted_post(degrees, {0, 0, 0}, {0.1, 0.1, 0.1}, friction)};
     return scene;
 }
 
@@ -136,21 +124,6 @@ glm::dvec3 mean_place(const World& world)
     for (const glm::dvec3& x : world.positions())
         sum += x;
     return sum / static_cast<double>(world.positions().size());
-}
-
-/// m/s, of the middle of mass.
-double mean_speed(const World& world)
-{
-    const std::vector<double> mass = vertex_masses(world.scene().bodies[0]);
-    const std::vector<glm::dvec3> v = world.velocities();
-    glm::dvec3 momentum(0);
-    double all = 0;
-    for (std::size_t i = 0; i < v.size(); ++i)
-    {
-        momentum += mass[i] * v[i];
-        all += mass[i];
-    }
-    return glm::length(momentum) / all;
 }
 
 } // namespace
@@ -216,9 +189,9 @@ TEST_CASE("a block whose corners hang over on all sides slides down a tilted pos
     CAPTURE(friction);
     World world(block_on_post(20, friction), test_device("cpu:serial"));
     run(world, 6); // it lands, and goes on sliding
-    const double early = mean_speed(world);
+    const double early = glm::length(test::mean_velocity(world));
     run(world, 12);
-    const double late = mean_speed(world), tilt = glm::radians(20.0);
+    const double late = glm::length(test::mean_velocity(world)), tilt = glm::radians(20.0);
     const double gain = 9.81 * (std::sin(tilt) - friction * std::cos(tilt)) * 12 / 60.0;
     if (gain > 0)
         CHECK(late - early == Approx(gain).epsilon(0.03));
