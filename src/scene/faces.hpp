@@ -39,6 +39,7 @@ private:
     std::optional<double> hole_; ///< m; triangles are measured once, and only where it matters
 };
 
+/// The same of one pair; over many a SurfaceRule measures the triangles once.
 inline bool meets_surface(const Body& body, const Collider& collider)
 {
     return SurfaceRule(body).meets(collider);

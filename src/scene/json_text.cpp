@@ -58,7 +58,7 @@ public:
             throw *broken;
         if (const auto* large = dynamic_cast<const json::out_of_range*>(&error))
             throw *large;
-        return false;
+        throw Error(ErrorCode::bad_input, file_ + ": " + reason(error.what()));
     }
 
     bool key(string_t& name) override
