@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The suites that take longer than a build should: run before a release, one line of summary a part.
 #   tests/matrix.sh [PART...]      all by default
-# release: tests/run.sh. headers: each file alone and without precompiled headers, so that it includes what it
+# release: tests/run.sh, and the benches are built. headers: each file alone and without precompiled headers, so that it includes what it
 # uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
 # tests/run.sh in a chroot of that Debian (tests/chroot.sh). physics: on OpenGL, too. hard: the hard cases and the
@@ -22,7 +22,10 @@ preset() {
         ctest --preset "$1" --parallel "$jobs"
 }
 
-part_release() { "$root/tests/run.sh"; }
+part_release()
+{
+    "$root/tests/run.sh" && cmake --build "$root/build/release" --target benches --parallel "$jobs"
+}
 
 part_headers() {
     cd "$root" && cmake -S . -B build/headers -DCMAKE_BUILD_TYPE=Debug -DTAUT_BUILD_TESTS=ON \
@@ -38,7 +41,7 @@ part_clang() {
     cd "$root" &&
         cmake -S . -B build/clang -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=clang++ \
             -DTAUT_BUILD_TESTS=ON &&
-        cmake --build build/clang --parallel "$jobs" &&
+        cmake --build build/clang --target all benches --parallel "$jobs" &&
         TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} ctest --test-dir build/clang --output-on-failure \
             --no-tests=error --parallel "$jobs"
 }
@@ -60,7 +63,7 @@ part_odr() {
         cmake --build build/odr --target taut-cli --parallel "$jobs"
 }
 
-# What ctest runs without OpenGL (TAUT_TEST_SHORT).
+# What ctest runs without OpenGL and cpu:shuffled (TAUT_TEST_SHORT).
 part_physics() { TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} "$root/build/release/tests/test_physics"; }
 
 part_stable() { "$root/tests/chroot.sh" stable; }

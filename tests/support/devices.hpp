@@ -5,8 +5,8 @@
 //   const auto device = taut::test_device(selector);
 //
 // TAUT_TEST_DEVICES=cpu,vulkan    takes these instead of all.
-// TAUT_TEST_SHORT=1               leaves OpenGL out, as ctest does where other suites hold OpenGL to the same
-//                                 bits (conformance, golden).
+// TAUT_TEST_SHORT=1               leaves OpenGL and cpu:shuffled out, as ctest does where other suites hold
+//                                 them to the same bits (conformance, golden).
 // TAUT_REQUIRE_DEVICE=1           makes a missing executor an error; without it, the program says what
 //                                 is left out, and why, and ends as skipped (skip.hpp).
 
