@@ -26,8 +26,8 @@ std::uint64_t all_frames(const Scene& scene)
     return static_cast<std::uint64_t>(std::ceil(scene.duration / scene.timestep - 1e-6));
 }
 
-/// All of them; in a short run as many as 1e6 vertex substeps pay for, of the contact suite, which
-/// tests/physics/contact_*_test.cpp run until their criteria are met, a half of that.
+/// All of them; in a short run as many as 6e5 vertex substeps pay for, of the contact suite, which
+/// tests/physics/contact_*_test.cpp run until their criteria are met, a sixth of that.
 std::uint64_t frames_of(const Scene& scene, const std::string& name)
 {
     std::size_t vertices = 0;
@@ -37,7 +37,7 @@ std::uint64_t frames_of(const Scene& scene, const std::string& name)
     const bool enforced = scene.method.type == "implicit_constraints" || scene.method.type == "acad";
     const double sweeps = enforced ? std::max(scene.method.linear_iterations / 50.0, 1.0) : 1;
     const double frame = static_cast<double>(vertices) * std::max(scene.method.substeps, 1u) * sweeps;
-    const double pays = name.starts_with("contact/") ? 5e5 : 1e6;
+    const double pays = name.starts_with("contact/") ? 1e5 : 6e5;
     const auto paid = static_cast<std::uint64_t>(std::max(1.0, pays / frame));
     return short_run() ? std::min(all_frames(scene), paid) : all_frames(scene);
 }
