@@ -43,6 +43,11 @@ const KernelInfo& find_kernel(std::string_view name, std::string_view variant, P
                                             std::string(to_string(precision)));
 }
 
+std::string full_name(const KernelInfo& kernel)
+{
+    return std::string(kernel.name) + (kernel.variant.empty() ? "" : ":" + std::string(kernel.variant));
+}
+
 void register_kernels(std::span<const KernelInfo> kernels)
 {
     Registry& all = registry();

@@ -4,6 +4,7 @@
 #include "taut/runtime/base/kernel_info.hpp"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace taut {
@@ -15,6 +16,9 @@ std::vector<const KernelInfo*> all_kernels();
 /// from several threads, as register_kernels() is.
 const KernelInfo& find_kernel(std::string_view name, std::string_view variant = {},
                               Precision precision = Precision::float32);
+
+/// "distance:lambda", or "distance" of the form without a variant.
+std::string full_name(const KernelInfo& kernel);
 
 /// Adds kernels of a program's own, which must stay good for its whole life. Throws Error{bad_input} for a
 /// name that is taken, and adds none then.

@@ -3,6 +3,7 @@
 #include "taut/plan/plan.hpp"
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
+#include "taut/cli/inventory_text.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
@@ -19,7 +20,7 @@ struct PlanCommand
 {
     std::string scene, device;
     std::vector<std::string> settings;
-    bool json = false;
+    bool json = false, buffers = false;
 };
 
 /// Words in lines of at most `width` columns, the first after `head`, the others below its end.
@@ -80,6 +81,8 @@ Json to_json(const PlanCommand& options, const Plan& plan, const std::string& de
     json["dispatches_per_step"] = plan.passes.size();
     json["barriers_per_step"] = plan.barrier_count();
     json["bytes_allocated"] = plan.bytes_allocated();
+    json["buffers"] = buffers_json(plan);
+    json["kernels"] = kernels_json(plan);
     json["colours"] = plan.colour_counts();
     json["warnings"] = nlohmann::json::array();
     for (const PlanWarning& warning : plan.warnings)
@@ -131,8 +134,9 @@ int show_plan(const PlanCommand& options)
     else if (const auto costs = fixed_costs())
         set_costs(traits, *costs);
     const Plan plan = naming(options.scene, [&] { return make_plan(scene, traits); });
-    std::cout << (options.json ? to_text(to_json(options, plan, name, traits))
-                               : to_table(plan) + costs_text(traits, !name.empty()));
+    std::cout << (options.json      ? to_text(to_json(options, plan, name, traits))
+                  : options.buffers ? inventory_markdown(plan)
+                                    : to_table(plan) + costs_text(traits, !name.empty()));
     return kDone;
 }
 
@@ -147,6 +151,7 @@ void add_plan(CLI::App& app, Command& chosen)
     add_device_option(*command, options->device);
     add_costs_option(*command);
     command->add_option("--set", options->settings, "A value of the scene: method.type=implicit_euler");
+    command->add_flag("--buffers", options->buffers, "Print buffers and kernels instead, as Markdown");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([&chosen, options] { chosen = [options] { return show_plan(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include "taut/plan/material.hpp"
 #include "taut/plan/topology.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/registry.hpp"
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
@@ -199,8 +200,7 @@ void PlanBuilder::add_pass(std::string_view effect, Dispatch pass)
 {
     EffectCost& cost = cost_of(effect);
     const KernelInfo& kernel = *pass.kernel;
-    const std::string word =
-        std::string(kernel.name) + (kernel.variant.empty() ? "" : ":" + std::string(kernel.variant));
+    const std::string word = full_name(kernel);
     if (std::find(cost.kernels.begin(), cost.kernels.end(), word) == cost.kernels.end())
         cost.kernels.push_back(word);
     ++cost.dispatches_per_step;

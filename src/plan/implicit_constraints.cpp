@@ -75,7 +75,6 @@ void add_row_buffers(PlanBuilder& b, ImplicitConstraints& c)
     c.rows.incident =
         b.add_buffer<std::uint32_t>(kImplicitConstraintsEffect, "rows at a vertex", c.at.entries);
     c.rows.direction = b.add_buffer(kImplicitConstraintsEffect, "row directions", c.rows.count * vec);
-    c.rows.spread = b.add_buffer(kImplicitConstraintsEffect, "moves of vertices", b.plan.vertex_count * vec);
     if (b.plan.iterations > 1)
         c.multiplier = b.add_buffer(kImplicitConstraintsEffect, "multipliers of the substep",
                                     c.rows.all() * b.real_size());
@@ -245,7 +244,11 @@ void prepare_implicit_constraints(PlanBuilder& b)
         system = c->matrix->matrix();
     }
     else
+    {
+        c->rows.spread = b.add_buffer(kImplicitConstraintsEffect, "moves of vertices",
+                                      b.plan.vertex_count * 4 * b.real_size());
         system = std::make_shared<ConstraintOperator>(b, c->rows);
+    }
     c->solve.emplace(
         b, kImplicitConstraintsEffect, system,
         linear::Preconditioning{linear::Preconditioner::jacobi, diagonal_inverse(b, *c), nullptr});

@@ -29,7 +29,7 @@ namespace taut {
 namespace {
 
 constexpr const char* kPlasticityEffect = "plasticity";
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoSpring = 0xffffffffu;
 constexpr double kAtOnce = 1e30; ///< 1/s: an infinite creep as a float
 
 bool keeps_strain(const Body& body)
@@ -117,7 +117,7 @@ std::uint32_t solid_buffer(const PlanBuilder& b)
 struct Flowing
 {
     SolidElement element;
-    std::array<std::uint32_t, 4> record = {kNone, kNone, kNone, kNone};
+    std::array<std::uint32_t, 4> record = {kNoSpring, kNoSpring, kNoSpring, kNoSpring};
 };
 
 std::vector<Flowing> all_tetrahedra(const PlanBuilder& b)
@@ -125,7 +125,7 @@ std::vector<Flowing> all_tetrahedra(const PlanBuilder& b)
     std::vector<Flowing> out;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
         for (const SolidElement& e : acting_solids(b, body))
-            out.push_back({e, {kNone, kNone, kNone, kNone}});
+            out.push_back({e, {kNoSpring, kNoSpring, kNoSpring, kNoSpring}});
     return out;
 }
 

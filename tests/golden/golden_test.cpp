@@ -194,6 +194,29 @@ TEST_CASE("every kernel of a step is dispatched by a golden scene")
     CHECK(list == "");
 }
 
+TEST_CASE("every buffer of a plan is bound by a dispatch of its step")
+{
+    const auto device = test_device("cpu:serial");
+    for (const std::string& name : names())
+    {
+        const World world(golden::scenes().at(name), device);
+        const Plan& plan = world.plan();
+        std::vector<bool> bound(plan.buffers.size());
+        for (const Dispatch& pass : plan.passes)
+        {
+            for (const BufferRange& range : pass.bindings)
+                bound[range.buffer] = true;
+            if (pass.indirect.buffer != kNoBuffer)
+                bound[pass.indirect.buffer] = true;
+        }
+        std::string idle;
+        for (std::size_t k = 0; k < bound.size(); ++k)
+            idle += bound[k] ? "" : plan.buffers[k].effect + " \"" + plan.buffers[k].name + "\" ";
+        CAPTURE(name);
+        CHECK(idle == "");
+    }
+}
+
 TEST_CASE("every scene of the golden table ends somewhere else")
 {
     std::set<std::string> hashes;

@@ -151,7 +151,7 @@ Row row_of(const std::string& family, const KernelInfo& kernel, const Statistics
     const auto whole = [&](const char* name) { return static_cast<std::int64_t>(s.of(name)); };
     Row row;
     row.family = family;
-    row.kernel = label_of(kernel);
+    row.kernel = full_name(kernel);
     row.precision = std::string(to_string(kernel.precision));
     row.numbers = {s.subgroup,
                    whole("VGPRs"),
@@ -210,7 +210,7 @@ Compiled compile_all(const std::string& name, const std::string& driver_file)
         }
         catch (const Error& error)
         {
-            out.failed.push_back(label_of(*kernel) + " " + std::string(to_string(kernel->precision)) + ": " +
+            out.failed.push_back(full_name(*kernel) + " " + std::string(to_string(kernel->precision)) + ": " +
                                  error.what());
         }
     }

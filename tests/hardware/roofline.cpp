@@ -1,5 +1,6 @@
 #include "hardware/roofline.hpp"
 
+#include "taut/runtime/base/registry.hpp"
 #include "taut/runtime/limits.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ Work& Work::operator+=(const Work& other)
 Work work_of(const Table& table, const std::string& family, const Dispatch& pass, double trips)
 {
     const KernelInfo& kernel = *pass.kernel;
-    Row wanted{family, label_of(kernel), std::string(to_string(kernel.precision)), {}};
+    Row wanted{family, full_name(kernel), std::string(to_string(kernel.precision)), {}};
     const auto found = std::find_if(table.rows.begin(), table.rows.end(),
                                     [&](const Row& row) { return row.same_kernel(wanted); });
     if (found == table.rows.end())

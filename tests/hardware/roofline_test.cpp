@@ -24,7 +24,7 @@ constexpr Gpu kGpu = {"a GPU", "navi21", 10, 2, 1e9, 100e9, ""};
 Table table_of(const KernelInfo& kernel)
 {
     return {"Mesa 1.2.3",
-            {{"navi21", label_of(kernel), "float", {64, 40, 20, 0, 0, 0, 0, 16, 1000, 1000, 100}}}};
+            {{"navi21", full_name(kernel), "float", {64, 40, 20, 0, 0, 0, 0, 16, 1000, 1000, 100}}}};
 }
 
 Dispatch pass_of(const KernelInfo& kernel, std::uint32_t count)

@@ -83,11 +83,6 @@ void add_growth(std::vector<std::string>& out, const Row& before, const Row& now
 
 } // namespace
 
-std::string label_of(const KernelInfo& kernel)
-{
-    return std::string(kernel.name) + (kernel.variant.empty() ? "" : ":" + std::string(kernel.variant));
-}
-
 std::filesystem::path table_file() { return TAUT_SOURCE_DIR "/tests/hardware/radv.csv"; }
 
 Table read_table(const std::filesystem::path& file)

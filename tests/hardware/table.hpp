@@ -48,9 +48,6 @@ struct Table
     std::vector<Row> rows;
 };
 
-/// "distance", or "distance:lambda" of a variant.
-std::string label_of(const KernelInfo& kernel);
-
 std::filesystem::path table_file();
 
 /// Throws Error{io} where the file cannot be read, Error{bad_input} naming file and line where it is no
