@@ -125,6 +125,7 @@ TEST_CASE("drape uses every effect of cloth, hanging none beside gravity and str
     CHECK(drape.bodies[0].material.bending_stiffness > 0);
     REQUIRE(drape.colliders.size() == 2);
     CHECK(drape.colliders[0].friction > 0);
+    CHECK(drape.bodies[0].contact.self);
     CHECK(drape.duration >= 3);
 
     const Scene hanging = resolve(load_scene(kRoot / "examples" / "scenes" / "hanging.json"));
