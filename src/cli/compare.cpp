@@ -45,6 +45,8 @@ Variant read_variant(const CompareCommand& command, const std::string& text)
                     "--variant \"" + text + "\" has no label; write \"label: key=value; key=value\"");
     Variant variant;
     variant.label = trimmed(text.substr(0, colon));
+    if (variant.label.empty())
+        throw Error(ErrorCode::bad_input, "--variant \"" + text + "\" has an empty label");
     std::vector<std::string> settings = command.settings;
     std::string device = command.device;
     for (std::size_t at = colon + 1; at < text.size();)
@@ -143,7 +145,14 @@ int compare_variants(const CompareCommand& command)
                     "--variant is missing; write --variant \"label: key=value\", once a variant");
     std::vector<Variant> variants;
     for (const std::string& text : command.variants)
-        variants.push_back(read_variant(command, text));
+    {
+        Variant next = read_variant(command, text);
+        for (const Variant& other : variants)
+            if (other.label == next.label)
+                throw Error(ErrorCode::bad_input,
+                            "two --variant are called \"" + next.label + "\"; labels tell rows apart");
+        variants.push_back(std::move(next));
+    }
     const std::uint64_t frames = frames_of(command, variants.front().scene);
     if (!command.folder.empty())
         make_folder(command.folder); // before minutes of work

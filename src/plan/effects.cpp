@@ -27,7 +27,10 @@
 #include "taut/plan/surface_volume.hpp"
 #include "taut/plan/vbd.hpp"
 #include "taut/plan/wind.hpp"
+#include "taut/runtime/base/shown.hpp"
 #include "taut/scene/pose.hpp"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 
@@ -68,6 +71,30 @@ bool wants_pin_motion(const Scene& scene)
     return false;
 }
 
+constexpr double kRounding = 1e-9; ///< of a coordinate, and of a metre
+
+/// Of pins that are led elsewhere at time 0 than where their vertices start.
+void warn_of_jumps(PlanBuilder& b)
+{
+    std::uint64_t count = 0;
+    double furthest = 0;
+    for (const MovingPin& moving : b.plan.moving_pins)
+    {
+        const Pin& pin = b.scene.bodies[moving.body].pins[moving.pin];
+        if (pin.moved_by_program)
+            continue;
+        const double jump = glm::distance(held_at(pin, 0, moving.own, moving.rest), b.start[moving.vertex]);
+        count += jump > kRounding * (1 + glm::length(moving.rest)) ? 1 : 0;
+        furthest = std::max(furthest, jump);
+    }
+    if (count > 0)
+        b.plan.warnings.push_back(
+            {"conflict", count,
+             std::to_string(count) + " pinned vertices start up to " + shown(furthest, 3) +
+                 " m from where their pin has them at time 0, and jump there in the first substep; let "
+                 "the motion begin where they are, or give start_positions"});
+}
+
 void prepare_pin_motion(PlanBuilder& b)
 {
     std::vector<bool> taken(b.plan.vertex_count, false); // the first pin of a vertex wins
@@ -79,14 +106,16 @@ void prepare_pin_motion(PlanBuilder& b)
             for (std::uint32_t own = 0; own < pin.vertices.size(); ++own)
             {
                 const std::uint32_t v = b.vertex(body, pin.vertices[own]);
+                const glm::dvec3& rest = held_rest_of(b.scene.bodies[body])[pin.vertices[own]];
                 const bool moves = !taken[v] && is_led(pin);
                 taken[v] = true;
                 if (!moves)
                     continue;
-                b.plan.moving_pins.push_back({v, body, p, b.start[v], own});
+                b.plan.moving_pins.push_back({v, body, p, rest, own});
                 vertices.push_back(v);
             }
         }
+    warn_of_jumps(b);
     b.pin_vertices = b.add_buffer<std::uint32_t>("pin_motion", "pin vertices", vertices);
     b.plan.pin_targets = b.add_buffer("pin_motion", "pin targets", vertices.size() * 8 * b.real_size());
     b.plan.buffers[b.plan.pin_targets].host_written = true;
@@ -201,9 +230,11 @@ constexpr Effect kEffectsBefore[] = {
     {"implicit_euler", Stage::solve, any_blocks, nullptr, record_implicit_step,
      only(MethodKind::implicit_euler)},
     {"acad", Stage::solve, any_stretch, nullptr, record_acad_solve, kAcad},
+    // Before the limits: what they move is no energy that the sweeps have made.
+    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
     {"strain_limit", Stage::contact, wants_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, wants_attachment, prepare_attachment, record_attachment},
-    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
+    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_mark, kVbd},
     {"momentum", Stage::contact, wants_momentum, prepare_momentum, record_momentum_end, kDescents},
     {"contact", Stage::contact, wants_contact, nullptr, record_contact},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below

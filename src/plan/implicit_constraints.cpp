@@ -132,13 +132,16 @@ void check_constrained_lengths(const Scene& scene)
 void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
 {
     check_constrained_lengths(scene);
-    bool forces = false, rows = false;
+    if (scene.method.integrator != "semi_implicit") // no pass would give back what the kick takes of gravity
+        throw Error(ErrorCode::unsupported,
+                    "method.integrator is \"" + scene.method.integrator +
+                        "\", but method.type \"implicit_constraints\" steps by \"semi_implicit\" only");
+    bool rows = false;
     for (std::size_t body = 0; body < scene.bodies.size(); ++body)
     {
         const std::string where = "bodies[" + std::to_string(body) + "]";
         for (const StretchElement& e : stretch_elements(scene.bodies[body]))
         {
-            forces = forces || acts_as_force(scene, e);
             rows = rows || may_be_constrained(scene, e);
             if (acts_as_force(scene, e) && !(e.compliance > 0))
                 throw Error(ErrorCode::unsupported,
@@ -154,10 +157,6 @@ void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
                         "bodies[" + std::to_string(body) +
                             "].material has bending_stiffness, but the scene no spring that is a constraint, "
                             "and hinges alone are not solved; give it a stretch_stiffness");
-    if (forces && scene.method.integrator != "semi_implicit")
-        throw Error(ErrorCode::unsupported, "method.integrator is \"" + scene.method.integrator +
-                                                "\", but forces beside constraints are stepped by "
-                                                "\"semi_implicit\" only");
 }
 
 std::vector<double> row_compliances(const PlanBuilder& b, std::span<const StretchElement> springs)

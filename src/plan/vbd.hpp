@@ -82,6 +82,7 @@ std::vector<std::uint32_t> guard_table(const PlanBuilder& builder, BlockBuffers&
 void record_vbd_start(PlanBuilder& builder, const Moment& moment);
 void record_vbd_solve(PlanBuilder& builder, const Moment& moment);
 void record_vbd_end(PlanBuilder& builder, const Moment& moment);
+void record_vbd_mark(PlanBuilder& builder, const Moment& moment);
 void record_vbd_share(PlanBuilder& builder, const Moment& moment);
 
 } // namespace taut

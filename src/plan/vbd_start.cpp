@@ -212,7 +212,12 @@ void record_vbd_end(PlanBuilder& b, const Moment&)
         return;
     record_limit(b);
     record_shift(b);
-    if (f.solved == kNoBuffer)
+}
+
+void record_vbd_mark(PlanBuilder& b, const Moment&)
+{
+    const BlockBuffers& f = *b.blocks;
+    if (f.rows == 0 || f.solved == kNoBuffer)
         return;
     const kernels::vbd_mark::Bindings<Use> uses = {.delta = {b.plan.delta}, .solved = {f.solved}};
     b.dispatch("vbd_start", "", uses, {b.plan.vertex_count}, b.plan.vertex_count);

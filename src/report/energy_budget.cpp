@@ -48,9 +48,10 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
         {
             Extent held;
             for (const std::uint32_t v : pin.vertices)
-                held.take(model.start[model.body_start[b] + v]);
+                held.take(held_rest_of(scene.bodies[b])[v]);
             if (!pin.motion.empty() && held.low.x <= held.high.x)
-                out.push_back({pin.motion, box_corners(held.low, held.high), true});
+                out.push_back(
+                    {pin.motion, box_corners(held.low, held.high), !scene.bodies[b].kinematic.used});
         }
     // Of a plane, the part that the bodies can be at.
     for (const Collider& c : scene.colliders)
@@ -88,7 +89,10 @@ std::vector<MoverPath> paths_of(const Scene& scene, const PhysicalModel& model)
     for (const Body& body : scene.bodies)
         for (const Pin& pin : body.pins)
             if (pin.places)
+            {
                 out.push_back(path_of(*pin.places));
+                out.back().holds = !body.kinematic.used;
+            }
     for (const Mover& mover : movers_of(scene, model))
     {
         MoverPath path{mover.holds, {{}}};
@@ -180,6 +184,32 @@ double largest_violation(const Scene& scene, const PhysicalModel& model)
     return out;
 }
 
+/// m: how far pins take their vertices at time 0, in one substep.
+double largest_jump(const Scene& scene)
+{
+    double out = 0;
+    for (const Body& body : scene.bodies)
+        for (const Pin& pin : body.pins)
+            for (std::size_t own = 0; own < pin.vertices.size(); ++own)
+            {
+                if (!is_led(pin) || pin.moved_by_program)
+                    break;
+                const std::uint32_t v = pin.vertices[own];
+                const glm::dvec3 held = held_at(pin, 0, own, held_rest_of(body)[v]);
+                out = std::max(out, glm::distance(held, start_of(body)[v]));
+            }
+    return out;
+}
+
+/// J, of what nothing holds: what is led has its height from what leads it.
+double free_gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
+{
+    double energy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        energy -= model.pinned[i] ? 0 : model.mass[i] * glm::dot(model.gravity, x[i]);
+    return energy;
+}
+
 /// N s^2/m^2: the force on all triangles, were each square to the wind, over the square of its speed.
 double wind_drag(const Scene& scene)
 {
@@ -213,7 +243,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const Physical
       paths_(paths_of(resolved, *shared_)),
       depth_(std::max(deepest_start(resolved, *shared_), deepest_contact(resolved))),
       drawn_(std::make_shared<const DrawnBodies>(resolved)),
-      violation_(largest_violation(resolved, *shared_)),
+      violation_(std::max(largest_violation(resolved, *shared_), largest_jump(resolved))),
       depenetration_(resolved.depenetration_speed),
       wind_speed_(largest_wind(resolved.wind)),
       wind_drag_(wind_drag(resolved))
@@ -226,7 +256,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const Physical
             lightest_ = std::min(lightest_, shared_->mass[i]);
         }
     start_ = kinetic_energy(*shared_) + elastic_at_start(*shared_) + gas_energy(*shared_, shared_->start);
-    gravity_start_ = gravity_energy(*shared_, shared_->start);
+    gravity_start_ = free_gravity_energy(*shared_, shared_->start);
 }
 
 MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const
@@ -234,8 +264,13 @@ MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::
     MoverReach out;
     const bool moved = !paths_.empty() || !drive.moved.empty();
     std::vector<Extent> rooms;
+    const auto first_of = [&](std::size_t body) {
+        return shared_->pinned.begin() + shared_->body_start[body];
+    };
     for (std::size_t b = 0; moved && b + 1 < shared_->body_start.size(); ++b)
-        rooms.push_back(room_of(*shared_, x, shared_->body_start[b], shared_->body_start[b + 1], drive.time));
+        if (!std::all_of(first_of(b), first_of(b + 1), [](bool pinned) { return pinned; }))
+            rooms.push_back(
+                room_of(*shared_, x, shared_->body_start[b], shared_->body_start[b + 1], drive.time));
     const auto add = [&](bool holds, const MoverReach& reach) {
         const bool meets = holds || std::any_of(rooms.begin(), rooms.end(), [&](const Extent& room) {
                                return glm::all(glm::lessThanEqual(reach.low, room.high)) &&
@@ -267,7 +302,7 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
     double in = start_ - gas_energy(*shared_, x);
     double root = 0; // what is added to sqrt(E)
     if (drive.steady_gravity)
-        in += gravity_start_ - gravity_energy(*shared_, x) + mass_ * g * reach.travel;
+        in += gravity_start_ - free_gravity_energy(*shared_, x) + mass_ * g * reach.travel;
     else
         root += std::sqrt(mass_ / 2) * drive.fall;
     if (depth_ > 0)

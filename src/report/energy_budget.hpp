@@ -16,7 +16,7 @@ namespace taut {
 /// Pins that move, or a collider that does.
 struct MoverPath
 {
-    bool holds = false;            ///< pins: they move a body wherever it is
+    bool holds = false;            ///< pins: they move a body wherever it is; not of kinematic bodies
     std::vector<MoverReach> reach; ///< ascending in time
 };
 

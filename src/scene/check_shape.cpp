@@ -72,6 +72,8 @@ void check_solid(const Material& material, const Checker& out)
         out.warning("stretch_damping", "is " + shown(material.stretch_damping) + none);
     if (material.volume_stiffness != -1)
         out.warning("volume_stiffness", "is " + shown(material.volume_stiffness) + none);
+    if (material.volume == "surface")
+        out.warning("volume", "is \"surface\"" + none);
 }
 
 } // namespace taut::scene_file

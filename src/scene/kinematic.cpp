@@ -101,6 +101,16 @@ Material led_material(const Body& body)
     return out;
 }
 
+/// It starts where its motion has it then, without a jump in the first substep.
+void start_at_first_pose(Body& body, const std::vector<Keyframe>& motion)
+{
+    std::vector<glm::dvec3> start;
+    for (const glm::dvec3& x : body.mesh.positions)
+        start.push_back(pose(motion, 0, x));
+    if (start != body.mesh.positions)
+        body.start_positions = std::move(start);
+}
+
 } // namespace
 
 void resolve_kinematic(Body& body, const std::filesystem::path& directory)
@@ -117,6 +127,8 @@ void resolve_kinematic(Body& body, const std::filesystem::path& directory)
         for (const std::uint32_t v : pin.vertices)
             body.start_positions[v] = place_at(*pin.places, 0, v);
     }
+    else if (!pin.motion.empty())
+        start_at_first_pose(body, pin.motion);
     body.pins = {std::move(pin)};
     body.material = led_material(body);
     body.mesh.tetrahedra.clear();

@@ -14,6 +14,13 @@ inline const std::vector<glm::dvec3>& start_of(const Body& body)
     return body.start_positions.empty() ? body.mesh.positions : body.start_positions;
 }
 
+/// m, world: what the motions of its pins move: where the vertices start; of a kinematic body where its mesh
+/// has them.
+inline const std::vector<glm::dvec3>& held_rest_of(const Body& body)
+{
+    return body.kinematic.used ? body.mesh.positions : start_of(body);
+}
+
 /// Whether a pin can be elsewhere than where it starts.
 bool is_led(const Pin& pin);
 

@@ -49,7 +49,7 @@ constexpr Key kMethod[] = {
     // implicit_constraints and acad refuse what is not "semi_implicit".
     key<&MethodSettings::integrator>("integrator",
                                      "mass_spring: how time advances; implicit_constraints, acad: "
-                                     "only \"semi_implicit\" beside springs that stay forces")
+                                     "only \"semi_implicit\"")
         .words(kIntegrators)
         .read_by(kMassSpring | kConstraints),
     key<&MethodSettings::stability>(

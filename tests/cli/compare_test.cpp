@@ -37,7 +37,7 @@ TEST_CASE("wrong variants end with 2 and say what would be right")
     const std::string scene = folder.file("cloth.json", scenes::cloth());
     for (const std::string& variant :
          {std::string("no colon"), std::string("a: method.substep=2"), std::string("a: method.substeps"),
-          std::string("a: method.substeps=0")})
+          std::string("a: method.substeps=0"), std::string(" : method.substeps=2")})
     {
         const Result result = folder.taut({"compare", scene, "--device", "cpu:serial", "--variant", variant});
         INFO(variant << ": " << result.err);
@@ -45,5 +45,9 @@ TEST_CASE("wrong variants end with 2 and say what would be right")
         CHECK_FALSE(result.err.empty());
     }
     CHECK(folder.taut({"compare", scene}).status == 2);
+    const Result twice =
+        folder.taut({"compare", scene, "--variant", "a: ", "--variant", "a: method.substeps=2"});
+    CHECK(twice.status == 2);
+    CHECK_THAT(twice.err, Contains("two --variant are called \"a\""));
     CHECK(folder.taut({"run", scene, "--set", "method.sub=2", "--no-picture"}).status == 2);
 }

@@ -123,6 +123,35 @@ TEST_CASE("a body whose vertices are all held has no constraint to solve (A13)")
     CHECK(plan.warnings[0].word == "conflict");
 }
 
+TEST_CASE("pins that have their vertices elsewhere at time 0 are a conflict, with how far")
+{
+    Scene scene = test::hanging(2);
+    scene.bodies[0].pins[0].motion = {{0, {0.25, 0, 0}}, {1, {0, 0, 0}}};
+    const Plan plan = make_plan(scene);
+    REQUIRE(plan.warnings.size() == 1);
+    CHECK(plan.warnings[0].word == "conflict");
+    CHECK(plan.warnings[0].count == scene.bodies[0].pins[0].vertices.size());
+    CHECK_THAT(plan.warnings[0].text, Contains("0.25 m"));
+    scene.bodies[0].pins[0].motion[0].translate = {0, 0, 0};
+    CHECK(make_plan(scene).warnings.empty());
+}
+
+TEST_CASE("constraint enforcement and ACAD take no integrator but their own")
+{
+    Scene scene = test::hanging(2);
+    for (const std::string method : {"implicit_constraints", "acad"})
+        for (const std::string integrator : {"explicit", "verlet"})
+        {
+            scene.method.type = method;
+            scene.method.substeps = 100;
+            scene.method.integrator = integrator;
+            CAPTURE(method, integrator);
+            CHECK_THROWS_WITH(make_plan(scene), Contains("\"semi_implicit\" only"));
+            scene.method.integrator = "semi_implicit";
+            CHECK_NOTHROW(make_plan(scene));
+        }
+}
+
 TEST_CASE("a star of 10,000 springs is a hub and not 10,000 dispatches (C03)")
 {
     Scene scene;

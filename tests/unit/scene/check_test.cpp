@@ -291,6 +291,19 @@ TEST_CASE("a wind that nothing catches is a warning")
     CHECK(check(scene).empty());
 }
 
+TEST_CASE("drag without air is a warning")
+{
+    Scene scene = good_scene();
+    scene.bodies[0].material.drag = 1;
+    scene.wind.density = 0;
+    const auto issues = check(scene);
+    REQUIRE(issues.size() == 1);
+    CHECK(!issues[0].error);
+    CHECK(issues[0].field == "bodies[0].material.drag");
+    scene.wind.density = 1.2; // at rest
+    CHECK(check(scene).empty());
+}
+
 TEST_CASE("two bodies of one name are a warning")
 {
     Scene scene = good_scene();

@@ -62,6 +62,19 @@ TEST_CASE("a kinematic body becomes one pin of all its vertices, and nothing str
     CHECK(body.material.thickness == 0.004);
 }
 
+TEST_CASE("a kinematic body starts where its motion has it at time 0")
+{
+    const std::string grid = R"("grid": {"cells": [1, 1]}, "kinematic": {"motion": [)";
+    const Scene ahead =
+        resolve(parsed(grid + R"({"time": -1}, {"time": 1, "translate": [0, 2, 0]}]})")); // half-way at 0
+    const Body& body = ahead.bodies[0];
+    REQUIRE(body.start_positions.size() == 4);
+    for (std::size_t v = 0; v < 4; ++v)
+        CHECK(glm::distance(body.start_positions[v], body.mesh.positions[v] + glm::dvec3(0, 1, 0)) < 1e-12);
+    const Scene here = resolve(parsed(grid + R"({"time": 0}, {"time": 1, "translate": [0, 2, 0]}]})"));
+    CHECK(here.bodies[0].start_positions.empty());
+}
+
 TEST_CASE("a kinematic body has no elements of its fabric")
 {
     const std::string cloth =
