@@ -82,9 +82,9 @@ function claims()
           && text_of("pbd_sphere", "1 x 20", "status") == "unconverged" \
           && text_of("pbd_sphere", "4 x 5", "status") == "unconverged")
 
-    claim("Four other methods end within 13 % of the diagonal of `xpbd`",
-          apart("methods", "pbd") < 13 && apart("methods", "mass_spring") < 13 \
-          && apart("methods", "implicit_constraints") < 13 && apart("methods", "acad") < 13)
+    claim("Four other methods end within 14 % of the diagonal of `xpbd`",
+          apart("methods", "pbd") < 14 && apart("methods", "mass_spring") < 14 \
+          && apart("methods", "implicit_constraints") < 14 && apart("methods", "acad") < 14)
     claim("implicit Euler and block descent damp the swing (their energy is the lowest) and hang elsewhere",
           v("methods", "implicit_euler", "energy at the end J") < v("methods", "xpbd", "energy at the end J") \
           && v("methods", "vbd", "energy at the end J") < v("methods", "implicit_euler", "energy at the end J") \
