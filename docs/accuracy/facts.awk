@@ -19,7 +19,7 @@ function setting(at) {
 }
 # Whether a point moves another material than the scene's: as the study says, else (studies of before) by the method.
 # There acad counts as the scene's own, which it is up to its strain.
-function foreign(p) { return other[p] == "" ? method[p] == "pbd" : other[p] }
+function foreign(p) { return other[p] == "" ? method[p] == "pbd" : other[p] + 0 }
 # The cheapest point of a problem (and method, unless empty) for a tolerance; 0 = none. `own`: with the scene's material.
 function cheapest(problem, name, tolerance, own_only,    p, best) {
     best = 0
