@@ -17,9 +17,8 @@ function setting(at) {
     return substeps[at] (substeps[at] == 1 ? " substep" : " substeps") \
            (method[at] == "mass_spring" ? "" : " x " iterations[at]) (details[at] == "" ? "" : ", " details[at])
 }
-# Whether a point moves another material than the scene's: as the study says, else (studies of before) by the method.
-# There acad counts as the scene's own, which it is up to its strain.
-function foreign(p) { return other[p] == "" ? method[p] == "pbd" : other[p] + 0 }
+# Whether a point moves another material than the scene's, as the study says. A number: the text "0" is true.
+function foreign(p) { return other[p] + 0 }
 # The cheapest point of a problem (and method, unless empty) for a tolerance; 0 = none. `own`: with the scene's material.
 function cheapest(problem, name, tolerance, own_only,    p, best) {
     best = 0
@@ -72,7 +71,7 @@ FNR == 1 {
     cost[points] = cell[column["cpu_ms_per_simulated_second"]] + 0
     sweeps[points] = cell[column["sweeps"]]
     reason[points] = cell[column["reason"]]
-    other[points] = column["other_material"] ? cell[column["other_material"]] : ""
+    other[points] = cell[column["other_material"]]
     floor[points] = column["floor"] ? cell[column["floor"]] : ""
     details[points] = cell[column["details"]]; refused[points] = cell[column["refused"]]
     if (column["ratio"]) ratio[points] = cell[column["ratio"]]

@@ -90,9 +90,9 @@ void warn_of_jumps(PlanBuilder& b)
     if (count > 0)
         b.plan.warnings.push_back(
             {"conflict", count,
-             std::to_string(count) + " pinned vertices start up to " + shown(furthest, 3) +
-                 " m from where their pin has them at time 0, and jump there in the first substep; let "
-                 "the motion begin where they are, or give start_positions"});
+             "vertices that pins lead (" + std::to_string(count) + ") start up to " + shown(furthest, 3) +
+                 " m from where the motion begins, and jump there in the first substep; let the motion "
+                 "begin without a displacement"});
 }
 
 void prepare_pin_motion(PlanBuilder& b)

@@ -7,6 +7,8 @@
 
 #include "taut/report/crossing.hpp"
 
+#include "taut/scene/pose.hpp"
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -62,7 +64,7 @@ WatchedBody watched(const Body& body, std::string name, std::uint32_t first)
                 out.edge, glm::length(mesh.positions[e[k] - first] - mesh.positions[e[(k + 1) % 3] - first]));
     for (const Pin& pin : body.pins)
         for (const std::uint32_t v : pin.vertices)
-            out.led_speed = std::max(out.led_speed, led_speed(pin.motion, mesh.positions[v], 0));
+            out.led_speed = std::max(out.led_speed, led_speed(pin.motion, held_rest_of(body)[v], 0));
     out.groups = ElementGroups(elements, mesh.positions, first);
     return out;
 }

@@ -28,7 +28,32 @@ struct Mover
     std::vector<Keyframe> motion;
     std::vector<glm::dvec3> corners;
     bool holds = false;
+    /// Of kinematic bodies: where the corners start, from which their travel counts; else empty: `corners`.
+    std::vector<glm::dvec3> start = {};
 };
+
+std::vector<glm::dvec3> posed(const std::vector<Keyframe>& motion, double time,
+                              std::vector<glm::dvec3> points)
+{
+    for (glm::dvec3& p : points)
+        p = pose(motion, time, p);
+    return points;
+}
+
+/// The way of a mover from `from` to `to`, s, in straight lines.
+void follow(MoverTrack& track, const Mover& mover, double from, double to)
+{
+    const int lines = kLines + chords(mover.motion, from, to);
+    if (mover.start.empty())
+        return follow(track, mover.motion, mover.corners, from, to, lines);
+    std::vector<glm::dvec3> before = posed(mover.motion, from, mover.corners);
+    for (int k = 1; k <= lines; ++k)
+    {
+        std::vector<glm::dvec3> now = posed(mover.motion, from + (to - from) * k / lines, mover.corners);
+        follow(track, before, now, mover.start, (to - from) / lines);
+        before = std::move(now);
+    }
+}
 
 /// It stands still from its last key on.
 void stops(MoverPath& path, const MoverTrack& track)
@@ -49,9 +74,11 @@ std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
             Extent held;
             for (const std::uint32_t v : pin.vertices)
                 held.take(held_rest_of(scene.bodies[b])[v]);
-            if (!pin.motion.empty() && held.low.x <= held.high.x)
-                out.push_back(
-                    {pin.motion, box_corners(held.low, held.high), !scene.bodies[b].kinematic.used});
+            if (pin.motion.empty() || !(held.low.x <= held.high.x))
+                continue;
+            out.push_back({pin.motion, box_corners(held.low, held.high), !scene.bodies[b].kinematic.used});
+            if (scene.bodies[b].kinematic.used)
+                out.back().start = posed(pin.motion, 0, out.back().corners);
         }
     // Of a plane, the part that the bodies can be at.
     for (const Collider& c : scene.colliders)
@@ -101,8 +128,7 @@ std::vector<MoverPath> paths_of(const Scene& scene, const PhysicalModel& model)
             if (key.time > path.reach.back().time)
             {
                 const double from = path.reach.back().time;
-                follow(track, mover.motion, mover.corners, from, key.time,
-                       kLines + chords(mover.motion, from, key.time));
+                follow(track, mover, from, key.time);
                 path.reach.push_back(track.reach);
             }
         stops(path, track);
@@ -190,10 +216,8 @@ double largest_jump(const Scene& scene)
     double out = 0;
     for (const Body& body : scene.bodies)
         for (const Pin& pin : body.pins)
-            for (std::size_t own = 0; own < pin.vertices.size(); ++own)
+            for (std::size_t own = 0; is_led(pin) && own < pin.vertices.size(); ++own)
             {
-                if (!is_led(pin) || pin.moved_by_program)
-                    break;
                 const std::uint32_t v = pin.vertices[own];
                 const glm::dvec3 held = held_at(pin, 0, own, held_rest_of(body)[v]);
                 out = std::max(out, glm::distance(held, start_of(body)[v]));

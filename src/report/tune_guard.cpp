@@ -100,7 +100,8 @@ Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
     scene.gravity = {0, 0, 0};
     for (Body& body : scene.bodies)
     {
-        body.start_positions.clear();
+        if (!body.kinematic.used) // it rests where its motion begins
+            body.start_positions.clear();
         for (Pin& pin : body.pins)
             pin.motion.clear(), pin.places.reset();
     }

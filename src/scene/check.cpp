@@ -58,11 +58,14 @@ void warn_of_idle_wind(const Scene& scene, const Checker& out)
     });
     if (blows && !moves)
         out.warning("wind", "moves nothing: no material has \"drag\" or \"friction_drag\"");
-    for (std::size_t b = 0; b < scene.bodies.size() && !(scene.wind.density > 0); ++b)
-        if (scene.bodies[b].material.drag > 0 || scene.bodies[b].material.friction_drag > 0)
+    if (scene.wind.density > 0)
+        return;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        if (const Material& m = scene.bodies[b].material; m.drag > 0 || m.friction_drag > 0)
             out.at("bodies", b).at("material").warning(
-                "drag", "does nothing without air: give the scene \"wind\", or \"wind\": {} for air "
-                        "that stands still");
+                m.drag > 0 ? "drag" : "friction_drag",
+                "does nothing without air: give the scene \"wind\", or \"wind\": {} for air that stands "
+                "still");
 }
 
 } // namespace

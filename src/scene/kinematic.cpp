@@ -101,12 +101,13 @@ Material led_material(const Body& body)
     return out;
 }
 
-/// It starts where its motion has it then, without a jump in the first substep.
+/// A body starts where its motion has it at time 0, without a jump in the first substep.
 void start_at_first_pose(Body& body, const std::vector<Keyframe>& motion)
 {
     std::vector<glm::dvec3> start;
     for (const glm::dvec3& x : body.mesh.positions)
         start.push_back(pose(motion, 0, x));
+    check_coordinates(start, "kinematic.motion at time 0");
     if (start != body.mesh.positions)
         body.start_positions = std::move(start);
 }

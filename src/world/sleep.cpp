@@ -54,7 +54,7 @@ bool comes_near(const Collider& c, double from, double to, const Extent& box, do
 
 bool pins_move(const Body& body, double from, double to)
 {
-    const auto& x = body.mesh.positions;
+    const auto& x = held_rest_of(body);
     return std::any_of(body.pins.begin(), body.pins.end(), [&](const Pin& pin) {
         for (std::size_t k = 0; k < pin.vertices.size(); ++k)
             if (const glm::dvec3& rest = x[pin.vertices[k]];

@@ -309,7 +309,7 @@ WorldDrive World::drive() const
     for (const ColliderMove& move : values.colliders)
         out.moved.push_back({false, move.track.reach});
     for (const PinMove& move : values.pins)
-        out.moved.push_back({true, move.track.reach});
+        out.moved.push_back({!impl_->scene.bodies[move.body].kinematic.used, move.track.reach});
     out.wind = values.wind ? values.wind->fastest : 0;
     out.kick = impl_->kick;
     out.placed = impl_->placings;

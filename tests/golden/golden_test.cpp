@@ -11,6 +11,7 @@
 #include "taut/runtime/base/registry.hpp"
 #include "taut/world/world.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -57,7 +58,10 @@ bool short_run() { return std::getenv("TAUT_GOLDEN_SHORT") != nullptr; }
 
 bool is_run(const std::string& selector, std::size_t scene)
 {
-    if (!short_run() || !selector.starts_with("opengl"))
+    const std::vector<std::string>& all = test_devices();
+    const auto has = [&](const char* one) { return std::find(all.begin(), all.end(), one) != all.end(); };
+    const bool both = has("opengl") && has("opengl:spirv");
+    if (!short_run() || !both || !selector.starts_with("opengl"))
         return true;
     return (scene % 2 == 0) == (selector == "opengl");
 }
