@@ -19,7 +19,8 @@ set(taut_public_headers
     judge/judge.hpp judge/box_tree.hpp judge/mesh_distance.hpp judge/surface.hpp judge/distance.hpp judge/exact.hpp judge/linking.hpp judge/swept.hpp
     report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/cost.hpp report/compare.hpp
     report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/looks.hpp report/residuals.hpp
-    report/gas.hpp report/energy_budget.hpp report/soundness.hpp)
+    report/gas.hpp report/energy_budget.hpp report/mover_paths.hpp report/soundness.hpp report/scene_budget.hpp
+    report/soundness_watch.hpp)
 foreach(header IN LISTS taut_public_headers)
     cmake_path(GET header PARENT_PATH module)
     install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/${module})

@@ -8,12 +8,15 @@
 //   Steihaug. The Conjugate Gradient Method and Trust Regions. SINUM 1983: p.Mp by recurrence.
 // Departures: nothing is accepted as converged before the residual was formed anew; a curvature that
 //   rounding cannot tell from zero ends a direction instead of the solve, and the solve only if it comes
-//   with the steepest descent of a residual just formed.
+//   with the steepest descent of a residual just formed. Where r.M^-1 r underflows the solve has nothing left
+//   to do: that is what a body at rest leaves, rounding alone, and no fault of the preconditioner.
 #ifndef TAUT_SHARED_CG_STATE_GLSL
 #define TAUT_SHARED_CG_STATE_GLSL
 
 // Checks without progress before a solve is given up.
 #define TAUT_CG_STALLS 3u
+// An rr below which, times the diagonal of a stiff M^-1, float underflows: 2^-96, of |r| = 2^-48.
+#define TAUT_CG_NOTHING 1.262177448e-29
 
 /// Before a direction is made: `s` is what cg_step or cg_restart left, rz and rr are of the residual in hand.
 /// On return s.status says whether to go on, `replace` whether the residual is wanted anew first, and
@@ -50,6 +53,12 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
         keep = false;
     }
     else if (rr <= s.tolerance_squared * s.bb)
+    {
+        if (s.fresh != 0u)
+            s.status = uint(TAUT_CG_CONVERGED);
+        replace = s.fresh == 0u;
+    }
+    else if (rz == real(0) && rr < real(TAUT_CG_NOTHING))
     {
         if (s.fresh != 0u)
             s.status = uint(TAUT_CG_CONVERGED);

@@ -3,6 +3,7 @@
 #include "taut/cli/command.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/plan/plan.hpp"
+#include "taut/report/deep_vertices.hpp"
 #include "taut/report/holes.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -65,6 +66,8 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         for (const SceneIssue& issue : locking_issues(resolved))
             issues.push_back(issue);
         for (const SceneIssue& issue : holes_issues(resolved))
+            issues.push_back(issue);
+        for (const SceneIssue& issue : deep_start_issues(resolved))
             issues.push_back(issue);
         for (const PlanWarning& warning : make_plan(resolved).warnings)
             issues.push_back({false, "", warning.sentence()});

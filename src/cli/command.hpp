@@ -14,7 +14,24 @@ namespace taut::cli {
 /// The command that the arguments chose; returns the exit status, throws taut::Error.
 using Command = std::function<int()>;
 
-/// Calls `act`. A limit that is exceeded there is a matter of this file, and the message names it.
+/// Whether an error is a matter of the scene file: of a key of it, or of its numbers.
+inline bool is_of_scene(const Error& error)
+{
+    const std::string text = error.what();
+    switch (error.code())
+    {
+    case ErrorCode::limit:
+    case ErrorCode::bad_timestep:
+    case ErrorCode::unstable_timestep:
+    case ErrorCode::degenerate_rest: return true;
+    case ErrorCode::bad_input:
+    case ErrorCode::unsupported:
+        return text.starts_with("bodies[") || text.starts_with("method.") || text.starts_with("contact");
+    default: return false;
+    }
+}
+
+/// Calls `act`. What is wrong there with the scene is a matter of this file, and the message names it.
 template <class Act>
 auto naming(const std::string& file, const Act& act)
 {
@@ -24,7 +41,7 @@ auto naming(const std::string& file, const Act& act)
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::limit)
+        if (!is_of_scene(error) || std::string(error.what()).starts_with(file + ":"))
             throw;
         throw Error(error.code(), file + ": " + error.what());
     }

@@ -114,7 +114,8 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             " pairs of triangles after frame " + std::to_string(most_frame_) + ", the first of " +
             most_bodies_ +
             (at_start_ > 0 ? "; they do so at the start, and contact does not part what has crossed"
-                           : "; raise contact.sweeps or method.substeps");
+                           : "; raise method.substeps or contact.sweeps, or let contact.guarantee be "
+                             "\"no_crossing\"");
         set_status(crossed, report);
     }
     // Ways are not straight between two frames. Under the guarantee they are known to be clear.
@@ -127,7 +128,8 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             "surfaces that are to meet have passed through each other: vertices and triangles, or edges, "
             "in " +
             std::to_string(passed_) + " places, first before frame " + std::to_string(passed_frame_) +
-            "; raise contact.sweeps, method.substeps, or shorten timestep";
+            "; raise method.substeps or contact.sweeps, shorten timestep, or let contact.guarantee be "
+            "\"no_crossing\"";
         set_status(passed, report);
     }
     if (at_start_ > 0)
@@ -142,11 +144,15 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
     if (c.missing > 0)
         messages.push_back("contact: " + std::to_string(c.missing) +
                            " pairs found no place in their list, which has grown since");
-    if (c.cut + c.crowded > 0)
-        messages.push_back(
-            "contact: " + std::to_string(c.cut + c.crowded) +
-            " searches or vertices met more than they may take; a thickness below the edges of the "
-            "mesh avoids that");
+    if (c.cut > 0)
+        messages.push_back("contact: " + std::to_string(c.cut) +
+                           " searches met more triangles than they may take; a thickness below the edges of "
+                           "the mesh avoids that");
+    if (c.crowded > 0)
+        messages.push_back("contact: " + std::to_string(c.crowded) +
+                           " times a vertex was in more pairs than may push it, so none did, and its "
+                           "partners were pushed alone; a smaller thickness, or meshes that are about as "
+                           "fine as each other, avoid that");
 }
 
 } // namespace taut::cli

@@ -13,6 +13,7 @@
 #include "taut/cli/tunnelling.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/report/residuals.hpp"
+#include "taut/report/soundness_watch.hpp"
 #include "taut/report/warnings.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"

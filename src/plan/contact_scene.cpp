@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace taut {
 namespace {
@@ -107,6 +108,17 @@ bool surfaces_meet(const Scene& scene, std::size_t a, std::size_t b)
     if (a == b)
         return scene.bodies[a].contact.self;
     return bodies_meet(scene, scene.bodies[a], scene.bodies[b]);
+}
+
+std::vector<std::size_t> meeting_parts(const Scene& scene)
+{
+    std::vector<std::size_t> part(scene.bodies.size());
+    std::iota(part.begin(), part.end(), std::size_t{0});
+    for (std::size_t a = 0; a < part.size(); ++a)
+        for (std::size_t b = a + 1; b < part.size(); ++b)
+            if (part[a] != part[b] && surfaces_meet(scene, a, b))
+                std::replace(part.begin(), part.end(), part[b], part[a]);
+    return part;
 }
 
 bool wants_contact(const Scene& scene)

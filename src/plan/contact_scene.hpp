@@ -3,6 +3,8 @@
 
 #include "taut/scene/scene.hpp"
 
+#include <vector>
+
 namespace taut {
 
 /// Pairs that a list may hold at most.
@@ -29,6 +31,8 @@ GroupBits group_bits(const Scene& scene, const Body& body);
 bool takes_part(const Scene& resolved, const Body& body);
 /// Whether the surfaces of two bodies meet, or that of one itself.
 bool surfaces_meet(const Scene& resolved, std::size_t a, std::size_t b);
+/// Of bodies that meet, directly or by others: which of them one number stands for.
+std::vector<std::size_t> meeting_parts(const Scene& resolved);
 /// Whether the surface of any body meets itself or another one.
 bool wants_contact(const Scene& resolved);
 

@@ -248,8 +248,8 @@ void add_vectors(PlanBuilder& b, ImplicitEuler& m)
 void check_implicit_euler(const Scene& resolved, const DeviceTraits&)
 {
     const auto refuse = [](std::size_t body, const char* what, const char* setting) {
-        throw Error(ErrorCode::unsupported, "method.type is \"implicit_euler\", but body " +
-                                                std::to_string(body) + " has rigid " + what +
+        throw Error(ErrorCode::unsupported, "method.type is \"implicit_euler\", but bodies[" +
+                                                std::to_string(body) + "] has rigid " + what +
                                                 ", which have no force; give " + setting +
                                                 " a finite value or take implicit_constraints or xpbd");
     };

@@ -1,5 +1,6 @@
 #include "taut/report/cost_trial.hpp"
 
+#include "taut/report/report.hpp"
 #include "taut/report/residuals.hpp"
 
 #include <glm/geometric.hpp>
@@ -54,7 +55,6 @@ double quantile(std::vector<double> values, double share)
 
 Trial::Trial(const Scene& resolved, std::shared_ptr<Device> device, const MethodSettings& settings)
     : world_(with_settings(resolved, settings), std::move(device)),
-      budget_(world_.scene()),
       start_(world_.state()),
       x_(world_.positions())
 {}
@@ -98,8 +98,7 @@ void Trial::judge_end(Motion& motion)
 {
     if (!motion.reason.empty() || motion.steps == 0)
         return;
-    StepReport report;
-    set_status(judge(budget_, world_), report);
+    StepReport report = measure(world_);
     if (report.status == Status::completed)
         judge_residuals(world_.scene(), residuals_ahead(world_), report);
     motion.status = report.status;

@@ -3,7 +3,6 @@
 
 #include "taut/report/cost.hpp"
 #include "taut/report/errors.hpp"
-#include "taut/report/soundness.hpp"
 
 namespace taut::cost {
 
@@ -78,7 +77,6 @@ private:
     void judge_end(Motion& motion);
 
     World world_;
-    EnergyBudget budget_;
     WorldState start_;
     std::vector<glm::dvec3> x_;
 };

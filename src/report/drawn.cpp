@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 
 namespace taut {
@@ -88,18 +87,6 @@ bool turns(const Pin& pin)
                        [](const Keyframe& key) { return key.rotate_degrees != 0; });
 }
 
-/// Of bodies that meet, directly or by others: which of them one number stands for.
-std::vector<std::size_t> meeting_parts(const Scene& scene)
-{
-    std::vector<std::size_t> part(scene.bodies.size());
-    std::iota(part.begin(), part.end(), std::size_t{0});
-    for (std::size_t a = 0; a < part.size(); ++a)
-        for (std::size_t b = a + 1; b < part.size(); ++b)
-            if (part[a] != part[b] && surfaces_meet(scene, a, b))
-                std::replace(part.begin(), part.end(), part[b], part[a]);
-    return part;
-}
-
 /// Places that are held, and how many of them move, of the bodies of a part.
 struct Holders
 {
@@ -127,6 +114,13 @@ bool followed(const Scene& scene, const Body& body)
            std::none_of(body.pins.begin(), body.pins.end(), turns);
 }
 
+/// J/m^2: of a body with what its own pins and the colliders draw; what nothing else holds goes along.
+double pins_stiffness(const Scene& scene, const Body& body)
+{
+    const bool alone = body.pins.size() + scene.colliders.size() < 2;
+    return alone ? 0 : drawn_stiffness(body, drawn_length(body));
+}
+
 /// Of forty vertices of each, evenly taken.
 std::vector<glm::dvec3> ways_between(const Pin& a, const Pin& b, std::span<const glm::dvec3> x)
 {
@@ -151,26 +145,32 @@ DrawnBodies::DrawnBodies(const Scene& scene)
     {
         const Body& body = scene.bodies[k];
         const Holders& near = holders[part[k]];
-        // What nothing else holds goes along.
-        const bool alone = body.pins.size() + scene.colliders.size() < 2;
         const std::size_t move = near.move + led_colliders;
         if (move > 0 && near.held > body.pins.size() && near.held + scene.colliders.size() >= 2)
         {
             const double length = std::min(drawn_length(body), touched_length(body));
             // Two that move draw it by both their ways.
-            stiffness_ += drawn_stiffness(body, length) * (move > 1 ? 4 : 1);
+            met_stiffness_ += drawn_stiffness(body, length) * (move > 1 ? 4 : 1);
+            stiffness_ += pins_stiffness(scene, body);
         }
-        else if (alone)
-            continue;
-        else if (const double stiffness = drawn_stiffness(body, drawn_length(body)); !followed(scene, body))
-            stiffness_ += stiffness;
+        else if (!followed(scene, body))
+        {
+            met_stiffness_ += pins_stiffness(scene, body);
+            stiffness_ += pins_stiffness(scene, body);
+        }
         else
-            for (std::size_t a = 0; a < body.pins.size(); ++a)
-                for (std::size_t b = a + 1; b < body.pins.size(); ++b)
-                    if (const Pin& first = body.pins[a], &second = body.pins[b]; either_moves(first, second))
-                        pairs_.push_back({first.motion, second.motion,
-                                          ways_between(first, second, body.mesh.positions), stiffness});
+            follow(body);
     }
+}
+
+void DrawnBodies::follow(const Body& body)
+{
+    const double stiffness = drawn_stiffness(body, drawn_length(body));
+    for (std::size_t a = 0; a < body.pins.size(); ++a)
+        for (std::size_t b = a + 1; b < body.pins.size(); ++b)
+            if (const Pin& first = body.pins[a], &second = body.pins[b]; either_moves(first, second))
+                pairs_.push_back({first.motion, second.motion,
+                                  ways_between(first, second, body.mesh.positions), stiffness});
 }
 
 DrawnBodies::Change DrawnBodies::change(const Pair& pair, double time)
@@ -186,9 +186,10 @@ DrawnBodies::Change DrawnBodies::change(const Pair& pair, double time)
     return out;
 }
 
-DrawnEnergy DrawnBodies::at(double time, double way) const
+DrawnEnergy DrawnBodies::at(double time, double travel, double depth) const
 {
-    const double all = stiffness_ * way * way;
+    const double way = travel + depth;
+    const double all = (travel > 0 ? met_stiffness_ : stiffness_) * way * way;
     DrawnEnergy out{all, all};
     for (const Pair& pair : pairs_)
     {

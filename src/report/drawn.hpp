@@ -28,8 +28,9 @@ class DrawnBodies
 public:
     explicit DrawnBodies(const Scene& resolved);
 
-    /// At `time` [s], `way` being the longest way that anything has been moved by then, m.
-    DrawnEnergy at(double time, double way) const;
+    /// At `time` [s], m: the longest way by then of anything that moves and can have met a body, and the
+    /// deepest start in colliders and surfaces.
+    DrawnEnergy at(double time, double travel, double depth) const;
 
 private:
     /// Two pins of a body of which one moves.
@@ -45,9 +46,12 @@ private:
         double apart = 0, together = 0;
     };
     static Change change(const Pair& pair, double time);
+    void follow(const Body& body);
 
     std::vector<Pair> pairs_;
-    double stiffness_ = 0; ///< J/m^2, of bodies that are not followed pair by pair
+    // J/m^2, of bodies that are not followed pair by pair: with all that they can meet, and while nothing
+    // that moves has been near.
+    double met_stiffness_ = 0, stiffness_ = 0;
 };
 
 } // namespace taut

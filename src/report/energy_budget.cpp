@@ -20,123 +20,6 @@ namespace {
 /// that speed, in one blow. The rest of it is squeezed until it moves as fast, and springs back: as a ball
 /// from a racket.
 constexpr double kThrown = 2;
-constexpr int kLines = 7; ///< that stand for the way between two keys, more than chords() asks for
-
-/// A motion, and the corners of what it carries.
-struct Mover
-{
-    std::vector<Keyframe> motion;
-    std::vector<glm::dvec3> corners;
-    bool holds = false;
-    /// Of kinematic bodies: where the corners start, from which their travel counts; else empty: `corners`.
-    std::vector<glm::dvec3> start = {};
-};
-
-std::vector<glm::dvec3> posed(const std::vector<Keyframe>& motion, double time,
-                              std::vector<glm::dvec3> points)
-{
-    for (glm::dvec3& p : points)
-        p = pose(motion, time, p);
-    return points;
-}
-
-/// The way of a mover from `from` to `to`, s, in straight lines.
-void follow(MoverTrack& track, const Mover& mover, double from, double to)
-{
-    const int lines = kLines + chords(mover.motion, from, to);
-    if (mover.start.empty())
-        return follow(track, mover.motion, mover.corners, from, to, lines);
-    std::vector<glm::dvec3> before = posed(mover.motion, from, mover.corners);
-    for (int k = 1; k <= lines; ++k)
-    {
-        std::vector<glm::dvec3> now = posed(mover.motion, from + (to - from) * k / lines, mover.corners);
-        follow(track, before, now, mover.start, (to - from) / lines);
-        before = std::move(now);
-    }
-}
-
-/// It stands still from its last key on.
-void stops(MoverPath& path, const MoverTrack& track)
-{
-    MoverReach rest = path.reach.back();
-    rest.time = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < track.change.size(); ++c)
-        rest.change = std::max(rest.change, track.change[c] + glm::length(track.velocity[c]));
-    path.reach.push_back(rest);
-}
-
-std::vector<Mover> movers_of(const Scene& scene, const PhysicalModel& model)
-{
-    std::vector<Mover> out;
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-        for (const Pin& pin : scene.bodies[b].pins)
-        {
-            Extent held;
-            for (const std::uint32_t v : pin.vertices)
-                held.take(held_rest_of(scene.bodies[b])[v]);
-            if (pin.motion.empty() || !(held.low.x <= held.high.x))
-                continue;
-            out.push_back({pin.motion, box_corners(held.low, held.high), !scene.bodies[b].kinematic.used});
-            if (scene.bodies[b].kinematic.used)
-                out.back().start = posed(pin.motion, 0, out.back().corners);
-        }
-    // Of a plane, the part that the bodies can be at.
-    for (const Collider& c : scene.colliders)
-        if (!c.motion.empty() && !c.moved_by_program)
-            out.push_back({c.motion, collider_corners(c, model.diameter), false});
-    return out;
-}
-
-/// Of a body that follows a sequence.
-MoverPath path_of(const SequencePlaces& sequence)
-{
-    MoverPath path{true, {{}}};
-    MoverTrack track;
-    const std::size_t vertices = sequence.frames.front().size();
-    std::vector<glm::dvec3> start(vertices);
-    for (std::size_t v = 0; v < vertices; ++v)
-        start[v] = place_at(sequence, 0, v);
-    std::vector<glm::dvec3> before = start;
-    for (std::size_t f = 0; f < sequence.frames.size(); ++f)
-        if (const double time = sequence.start + static_cast<double>(f) / sequence.rate,
-            seconds = time - path.reach.back().time;
-            seconds > 0)
-        {
-            follow(track, before, sequence.frames[f], start, seconds);
-            before = sequence.frames[f];
-            path.reach.push_back(track.reach);
-        }
-    stops(path, track);
-    return path;
-}
-
-std::vector<MoverPath> paths_of(const Scene& scene, const PhysicalModel& model)
-{
-    std::vector<MoverPath> out;
-    for (const Body& body : scene.bodies)
-        for (const Pin& pin : body.pins)
-            if (pin.places)
-            {
-                out.push_back(path_of(*pin.places));
-                out.back().holds = !body.kinematic.used;
-            }
-    for (const Mover& mover : movers_of(scene, model))
-    {
-        MoverPath path{mover.holds, {{}}};
-        MoverTrack track;
-        for (const Keyframe& key : mover.motion)
-            if (key.time > path.reach.back().time)
-            {
-                const double from = path.reach.back().time;
-                follow(track, mover, from, key.time);
-                path.reach.push_back(track.reach);
-            }
-        stops(path, track);
-        out.push_back(std::move(path));
-    }
-    return out;
-}
-
 /// Where the body of the vertices from `first` to before `last` can have been: a box around its start and
 /// now, as much larger on every side as it was itself and as its speed at the start took it.
 Extent room_of(const PhysicalModel& model, std::span<const glm::dvec3> x, std::uint32_t first,
@@ -258,13 +141,25 @@ double largest_wind(const Wind& wind)
 
 } // namespace
 
+double rounded_speed(Precision precision, double far, double substep)
+{
+    const double digit = precision == Precision::float32 ? 6e-8 : 1.1e-16; // of a coordinate
+    return 32 * digit * far / substep;
+}
+
 EnergyBudget::EnergyBudget(const Scene& resolved)
     : EnergyBudget(resolved, std::make_shared<const PhysicalModel>(make_model(resolved)))
 {}
 
 EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model)
+    : EnergyBudget(resolved, model, collider_paths(resolved, model->diameter))
+{}
+
+EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model,
+                           ColliderPaths colliders)
     : shared_(std::move(model)),
-      paths_(paths_of(resolved, *shared_)),
+      paths_(pin_paths(resolved)),
+      colliders_(std::move(colliders)),
       depth_(std::max(deepest_start(resolved, *shared_), deepest_contact(resolved))),
       drawn_(std::make_shared<const DrawnBodies>(resolved)),
       violation_(std::max(largest_violation(resolved, *shared_), largest_jump(resolved))),
@@ -286,7 +181,7 @@ EnergyBudget::EnergyBudget(const Scene& resolved, std::shared_ptr<const Physical
 MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const
 {
     MoverReach out;
-    const bool moved = !paths_.empty() || !drive.moved.empty();
+    const bool moved = !paths_.empty() || !colliders_->empty() || !drive.moved.empty();
     std::vector<Extent> rooms;
     const auto first_of = [&](std::size_t body) {
         return shared_->pinned.begin() + shared_->body_start[body];
@@ -304,13 +199,14 @@ MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::
         out.speed = std::max(out.speed, meets ? passed_on : 0.0);
         out.travel = std::max(out.travel, meets ? reach.travel : 0.0);
     };
-    for (const MoverPath& path : paths_)
-    {
-        // The stretch that the time lies in counts whole.
-        const auto end = std::lower_bound(path.reach.begin(), path.reach.end(), drive.time,
-                                          [](const MoverReach& r, double t) { return r.time < t; });
-        add(path.holds, end == path.reach.end() ? path.reach.back() : *end);
-    }
+    for (const std::vector<MoverPath>* paths : {&paths_, colliders_.get()})
+        for (const MoverPath& path : *paths)
+        {
+            // The stretch that the time lies in counts whole.
+            const auto end = std::lower_bound(path.reach.begin(), path.reach.end(), drive.time,
+                                              [](const MoverReach& r, double t) { return r.time < t; });
+            add(path.holds, end == path.reach.end() ? path.reach.back() : *end);
+        }
     for (const DrivenMover& mover : drive.moved)
         add(mover.holds, mover.reach);
     return out;
@@ -331,7 +227,6 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         root += std::sqrt(mass_ / 2) * drive.fall;
     if (depth_ > 0)
         in += mass_ * (g * depth_ + 0.5 * kThrown * kThrown * depenetration_ * depenetration_);
-    const double way = reach.travel + std::max(depth_, 0.0);
     in += 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
     if (wind_force > 0)
     {
@@ -346,7 +241,7 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         root += drive.push / std::sqrt(2 * lightest_);
     if (root == 0 && wind_force == 0 && shared_->gases.empty())
         in -= damped_;
-    const DrawnEnergy drawn = drawn_->at(drive.time, way);
+    const DrawnEnergy drawn = drawn_->at(drive.time, reach.travel, std::max(depth_, 0.0));
     const auto with = [&](double elastic) {
         const double all = root + std::sqrt(std::max(in + kHits * elastic, 0.0));
         return all * all;
@@ -356,10 +251,8 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
 
 double EnergyBudget::rounding(Precision precision, double substep) const
 {
-    const bool single = precision == Precision::float32;
-    const double digit = single ? 6e-8 : 1.1e-16; // of a coordinate
-    const double strain = single ? 1e-5 : 1e-12;  // that its rounding leaves
-    const double speed = 32 * digit * shared_->diameter / substep;
+    const double strain = precision == Precision::float32 ? 1e-5 : 1e-12; // that rounding leaves
+    const double speed = rounded_speed(precision, shared_->diameter, substep);
     double out = 0.5 * mass_ * speed * speed;
     for (const StretchElement& e : shared_->springs)
         if (e.compliance > 0)

@@ -3,7 +3,7 @@
 // gas and forces can have put in since. Soundness (soundness.hpp) compares runs with it.
 
 #include "taut/report/model.hpp"
-#include "taut/world/mover.hpp"
+#include "taut/report/mover_paths.hpp"
 #include "taut/world/world.hpp"
 
 #include <cmath>
@@ -13,14 +13,10 @@
 
 namespace taut {
 
-/// Pins that move, or a collider that does.
-struct MoverPath
-{
-    bool holds = false;            ///< pins: they move a body wherever it is; not of kinematic bodies
-    std::vector<MoverReach> reach; ///< ascending in time
-};
-
 class DrawnBodies;
+
+/// m/s: a speed that rounding of places up to `far` (m) from the origin can make in a substep (s).
+double rounded_speed(Precision precision, double far, double substep);
 
 /// J: the most that energies can be.
 struct EnergyMost
@@ -46,6 +42,8 @@ public:
     explicit EnergyBudget(const Scene& resolved);
     /// The same for one who has make_model(resolved) already.
     EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model);
+    /// The same, with its collider_paths().
+    EnergyBudget(const Scene& resolved, std::shared_ptr<const PhysicalModel> model, ColliderPaths colliders);
 
     const PhysicalModel& model() const { return *shared_; }
 
@@ -74,7 +72,8 @@ private:
     MoverReach reach_at(const WorldDrive& drive, std::span<const glm::dvec3> x) const;
 
     std::shared_ptr<const PhysicalModel> shared_;
-    std::vector<MoverPath> paths_;
+    std::vector<MoverPath> paths_; ///< of pins
+    ColliderPaths colliders_;
     double mass_ = 0, lightest_ = 0, start_ = 0, gravity_start_ = 0, depth_ = 0;
     std::shared_ptr<const DrawnBodies> drawn_;
     double damped_ = 0;

@@ -2,6 +2,7 @@
 
 #include "taut/report/crossing_shapes.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/scene/called.hpp"
 #include "taut/scene/faces.hpp"
 
 #include <glm/geometric.hpp>
@@ -34,11 +35,6 @@ double slimmest(const SolidShape& shape)
     for (const DeepPoint& p : shape.deep)
         least = std::min(least, round_box(p.half));
     return least;
-}
-
-std::string called(const std::string& list, std::size_t number, const std::string& name)
-{
-    return list + "[" + std::to_string(number) + "]" + (name.empty() ? "" : " (" + name + ")");
 }
 
 std::string cure_of(const Collider& collider)

@@ -42,10 +42,12 @@ struct Substep
 };
 
 /// A damper of c N s/m adds the force c/h e to a spring, e what the substep made it longer: together they are
-/// a spring of k + c/h with the rest length at which that gives the force of both. implicit_euler takes e
-/// along the present direction, vbd as the difference of lengths.
+/// a spring of k + c/t with the rest length at which that gives the force of both, t (s) the time in which
+/// the body has to answer: h, or under xpbd longer, in which dampers give way. implicit_euler takes e along
+/// the present direction, vbd as the difference of lengths.
 std::shared_ptr<const PhysicalModel> with_dampers_as_springs(const View& view,
-                                                             const std::vector<glm::dvec3>& moved, double h)
+                                                             const std::vector<glm::dvec3>& moved, double h,
+                                                             double time)
 {
     const auto damped = [](const StretchElement& e) { return e.damping > 0; };
     if (std::none_of(view.model.springs.begin(), view.model.springs.end(), damped))
@@ -61,13 +63,14 @@ std::shared_ptr<const PhysicalModel> with_dampers_as_springs(const View& view,
         const double longer = by_length ? length - glm::length(d - change) : glm::dot(change, d) / length;
         const double stiffness = 1 / e.compliance, drag = e.damping / h;
         const double pull = stiffness * (length - e.rest_length) + drag * longer;
-        e.compliance = 1 / (stiffness + drag);
+        e.compliance = 1 / (stiffness + e.damping / time);
         e.rest_length = length - pull * e.compliance;
     }
     return model;
 }
 
-std::optional<Substep> last_substep(const View& view)
+/// `time` in s, in which bodies have to answer; 0: the substep.
+std::optional<Substep> last_substep(const View& view, double time = 0)
 {
     const std::vector<glm::dvec3> guess = view.world.predictions();
     const std::vector<bool>& flows = view.model.flows;
@@ -76,13 +79,15 @@ std::optional<Substep> last_substep(const View& view)
     const std::size_t count = view.x.size();
     const double h = view.plan.timestep / view.plan.substeps;
     Substep out{nullptr, view.world.displacements(), {}, {}};
-    out.model = with_dampers_as_springs(view, out.moved, h);
+    out.model = with_dampers_as_springs(view, out.moved, h, time > 0 ? time : h);
     std::vector<glm::dvec3> force(count, glm::dvec3(0)), gas(count, glm::dvec3(0));
     add_forces(*out.model, view.x, force);
     for (const GasElement& e : out.model->gases) // of the guess, which it has pushed
         add_gas_forces(e, view.x, gas);
-    out.left = {
-        std::vector<glm::dvec3>(count), std::vector<double>(count), std::vector<bool>(count), {}, h, false};
+    out.left.force.resize(count);
+    out.left.load.resize(count);
+    out.left.touches.resize(count);
+    out.left.time = time > 0 ? time : h;
     for (std::size_t i = 0; i < count; ++i)
     {
         const double mass = out.model->mass[i];
@@ -192,12 +197,30 @@ void measure_implicit_residual(const View& view, StepReport& out)
 
 namespace {
 
-bool any_rigid(const PhysicalModel& model)
+std::size_t body_of(const PhysicalModel& model, std::uint32_t vertex)
 {
-    const auto rigid = [](const auto& element) { return !(element.compliance > 0); };
-    return std::any_of(model.springs.begin(), model.springs.end(), rigid) ||
-           std::any_of(model.hinges.begin(), model.hinges.end(), rigid) ||
-           std::any_of(model.volumes.begin(), model.volumes.end(), rigid);
+    const auto next = std::upper_bound(model.body_start.begin(), model.body_start.end(), vertex);
+    return static_cast<std::size_t>(next - model.body_start.begin()) - 1;
+}
+
+/// Which vertices have an element with one that touches, and do not touch themselves.
+std::vector<bool> beside(const PhysicalModel& model, const std::vector<bool>& touches)
+{
+    std::vector<bool> out(touches.size(), false);
+    const auto spread = [&](std::initializer_list<std::uint32_t> corners) {
+        if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return touches[v]; }))
+            for (const std::uint32_t v : corners)
+                out[v] = !touches[v];
+    };
+    for (const StretchElement& e : model.springs)
+        spread({e.a, e.b});
+    for (const BendElement& e : model.hinges)
+        spread({e.edge0, e.edge1, e.wing0, e.wing1});
+    for (const VolumeElement& e : model.volumes)
+        spread({e.vertex[0], e.vertex[1], e.vertex[2], e.vertex[3]});
+    for (const SolidElement& e : model.solids)
+        spread({e.vertex[0], e.vertex[1], e.vertex[2], e.vertex[3]});
+    return out;
 }
 
 /// m/s^2, of each body: the least that its vertices are loaded with. A body without weight that nothing
@@ -240,6 +263,53 @@ void put_loads(const View& view, Substep& last)
     const std::vector<bool> met = in_contact(view.world);
     for (std::size_t i = 0; i < met.size(); ++i)
         last.left.touches[i] = last.left.touches[i] || met[i];
+    last.left.beside = beside(*last.model, last.left.touches);
+}
+
+/// Bodies with forces that are on no record, or that join far vertices.
+std::vector<bool> unjudged_bodies(const View& view)
+{
+    const PhysicalModel& model = view.model;
+    std::vector<bool> out(model.body_start.size() - 1, false);
+    const auto mark = [&](std::uint32_t vertex) { out[body_of(model, vertex)] = true; };
+    const auto mark_rigid = [&](const auto& elements, const auto& first) {
+        for (const auto& e : elements)
+            if (!(e.compliance > 0))
+                mark(first(e));
+    };
+    mark_rigid(model.springs, [](const StretchElement& e) { return e.a; });
+    mark_rigid(model.hinges, [](const BendElement& e) { return e.edge0; });
+    mark_rigid(model.volumes, [](const VolumeElement& e) { return e.vertex[0]; });
+    for (const SurfaceElement& e : model.surfaces)
+        mark(e.triangles.at(0)[0]);
+    for (const AddedElement& e : model.added)
+        mark(e.vertex[0]);
+    for (const PlateHinge& e : model.plates)
+        mark(e.element.edge0);
+    const auto& bodies = view.world.scene().bodies;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        out[b] = out[b] || bodies[b].material.attachment_slack >= 0;
+    return out;
+}
+
+/// `model` without the elements of bodies of which nothing can be said; their vertices are as held.
+PhysicalModel judged_part(const PhysicalModel& model, const std::vector<bool>& unjudged)
+{
+    PhysicalModel out = model;
+    const auto drop = [&](auto& elements, const auto& first) {
+        std::erase_if(elements, [&](const auto& e) { return unjudged[body_of(model, first(e))]; });
+    };
+    drop(out.springs, [](const StretchElement& e) { return e.a; });
+    drop(out.hinges, [](const BendElement& e) { return e.edge0; });
+    drop(out.volumes, [](const VolumeElement& e) { return e.vertex[0]; });
+    drop(out.solids, [](const SolidElement& e) { return e.vertex[0]; });
+    drop(out.gases, [](const GasElement& e) { return e.triangles.at(0)[0]; });
+    out.surfaces.clear();
+    out.added.clear();
+    out.plates.clear();
+    for (std::uint32_t i = 0; i < out.pinned.size(); ++i)
+        out.pinned[i] = out.pinned[i] || unjudged[body_of(model, i)];
+    return out;
 }
 
 } // namespace
@@ -251,23 +321,21 @@ LoadResidual measure_load_residual(const World& world)
     view.v = std::vector<glm::dvec3>();
     const MethodKind kind = method_of(world.scene());
     const bool sweeps = kind == MethodKind::xpbd;
-    if ((kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps) ||
-        !view.model.surfaces.empty() || has_effect(view, "attachment") || // both join far vertices
-        any_rigid(view.model) || !view.model.added.empty() ||
-        !view.model.plates.empty()) // forces that are on no record
+    if (kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps)
         return {};
-    std::optional<Substep> last = last_substep(view);
+    const std::vector<bool> unjudged = unjudged_bodies(view);
+    if (std::all_of(unjudged.begin(), unjudged.end(), [](bool b) { return b; }))
+        return {};
+    const double gravity = glm::length(view.model.gravity);
+    const double fall = std::sqrt(view.model.diameter / (gravity > 0 ? gravity : kWeight)); // s
+    std::optional<Substep> last = last_substep(view, sweeps ? fall : 0);
     if (!last)
         return {};
     put_loads(view, *last);
+    if (std::find(unjudged.begin(), unjudged.end(), true) != unjudged.end())
+        last->model = std::make_shared<PhysicalModel>(judged_part(*last->model, unjudged));
     Leftover& left = last->left;
-    if (sweeps)
-    {
-        const double gravity = glm::length(view.model.gravity);
-        // Of a fall through the scene's size.
-        left.time = std::sqrt(view.model.diameter / (gravity > 0 ? gravity : kWeight));
-        left.against_response = true;
-    }
+    left.against_response = sweeps;
     if (!sweeps)
         for (std::size_t i = 0; i < view.x.size(); ++i)
             left.carried.push_back(last->model->pinned[i] ? glm::length(last->moved[i]) : 0.0);

@@ -90,12 +90,31 @@ std::vector<glm::dvec3> pulls_of(const PhysicalModel& model)
     return {glm::normalize(model.gravity)};
 }
 
+/// Of the vertices from `first` to before `last`: whether most of those that move touch, or lie beside some.
+bool mostly_touches(const PhysicalModel& model, const Leftover& left, std::uint32_t first, std::uint32_t last)
+{
+    std::uint32_t free = 0, touched = 0;
+    for (std::uint32_t i = first; i < last; ++i)
+    {
+        free += model.pinned[i] ? 0 : 1;
+        touched += !model.pinned[i] && (left.touches[i] || left.is_beside(i)) ? 1 : 0;
+    }
+    return 2 * touched > free;
+}
+
 /// N: what is left, and the loads on each way that they may pull.
 std::vector<Motion> forces_of(const PhysicalModel& model, const Leftover& left)
 {
     std::vector<Motion> out{left.force};
     for (glm::dvec3& f : out[0])
         f = -f;
+    for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
+    {
+        const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
+        const bool mostly = mostly_touches(model, left, first, last);
+        for (std::uint32_t i = first; i < last && !mostly; ++i)
+            out[0][i] = left.is_beside(i) ? glm::dvec3(0) : out[0][i];
+    }
     if (left.against_response)
         for (const glm::dvec3& pull : pulls_of(model))
         {
@@ -142,9 +161,11 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
 {
     const auto begin = left.touches.begin();
     const bool touches = std::find(begin + first, begin + last, true) != begin + last;
-    if (touches && model.gravity == glm::dvec3(0))
+    const bool mostly = touches && mostly_touches(model, left, first, last);
+    if (mostly && model.gravity == glm::dvec3(0))
         return {}; // no way on which contacts have no part
-    const glm::dvec3 down = touches ? glm::normalize(model.gravity) : glm::dvec3(0);
+    const glm::dvec3 down = mostly ? glm::normalize(model.gravity) : glm::dvec3(0);
+    const double counted = touches ? kTouching : 1;
     double moved = 0, loads = 0, mass = 0, carried = 0;
     for (std::uint32_t i = first; i < last && !left.carried.empty(); ++i)
         carried = std::max(carried, left.carried[i]);
@@ -154,8 +175,8 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
     for (std::uint32_t i = first; i < last; ++i)
         if (!model.pinned[i])
         {
-            moved += model.mass[i] * (touches ? kTouching * std::max(0.0, glm::dot(step.left[i], down))
-                                              : glm::length(step.left[i]));
+            moved += counted * model.mass[i] *
+                     (mostly ? std::max(0.0, glm::dot(step.left[i], down)) : glm::length(step.left[i]));
             mass += model.mass[i];
             loads += left.load[i] * left.time * left.time + model.mass[i] * carried;
         }
@@ -163,7 +184,8 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
         loads = largest_response(model, step, first, last);
     if (!(loads > 0))
         return {};
-    const double share = moved / loads, way = moved / (mass * body.size());
+    // A body of one vertex has no size by which somebody could see that it is elsewhere.
+    const double share = moved / loads, way = body.size() > 0 ? moved / (mass * body.size()) : 0;
     return {std::isfinite(share) ? share : HUGE_VAL, std::isfinite(way) ? way : HUGE_VAL};
 }
 

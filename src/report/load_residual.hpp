@@ -18,6 +18,9 @@ struct Leftover
     std::vector<double> carried;   ///< m: how far a held one was moved within `time`; may be empty
     double time = 0;               ///< s, > 0: the substep, or what a body has to answer in
     bool against_response = false; ///< loads count by what they move within `time`, not free of everything
+    std::vector<bool> beside = {}; ///< shares an element with one that touches, whose push it has yet to
+                                   ///< follow; may be empty
+    bool is_beside(std::size_t vertex) const { return !beside.empty() && beside[vertex]; }
 };
 
 /// Of one body.
@@ -32,9 +35,10 @@ struct LoadResidual
 /// (M / t^2 + K) d = -r, K made positive semidefinite element by element; with `against_response` over sum m
 /// |e|, (M / t^2 + K) e = l along gravity, or without any along the axis for which that is largest. 0
 /// solved, 1 as if nothing pulled. That of the body with the largest share of those whose way is above
-/// kSeenWay, or of all where none is. Vertices that touch stay where they are; of bodies that have any, half
-/// of what goes along gravity is counted alone: contacts push after the solve, and what rests on them has
-/// yet to follow; without gravity nothing is said of them. Infinite where the step is not finite. Models of
+/// kSeenWay, or of all where none is. Contacts push after the solve, and what lies on them has yet to follow:
+/// vertices that touch stay where they are, and r is 0 at those beside them; of such bodies half of d is
+/// counted. Where that is most of a body, r counts beside them, too, and of d what goes along gravity alone;
+/// without gravity nothing is said of it. Infinite where the step is not finite. Models of
 /// more than 10,000 free vertices (of solids: 2,000) are solved by conjugate gradients, to about 3 % of the
 /// share or 0.002, but where a few loose vertices alone carry what the loads move (docs/decisions.md, 51).
 LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);

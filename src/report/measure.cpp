@@ -1,11 +1,11 @@
 // What a world looks like from outside, in fp64 on the host.
 
 #include "taut/plan/methods.hpp"
-#include "taut/report/contact.hpp"
 #include "taut/report/contact_depth.hpp"
+#include "taut/report/deep_vertices.hpp"
 #include "taut/report/measure_residuals.hpp"
 #include "taut/report/report.hpp"
-#include "taut/report/soundness.hpp"
+#include "taut/report/scene_budget.hpp"
 #include "taut/report/warnings.hpp"
 #include "taut/report/world_view.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -90,13 +90,11 @@ void measure_energy(const View& view, StepReport& out)
 
 void measure_penetration(const View& view, StepReport& out)
 {
-    for (const Collider& c : view.world.scene().colliders)
-    {
-        const reference::Surface surface = reference::surface_at(c, view.world.time());
-        for (std::size_t i = 0; i < view.x.size(); ++i)
-            if (!view.model.pinned[i])
-                out.penetration = std::max(out.penetration, -surface.touch(view.x[i], 0).height);
-    }
+    const Scene& scene = view.world.scene();
+    const std::vector<DeepVertex> deep = deep_vertices(scene, view.x, view.world.time());
+    for (const DeepVertex& vertex : deep)
+        out.penetration = std::max(out.penetration, vertex.depth);
+    set_status(judge_depth(scene, deep), out);
 }
 
 /// Momentum against the impulse of gravity; only a free, undamped body without contacts has one to keep.
@@ -106,20 +104,27 @@ void measure_momentum(const View& view, StepReport& out)
     out.momentum_error = -1;
     const bool pins =
         std::any_of(view.model.pinned.begin(), view.model.pinned.end(), [](bool p) { return p; });
+    const WorldDrive drive = view.world.drive();
+    const bool driven = drive.placed > 0 || drive.kick > 0 || scene.max_speed > 0; // by its program, or cut
     const bool pushed = scene.damping > 0 || scene.external_forces || view.plan.wind != kNoBuffer;
-    if (pins || pushed || !scene.colliders.empty() || view.x.empty())
+    if (pins || driven || pushed || !scene.colliders.empty() || view.x.empty())
         return;
     glm::dvec3 now(0), before(0);
-    double mass = 0;
+    double mass = 0, start = 0, end = 0, far = 0; // start, end: J, twice the kinetic energy
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
         now += view.model.mass[i] * view.v[i];
         before += view.model.mass[i] * view.model.velocity[i];
         mass += view.model.mass[i];
+        start += view.model.mass[i] * glm::dot(view.model.velocity[i], view.model.velocity[i]);
+        end += view.model.mass[i] * glm::dot(view.v[i], view.v[i]);
+        far = std::max(far, glm::length(view.x[i]));
     }
     const glm::dvec3 expected = before + mass * view.world.gravity_impulse();
-    const double speed =
-        std::max(glm::length(now) / mass, std::sqrt(glm::length(scene.gravity) * view.model.diameter));
+    const double fall = std::sqrt(glm::length(scene.gravity) * view.model.diameter);
+    const double substep = view.plan.timestep / view.plan.substeps;
+    const double rounded = rounded_speed(view.plan.precision, far, substep);
+    const double speed = std::max({std::sqrt(start / mass), std::sqrt(end / mass), fall, rounded});
     out.momentum_error =
         speed > 0 ? glm::length(now - expected) / (mass * speed) : glm::length(now - expected) / mass;
 }
@@ -143,7 +148,7 @@ void judge_all(const View& view, StepReport& out)
         out.warnings[warning.word] += warning.count;
     const std::shared_ptr<void> kept_elsewhere; // the view outlives the budget
     const std::shared_ptr<const PhysicalModel> model(kept_elsewhere, &view.model);
-    const Soundness found = taut::judge(EnergyBudget(view.world.scene(), model), view.world);
+    const Soundness found = taut::judge(SceneBudget(view.world.scene(), model), view.world);
     out.judged_energy = found.energy;
     out.energy_most = found.energy_most;
     set_status(found, out);
@@ -176,6 +181,20 @@ void judge_residuals(const Scene& scene, StepReport& report)
                    report);
 }
 
+void judge_momentum(StepReport& report)
+{
+    if (report.momentum_error <= kMomentumShare)
+        return;
+    const char* why = report.contacts.crowded > 0 ? "; vertices in more pairs than may push them take it"
+                      : report.contacts.guarded   ? "; the guarantee of contact takes it where it cuts"
+                                                  : "";
+    set_status({Status::unconverged, "the momentum of bodies that nothing holds is off by " +
+                                         shown_percent(report.momentum_error) +
+                                         " of what their speed makes" + why +
+                                         "; take more substeps or iterations"},
+               report);
+}
+
 StepReport measure(const World& world)
 {
     const View view(world);
@@ -184,7 +203,6 @@ StepReport measure(const World& world)
     out.time = world.time();
     measure_stretch(view, out);
     measure_energy(view, out);
-    measure_penetration(view, out);
     measure_momentum(view, out);
     measure_residuals(view, out);
     out.volume = measure_volume(world.scene(), view.x);
@@ -197,6 +215,8 @@ StepReport measure(const World& world)
     out.active_share = world.active_share();
     judge_all(view, out);
     judge_residuals(world.scene(), out);
+    judge_momentum(out);
+    measure_penetration(view, out);
     return out;
 }
 

@@ -40,6 +40,7 @@ void append_vertices(PhysicalModel& model, const Body& body)
     model.gap.resize(model.mass.size(), body.material.thickness);
     model.velocity.resize(model.mass.size(), body.velocity);
     model.pinned.resize(model.mass.size(), false);
+    model.weightless.resize(model.mass.size(), body.kinematic.used);
     model.flows.resize(model.mass.size(), body.material.plastic_yield > 0);
 }
 
@@ -101,6 +102,8 @@ void append_pins(PhysicalModel& model, const Body& body, std::uint32_t first)
     }
 }
 
+} // namespace
+
 double rest_diameter(const Scene& scene)
 {
     constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -113,8 +116,6 @@ double rest_diameter(const Scene& scene)
         }
     return low.x <= high.x ? glm::distance(low, high) : 0;
 }
-
-} // namespace
 
 PhysicalModel make_model(const Scene& resolved)
 {
@@ -285,7 +286,7 @@ double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x)
 {
     double energy = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
-        energy -= model.mass[i] * glm::dot(model.gravity, x[i]);
+        energy -= model.weightless[i] ? 0 : model.mass[i] * glm::dot(model.gravity, x[i]);
     return energy;
 }
 

@@ -47,6 +47,7 @@ struct PhysicalModel
     std::vector<double> mass;                 ///< kg, > 0, of pinned vertices too
     std::vector<double> gap;                  ///< m kept from colliders
     std::vector<bool> pinned;
+    std::vector<bool> weightless; ///< of a kinematic body, whose mass nobody gave
     std::vector<bool> flows; ///< of a plastic body, of which the elements below are as at the start
     std::vector<glm::dvec3> start;            ///< m
     std::vector<glm::dvec3> velocity;         ///< m/s; 0 where pinned
@@ -71,6 +72,8 @@ struct PhysicalModel
 };
 
 PhysicalModel make_model(const Scene& resolved);
+/// PhysicalModel::diameter.
+double rest_diameter(const Scene& resolved);
 
 /// Those of Body::elements of all bodies, vertices scene-wide. All kinds must be known: make_plan() refuses
 /// others.
@@ -84,7 +87,7 @@ double bend_angle(const BendElement& element, std::span<const glm::dvec3> x);
 double elastic_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
 /// J, the part of hinges and plates.
 double bending_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
-/// J, 0 at the origin.
+/// J, 0 at the origin; without what is weightless.
 double gravity_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);
 /// J, of all gases (gas.hpp).
 double gas_energy(const PhysicalModel& model, std::span<const glm::dvec3> x);

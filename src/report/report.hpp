@@ -46,8 +46,10 @@ struct StepReport
     double potential_energy = 0; ///< gravity + elastic, zero of gravity at the origin
     double judged_energy = 0;    ///< J, kinetic and of what is strained beyond accept.stretch (soundness.hpp)
     double energy_most = 0;      ///< J, that physics can have put into it
-    double momentum_error =
-        0; ///< |P - P0 - impulse| / (M v_ref); NaN is never used: -1 when pins or contacts make it undefined
+    /// |P - P0 - impulse| / (M v), v the largest of the root mean square of the speeds now and at the start,
+    /// sqrt(g D) and what rounding of places makes; -1 where pins, colliders, max_speed or others take or
+    /// give momentum.
+    double momentum_error = 0;
     /// methods: ||M(x - x~) - J^T lambda|| / (m g h^2), -1 without multipliers; implicit_euler: r_acc
     double primal_residual = 0;
     double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
@@ -56,10 +58,11 @@ struct StepReport
     /// of every element): 0 solved, at least 1/2 nothing done; -1 where primal_residual is.
     double imbalance = -1;
     /// What one exact Newton step would still move of the worst body's mass after the last substep, over what
-    /// its loads (weight, inertia) move in a substep; of a body that touches a collider half of what goes
-    /// along gravity alone (report/load_residual.hpp): 0 solved, 1 as if nothing pulled. Vertices of plastic
-    /// bodies are held. Dear, so that residuals_ahead() measures it and measure() leaves -1; -1 also under
-    /// other methods, without gravity, with attachments and held surface volumes, and where all is plastic.
+    /// its loads (weight, inertia) move in a substep; of a body that touches something half of that,
+    /// counted away from there (report/load_residual.hpp): 0 solved, 1 as if nothing pulled. Vertices of
+    /// plastic bodies are held. Dear, so that residuals_ahead() measures it and measure() leaves -1; -1 also
+    /// under other methods, and where all bodies are plastic or have elements of which nothing can be said
+    /// (membranes, plates, rigid ones, attachments, held surface volumes).
     double load_residual = -1;
     /// xpbd: what the leftovers of its substeps move the worst body in the time of a fall through the scene's
     /// size, over the body's size; load_residual is then what they move over what its loads do.
@@ -76,6 +79,9 @@ struct StepReport
 };
 
 StepReport measure(const World& world);
+
+/// Of momentum_error: beyond it a run is `unconverged`.
+inline constexpr double kMomentumShare = 0.1;
 
 /// Makes a report's status and reason those found, where that is worse.
 void set_status(const Soundness& found, StepReport& report);

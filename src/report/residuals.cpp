@@ -67,7 +67,11 @@ void judge_residuals(const Scene& scene, const Residuals& left, StepReport& repo
         return;
     const bool sweeps = method_of(scene) == MethodKind::xpbd;
     const std::string limit = "; a quarter of accept.residual (" + shown(scene.accept.residual, 3) +
-                              ") is accepted; take more substeps or iterations";
+                              ") is accepted; take more substeps or iterations" +
+                              (sweeps || scene.method.precision == "double"
+                                   ? ""
+                                   : ", or method.precision \"double\" where loads are next to nothing "
+                                     "beside the stiffness");
     if (sweeps && left.load_way <= kSeenWay)
         count(Warning::soft, 1, report.warnings);
     else if (sweeps)

@@ -43,11 +43,11 @@ Soundness judge_places(const RunState& state)
             return found(Status::diverged, "vertex " + std::to_string(i) + " is " +
                                                shown(glm::length(state.x[i]), 3) + " m from the origin");
     }
-    if (state.events.non_finite > 0)
-        return found(Status::non_finite, "displacements were not finite " +
-                                             std::to_string(state.events.non_finite) + " times");
     return {};
 }
+
+/// Of a scene's size: a shorter spring joins two vertices in one place, and its strain says nothing.
+constexpr double kNoLength = 1e-6;
 
 /// What is strained beyond what the scene accepts.
 struct Strained
@@ -55,6 +55,7 @@ struct Strained
     double energy = 0;       ///< J, of elements with a stiffness whose shape at rest the model knows
     double kept_strain = 0;  ///< largest strain of those that the method keeps by projection
     double limit_strain = 0; ///< largest strain above a strain_limit
+    double active_strain = 0; ///< largest above activate_strain, of springs that acad may constrain
     double kept_volume = 0;  ///< largest share by which a body is off the volumes that the method keeps so
 };
 
@@ -88,6 +89,10 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
             out.kept_strain = std::max(out.kept_strain, share * strain);
         else if (std::abs(strain) > accepted && !model.flows[first])
             out.energy += 0.5 * stretch * stretch / e.compliance;
+        const bool may_act = scene.method.constrained == "all" || e.kind == SpringKind::structural;
+        const bool seen = e.rest_length > kNoLength * model.diameter;
+        if (kind == MethodKind::acad && may_act && seen)
+            out.active_strain = std::max(out.active_strain, strain - scene.method.activate_strain);
         const double limit = scene.bodies[body].material.strain_limit;
         if (limit > 0)
             out.limit_strain = std::max(out.limit_strain, strain - limit);
@@ -186,6 +191,8 @@ Soundness judge_strain(const Strained& strain, double accepted)
         return beyond(strain.kept_strain, "a spring that the method keeps at its length is stretched by");
     if (strain.limit_strain > accepted)
         return beyond(strain.limit_strain, "beyond its strain_limit, a spring is stretched by");
+    if (strain.active_strain > accepted)
+        return beyond(strain.active_strain, "beyond activate_strain, a spring is stretched by");
     if (strain.kept_volume > accepted)
         return beyond(strain.kept_volume, "a volume that the method keeps is off by");
     return {};
@@ -198,7 +205,8 @@ Soundness judge_inverted(const RunState& state)
         return {};
     return found(Status::unconverged,
                  std::to_string(volume.inverted) + " tetrahedra are inverted, accept.inverted is " +
-                     std::to_string(state.scene.accept.inverted) + "; take more substeps or iterations");
+                     std::to_string(state.scene.accept.inverted) +
+                     "; take more substeps or iterations, or stiffer material where its loads crush it");
 }
 
 /// Constraint enforcement keeps lengths by their rates: after a step that was solved no spring changes its
@@ -296,6 +304,14 @@ Soundness judge_clamps(const Scene& scene, const Events& events, double vertex_s
     return {};
 }
 
+Soundness judge_counts(const Scene& scene, const Events& events, double vertex_substeps)
+{
+    if (events.non_finite > 0)
+        return found(Status::non_finite,
+                     "displacements were not finite " + std::to_string(events.non_finite) + " times");
+    return judge_clamps(scene, events, vertex_substeps);
+}
+
 Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
 {
     const Soundness places = judge_places(state);
@@ -306,7 +322,7 @@ Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
     const double energy = kinetic_energy(budget.model(), state.v);
     Soundness out = judge_energy(energy, most.kinetic, kDivergedKinetic * most.kinetic + slack,
                                  Status::diverged, "the kinetic energy is");
-    out = worse(out, judge_clamps(state.scene, state.events, state.vertex_substeps));
+    out = worse(out, judge_counts(state.scene, state.events, state.vertex_substeps));
     out.energy = energy;
     out.energy_most = most.all;
     return out;
@@ -331,69 +347,6 @@ Soundness judge_state(const EnergyBudget& budget, const RunState& state)
     out.energy = energy;
     out.energy_most = most;
     return out;
-}
-
-Soundness judge(const EnergyBudget& budget, const World& world, Judged what)
-{
-    const std::vector<glm::dvec3> x = world.positions(), v = world.velocities();
-    const Plan& plan = world.plan();
-    const double substeps = static_cast<double>(world.steps()) * plan.substeps;
-    const RunState state{world.scene(), x, v, world.drive(), plan.precision, world.events(),
-                         substeps * plan.vertex_count};
-    return what == Judged::motion ? judge_motion(budget, state) : judge_state(budget, state);
-}
-
-std::uint64_t frames_between_looks(const Plan& plan, std::uint64_t frames)
-{
-    std::uint64_t moved = 0;
-    for (const EffectCost& effect : plan.effects)
-        moved += effect.bytes_per_step;
-    // A look at a vertex takes as long as steps take for so many bytes (tests/bench/soundness_bench.cpp).
-    constexpr std::uint64_t kLookBytes = 8000;
-    const std::uint64_t look = kLookBytes * plan.vertex_count;
-    const std::uint64_t paid = 100 * look / std::max<std::uint64_t>(moved, 1) + 1;
-    const std::uint64_t wanted = frames < kMotionLooks ? paid : frames / kMotionLooks;
-    return std::min(wanted, paid);
-}
-
-/// Damping of c /s takes 2 c E of a kinetic energy E in a second. Between two looks E swings: by half of the
-/// smaller of both on average, where it swings evenly; half of that is counted.
-void SoundnessWatch::add_damped(double time, double kinetic, double damping)
-{
-    damped_ += 2 * damping * 0.25 * std::min(kinetic_, kinetic) * (time - time_);
-    time_ = time;
-    kinetic_ = kinetic;
-}
-
-bool SoundnessWatch::strains_due(std::uint64_t frame) const
-{
-    return frames_ >= kMotionLooks && frame * kStrainLooks / frames_ != (frame - 1) * kStrainLooks / frames_;
-}
-
-bool SoundnessWatch::due(std::uint64_t frame) const
-{
-    // A start is where most is wrong at once.
-    return frame != 0 && (frame == 1 || every_ == 0 || frame % every_ == 0 || strains_due(frame));
-}
-
-void SoundnessWatch::after(std::uint64_t frame, const World& world)
-{
-    if (every_ == 0)
-        every_ = frames_between_looks(world.plan(), frames_);
-    if (!due(frame))
-        return;
-    if (!budget_ || torn_ != world.torn())
-        budget_.emplace(world.scene());
-    torn_ = world.torn();
-    budget_->set_damped(damped_);
-    // Strain alone may heal: what a contact leaves in stiff elements is gone a few steps later. What is too
-    // fast is not. A share of clamped speeds is for the whole run to have.
-    const Soundness motion = judge(*budget_, world, Judged::motion);
-    add_damped(world.time(), motion.energy, world.scene().damping);
-    if (rank(motion.status) >= rank(Status::diverged))
-        found_ = worse(found_, motion);
-    else if (strains_due(frame) && !judge(*budget_, world).sound())
-        ++unconverged_;
 }
 
 } // namespace taut

@@ -5,13 +5,13 @@
 #include "taut/report/energy_budget.hpp"
 #include "taut/runtime/base/status.hpp"
 
-#include <optional>
 #include <span>
 #include <string>
 
 namespace taut {
 
-/// A state of a run, to be judged. Spans are scene-wide.
+/// A state of a run, to be judged. Spans are of all vertices of `scene`. `events` and `vertex_substeps`: 0
+/// where others judge them.
 struct RunState
 {
     const Scene& scene; ///< resolved, as it is now
@@ -52,6 +52,9 @@ inline constexpr double kTurnedShare = 0.05;
 /// vertices times substeps.
 Soundness judge_clamps(const Scene& scene, const Events& events, double vertex_substeps);
 
+/// That, and displacements that were not finite.
+Soundness judge_counts(const Scene& scene, const Events& events, double vertex_substeps);
+
 /// What moves too fast, is too far away or not finite. Costs a pass over the vertices.
 Soundness judge_motion(const EnergyBudget& budget, const RunState& state);
 
@@ -62,45 +65,6 @@ enum class Judged
 {
     motion, ///< by judge_motion
     state,  ///< by judge_state
-};
-/// A world that runs the scene that `budget` was made of, from its start. Waits.
-Soundness judge(const EnergyBudget& budget, const World& world, Judged what = Judged::state);
-
-/// Looks at a run on its way, at least. What that costs: docs/statuses.md.
-inline constexpr std::uint64_t kMotionLooks = 8, kStrainLooks = 2;
-
-/// Frames from one look at the motion to the next in a run of so many: kMotionLooks looks, or as many as the
-/// bytes that the plan's steps touch pay for at 1 %, where that is more. 1 or more.
-std::uint64_t frames_between_looks(const Plan& plan, std::uint64_t frames);
-
-/// Looks at a run of so many frames: at its motion after the first and after each frames_between_looks(), at
-/// strains kStrainLooks times.
-class SoundnessWatch
-{
-public:
-    explicit SoundnessWatch(std::uint64_t frames) : frames_(frames) {}
-
-    /// Whether after(frame, ...) looks at anything.
-    bool due(std::uint64_t frame) const;
-
-    /// After frame `frame` of a run of `world`, or of one in whose state `world` is. Waits where a look is
-    /// due.
-    void after(std::uint64_t frame, const World& world);
-
-    /// The worst motion that was `diverged` or `non_finite`; what is strained on the way may heal.
-    const Soundness& found() const { return found_; }
-    /// Looks at which the state was not sound otherwise.
-    std::uint64_t unconverged() const { return unconverged_; }
-
-private:
-    bool strains_due(std::uint64_t frame) const;
-    void add_damped(double time, double kinetic, double damping);
-
-    std::uint64_t frames_, every_ = 0, unconverged_ = 0, torn_ = 0; ///< every_: 0 before the first frame
-    std::optional<EnergyBudget> budget_; ///< made at the first look
-    Soundness found_;
-    double time_ = 0, kinetic_ = 0; ///< s, J: at the last look
-    double damped_ = 0;             ///< J: what damping has taken out, at least
 };
 
 } // namespace taut

@@ -13,21 +13,26 @@
 //   contacts come after the solve. Cloth and chains that begin beside their pins swing: a pendulum let go at
 //   an angle a from the plumb pulls with 3 - 2 cos a times its weight where it passes below. Under vbd a
 //   sweep carries what happened at a vertex over about one edge: held bodies take as many as their waves
-//   need. Measured in docs/methods.md.
+//   need. Membranes, of which each corner hangs from several triangles at once, get a ninth of the strain. A
+//   gas of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
+//   one constraint (the tension of a sphere is p r / 2). Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
 #include "taut/scene/extent.hpp"
+#include "taut/scene/membrane.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace taut {
 namespace {
 
 constexpr double kSofter = 0.2;
+constexpr double kMembraneShare = 1.0 / 9; ///< of kSweepStrain
 constexpr double kShortArm = 0.05; ///< of a body's size: nearer to its pins it does not swing
 
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
@@ -154,16 +159,39 @@ double swing_pull(const Body& body, const glm::dvec3& down)
     return length > kShortArm * size.size() ? 3 - 2 * glm::dot(arm, down) / length : 1;
 }
 
+/// m^2, of all triangles.
+double area_of(const Body& body)
+{
+    const auto& x = body.mesh.positions;
+    double area = 0;
+    for (const auto& t : body.mesh.triangles)
+        area += glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 2;
+    return area;
+}
+
+/// m^3, of all tetrahedra.
+double volume_of(const Body& body)
+{
+    const auto& x = body.mesh.positions;
+    double volume = 0;
+    for (const auto& t : body.mesh.tetrahedra)
+        volume += std::abs(glm::dot(x[t[1]] - x[t[0]], glm::cross(x[t[2]] - x[t[0]], x[t[3]] - x[t[0]]))) / 6;
+    return volume;
+}
+
 /// m: of a bar of square section its side, by volume over surface.
 double thickness_of(const Body& body)
 {
-    const auto& x = body.mesh.positions;
-    double volume = 0, area = 0;
-    for (const auto& t : body.mesh.tetrahedra)
-        volume += std::abs(glm::dot(x[t[1]] - x[t[0]], glm::cross(x[t[2]] - x[t[0]], x[t[3]] - x[t[0]]))) / 6;
-    for (const auto& t : body.mesh.triangles)
-        area += glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 2;
-    return area > 0 ? 4 * volume / area : 0;
+    const double area = area_of(body);
+    return area > 0 ? 4 * volume_of(body) / area : 0;
+}
+
+/// kg
+double mass_of(const Body& body)
+{
+    if (!body.vertex_masses.empty())
+        return std::accumulate(body.vertex_masses.begin(), body.vertex_masses.end(), 0.0);
+    return body.material.density * (body.mesh.tetrahedra.empty() ? area_of(body) : volume_of(body));
 }
 
 constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
@@ -231,9 +259,26 @@ double longest_for_weight(const Scene& scene, const Body& body, const SweepLoad&
     const bool spanned = is_spanned(body, scene.gravity);
     const double pull = spanned ? 1 : swing_pull(body, scene.gravity / g);
     const double open = 2 * std::max(load.vertices, 1.0) * pull * g; // m/s^2: see "Based on"
-    const bool sags = spanned && scene.method.type != "vbd";
-    const double strain = sags ? std::min(kSweepStrain, 8.0 / 3 * kSeenWay * kSeenWay) : kSweepStrain;
+    const bool sweeps = scene.method.type != "vbd"; // whose steps at a vertex see all its triangles
+    const auto is_membrane = [](const Body::Elements& e) { return e.kind == scene_file::kMembrane; };
+    const bool membrane = std::any_of(body.elements.begin(), body.elements.end(), is_membrane);
+    const double sag = spanned && sweeps ? 8.0 / 3 * kSeenWay * kSeenWay : 1;
+    const double strain = std::min(kSweepStrain * (membrane && sweeps ? kMembraneShare : 1), sag);
     return std::sqrt(strain * load.edge / open);
+}
+
+/// s: the longest substep in which sweeps carry what a gas presses on closed cloth; no limit without.
+double longest_for_pressure(const Body& body, const SweepLoad& load)
+{
+    const double force = std::abs(body.material.pressure) * area_of(body), mass = mass_of(body); // N, kg
+    if (!(force > 0) || !(mass > 0))
+        return HUGE_VAL;
+    Extent all;
+    for (const glm::dvec3& p : body.mesh.positions)
+        all.take(p);
+    const double radius = all.size() / (2 * std::sqrt(3.0)); // of a ball in that box
+    const double vertices = std::max(1.0, radius / (2 * load.edge));
+    return std::sqrt(kSweepStrain * load.edge / (2 * vertices * force / mass));
 }
 
 /// s: the longest substep that a body allows.
@@ -243,17 +288,21 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     const SweepLoad load = sweep_load(body);
     if (!(load.edge > 0) || body.kinematic.used) // whose vertices are all led
         return HUGE_VAL;
+    const double sweeps = std::sqrt(scene.method.iterations);
+    const double gas = method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_pressure(body, load);
+    if (!(g > 0))
+        return gas;
     const bool meets = !scene.colliders.empty() || scene.contact.between;
     const double standing = meets ? longest_for_standing(body, load, scene.gravity) : HUGE_VAL;
     if (method == "implicit_euler")
         return standing;
-    const double sweeps = std::sqrt(scene.method.iterations);
     const double weight = longest_for_weight(scene, body, load, g);
     if (method == "vbd") // whose contacts come once a substep, whatever the sweeps
-        return std::min({sweeps * weight, longest_for_waves(body, load, scene.method.iterations), standing});
+        return std::min(
+            {gas, sweeps * weight, longest_for_waves(body, load, scene.method.iterations), standing});
     if (method == "pbd")
-        return sweeps * weight;
-    return sweeps * std::min({weight, longest_for_solid(body, load, g), standing});
+        return std::min(gas, sweeps * weight);
+    return std::min(gas, sweeps * std::min({weight, longest_for_solid(body, load, g), standing}));
 }
 
 } // namespace
@@ -311,7 +360,7 @@ std::uint32_t automatic_substeps(const Scene& scene)
     const std::string& method = scene.method.type;
     const double g = glm::length(scene.gravity);
     double most = kLeastSubsteps;
-    if ((method == "xpbd" || method == "pbd" || method == "vbd" || method == "implicit_euler") && g > 0)
+    if (method == "xpbd" || method == "pbd" || method == "vbd" || method == "implicit_euler")
         for (const Body& body : scene.bodies)
             most = std::max(most, std::ceil(scene.timestep / longest_substep(scene, body, g)));
     return static_cast<std::uint32_t>(std::min<double>(most, kMostAutomaticSubsteps));

@@ -9,7 +9,7 @@
 #include "taut/report/crossing.hpp"
 #include "taut/report/look_due.hpp"
 #include "taut/report/residuals.hpp"
-#include "taut/report/soundness.hpp"
+#include "taut/report/soundness_watch.hpp"
 #include "taut/scene/settings.hpp"
 
 #include <algorithm>

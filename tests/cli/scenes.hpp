@@ -17,7 +17,7 @@ inline std::string cloth(const std::string& timestep = "0.016666666666666666")
 inline std::string cloth_and_box()
 {
     return R"({"taut": 1, "duration": 0.5,
-        "bodies": [{"grid": {"cells": [8, 8], "size": [1, 1]},
+        "bodies": [{"grid": {"cells": [8, 8], "size": [1, 1]}, "transform": {"translate": [0, 0.7, 0]},
                     "pins": [{"corners": ["top_left", "top_right"]}]},
                    {"box": {"cells": [2, 2, 2], "size": [0.3, 0.3, 0.3]}, "material": {"model": "springs"},
                     "transform": {"translate": [2, 0.2, 0]}}],

@@ -3,7 +3,7 @@
 
 #include "hard/cases.hpp"
 
-#include "taut/report/soundness.hpp"
+#include "taut/report/soundness_watch.hpp"
 
 namespace taut::hard {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "hard/cases.hpp"
 
+#include "taut/report/scene_budget.hpp"
 #include "taut/scene/mesh.hpp"
 
 using namespace taut;
@@ -150,7 +151,7 @@ constexpr double kWeight = 9.81 * 1100 * kEdge * kEdge * kEdge * kEdge; // J, of
 Outcome follow(const Scene& scene, int frames)
 {
     World world(scene, test_device("cpu:serial"));
-    const EnergyBudget budget(world.scene());
+    const SceneBudget budget(world.scene());
     const double zero = scene.colliders.empty() ? 0 : kWeight / 2; // lying on the floor
     Outcome out;
     out.put_in = energy(world) - zero;

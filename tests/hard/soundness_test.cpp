@@ -6,6 +6,7 @@
 #include "support/on_threads.hpp"
 
 #include "taut/report/residuals.hpp"
+#include "taut/report/soundness_watch.hpp"
 #include "taut/runtime/base/shown.hpp"
 
 #include <atomic>

@@ -4,6 +4,8 @@
 #include "support/catch.hpp"
 #include "support/judged_run.hpp"
 
+#include "taut/report/scene_budget.hpp"
+
 #include <cmath>
 
 using namespace taut;
@@ -70,7 +72,7 @@ TEST_CASE("suite 26: two cards stand with friction above tan 25 / 2, and fall be
 TEST_CASE("suite 31: rings that are hooked and pulled hold each other")
 {
     JudgedRun run(suite("31_hooked_rings"));
-    const EnergyBudget budget(run.world.scene());
+    const SceneBudget budget(run.world.scene());
     run.run(2);
     CHECK(run.crossed == 0); // so they are still hooked
     const auto forces = run.world.contact_forces();

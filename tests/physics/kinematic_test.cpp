@@ -5,7 +5,7 @@
 #include "support/sheets.hpp"
 
 #include "taut/report/report.hpp"
-#include "taut/report/soundness.hpp"
+#include "taut/report/scene_budget.hpp"
 #include "taut/world/world.hpp"
 
 #include <glm/geometric.hpp>
@@ -135,7 +135,7 @@ TEST_CASE("a mesh that kicks cloth at ten metres a second is no blow-up")
     }
     scene.bodies[0].pins[0].places = places;
     World world(scene, test_device("cpu:serial"));
-    const EnergyBudget budget(world.scene());
+    const SceneBudget budget(world.scene());
     for (int step = 1; step <= 30; ++step)
     {
         world.step();

@@ -6,7 +6,7 @@
 #include "support/scenes.hpp"
 
 #include "taut/report/report.hpp"
-#include "taut/report/soundness.hpp"
+#include "taut/report/soundness_watch.hpp"
 
 #include <cmath>
 

@@ -5,6 +5,7 @@
 #include "support/scenes.hpp"
 
 #include "taut/report/report.hpp"
+#include "taut/report/soundness_watch.hpp"
 
 namespace taut {
 namespace {

@@ -1,5 +1,9 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include "support/sphere.hpp"
+#include "unit/scene/temporary.hpp"
+
+#include "taut/scene/fabric_presets.hpp"
 
 using namespace taut;
 
@@ -95,6 +99,41 @@ TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[su
     CHECK(substeps("vbd", 1e5) == Approx(stiff / 2.0).margin(1));
     scene.bodies[0].pins.clear();
     CHECK(substeps("vbd", 1e5) < stiff / 4);
+}
+
+TEST_CASE("membranes take three times the substeps of springs under xpbd", "[substeps]")
+{
+    Scene scene = test::hanging(20);
+    scene.method.type = "xpbd";
+    scene.method.substeps = 0;
+    const double springs = resolve(scene).method.substeps;
+    scene.bodies[0].material.stretch_stiffness = 0;
+    scene.bodies[0].material.fabric = find_fabric_preset("penava_cotton")->fabric;
+    CHECK(resolve(scene).method.substeps == Approx(3 * springs).margin(3));
+}
+
+TEST_CASE("a gas asks for substeps, also without gravity", "[substeps]")
+{
+    Scene scene;
+    Body ball;
+    ball.shape.kind = ShapeKind::mesh;
+    const Temporary folder;
+    ball.shape.file = folder.path / "ball.obj";
+    write_obj(ball.shape.file, test::sphere_mesh(4, 0.5));
+    scene.bodies = {ball};
+    scene.gravity = glm::dvec3(0);
+    scene.method.substeps = 0;
+    const auto substeps = [&](double pressure) {
+        scene.bodies[0].material.pressure = pressure;
+        return resolve(scene).method.substeps;
+    };
+    CHECK(substeps(1) == 10);
+    const double strong = substeps(1000);
+    CHECK(strong > 20);
+    CHECK(substeps(4000) == Approx(2 * strong).margin(2));
+    CHECK(substeps(-1000) == strong); // what is sucked in likewise
+    scene.method.type = "implicit_euler";
+    CHECK(substeps(1000) == 10);
 }
 
 TEST_CASE("a mesh that is led asks for no substeps", "[substeps]")
