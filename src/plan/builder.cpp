@@ -4,6 +4,7 @@
 #include "taut/plan/topology.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/registry.hpp"
+#include "taut/scene/held.hpp"
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
@@ -44,15 +45,6 @@ DeviceInfo info_of(const DeviceTraits& traits)
     info.limits.max_buffer_bytes = traits.max_buffer_bytes;
     info.limits.float64 = traits.float64;
     return info;
-}
-
-std::vector<bool> held_vertices(const Body& body)
-{
-    std::vector<bool> held(body.mesh.positions.size(), false);
-    for (const Pin& pin : body.pins)
-        for (const std::uint32_t v : pin.vertices)
-            held.at(v) = true;
-    return held;
 }
 
 /// Mean length of the sides of a body's elements, m; infinite without any.

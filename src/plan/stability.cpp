@@ -10,6 +10,7 @@
 #include "taut/plan/added_stiffness.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/scene/held.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -21,15 +22,6 @@ namespace taut {
 namespace {
 
 constexpr std::uint32_t kMostSubsteps = 1000; // as a scene may ask for
-
-std::vector<bool> held_by_pins(const Body& body)
-{
-    std::vector<bool> held(body.mesh.positions.size(), false);
-    for (const Pin& pin : body.pins)
-        for (const std::uint32_t v : pin.vertices)
-            held[v] = true;
-    return held;
-}
 
 } // namespace
 
@@ -104,7 +96,7 @@ RateBounds rate_bounds(const Scene& resolved)
                                 ? std::vector<BendElement>()
                                 : bend_elements(body); // rows there
         const auto mass = vertex_masses(body);
-        const auto held = held_by_pins(body);
+        const auto held = held_vertices(body);
         for (const auto* x : {&body.mesh.positions, &body.start_positions})
         {
             if (x->empty())

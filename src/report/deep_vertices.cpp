@@ -5,6 +5,7 @@
 #include "taut/runtime/base/shown.hpp"
 #include "taut/scene/called.hpp"
 #include "taut/scene/extent.hpp"
+#include "taut/scene/held.hpp"
 #include "taut/scene/pose.hpp"
 
 #include <glm/geometric.hpp>
@@ -13,15 +14,6 @@
 
 namespace taut {
 namespace {
-
-std::vector<bool> held_vertices(const Body& body)
-{
-    std::vector<bool> held(body.mesh.positions.size(), false);
-    for (const Pin& pin : body.pins)
-        for (const std::uint32_t v : pin.vertices)
-            held[v] = true;
-    return held;
-}
 
 /// m: of a body of one vertex, that of the scene.
 double size_at_rest(const Scene& scene, const Body& body)
@@ -88,7 +80,7 @@ std::vector<DeepVertex> deep_vertices(const Scene& resolved, std::span<const glm
         for (std::size_t c = 0; c < deepest.size(); ++c)
             if (deepest[c].depth > 0)
                 out.push_back({b, c, deepest[c].depth, deepest[c].roomy, deepest[c].vertex, size,
-                               32 * 6e-8 * far});
+                               rounded_way(Precision::float32, far)});
         first += held.size();
     }
     return out;

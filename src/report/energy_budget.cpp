@@ -141,10 +141,10 @@ double largest_wind(const Wind& wind)
 
 } // namespace
 
-double rounded_speed(Precision precision, double far, double substep)
+double rounded_way(Precision precision, double far)
 {
     const double digit = precision == Precision::float32 ? 6e-8 : 1.1e-16; // of a coordinate
-    return 32 * digit * far / substep;
+    return 32 * digit * far;
 }
 
 EnergyBudget::EnergyBudget(const Scene& resolved)
@@ -252,7 +252,7 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
 double EnergyBudget::rounding(Precision precision, double substep) const
 {
     const double strain = precision == Precision::float32 ? 1e-5 : 1e-12; // that rounding leaves
-    const double speed = rounded_speed(precision, shared_->diameter, substep);
+    const double speed = rounded_way(precision, shared_->diameter) / substep;
     double out = 0.5 * mass_ * speed * speed;
     for (const StretchElement& e : shared_->springs)
         if (e.compliance > 0)

@@ -15,8 +15,8 @@ namespace taut {
 
 class DrawnBodies;
 
-/// m/s: a speed that rounding of places up to `far` (m) from the origin can make in a substep (s).
-double rounded_speed(Precision precision, double far, double substep);
+/// m: what rounding of places up to `far` (m) from the origin can add up to.
+double rounded_way(Precision precision, double far);
 
 /// J: the most that energies can be.
 struct EnergyMost

@@ -11,6 +11,7 @@
 #include "taut/report/contact.hpp"
 #include "taut/report/contact_depth.hpp"
 #include "taut/report/crossing_shapes.hpp"
+#include "taut/report/energy_budget.hpp"
 #include "taut/report/load_residual.hpp"
 
 #include <glm/geometric.hpp>
@@ -230,14 +231,13 @@ std::vector<double> least_loads(const View& view, double substep)
 {
     const Scene& scene = view.world.scene();
     const double gravity = glm::length(view.model.gravity);
-    const double digit = view.plan.precision == Precision::float32 ? 6e-8 : 1.1e-16;
     std::vector<double> out;
     for (const Body& body : scene.bodies)
     {
         const bool blown =
             view.plan.wind != kNoBuffer && body.material.drag + body.material.friction_drag > 0;
         const bool driven = (blown || scene.external_forces) && method_of(scene) != MethodKind::xpbd;
-        const double rounded = 32 * digit * view.model.diameter / (substep * substep);
+        const double rounded = rounded_way(view.plan.precision, view.model.diameter) / (substep * substep);
         out.push_back(gravity > 0 ? gravity : driven ? rounded : kWeight);
     }
     return out;

@@ -125,7 +125,7 @@ bool measure_momentum(const View& view, StepReport& out)
     const glm::dvec3 expected = before + mass * view.world.gravity_impulse();
     const double fall = std::sqrt(glm::length(scene.gravity) * view.model.diameter);
     const double substep = view.plan.timestep / view.plan.substeps;
-    const double rounded = rounded_speed(view.plan.precision, far, substep);
+    const double rounded = rounded_way(view.plan.precision, far) / substep;
     const double speed = std::max({std::sqrt(start / mass), std::sqrt(end / mass), fall, rounded});
     out.momentum_error =
         speed > 0 ? glm::length(now - expected) / (mass * speed) : glm::length(now - expected) / mass;
