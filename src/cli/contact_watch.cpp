@@ -137,22 +137,18 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             "contact: at the start " + std::to_string(at_start_) +
             " pairs of triangles that are to meet go through each other; move the bodies apart");
     const ContactCounts& c = report.contacts;
-    if (c.pinched > 0)
-        messages.push_back("contact: " + std::to_string(c.pinched) +
-                           " times held vertices that move left no place for others: the guarantee does not "
-                           "hold there");
-    if (c.missing > 0)
-        messages.push_back("contact: " + std::to_string(c.missing) +
-                           " pairs found no place in their list, which has grown since");
-    if (c.cut > 0)
-        messages.push_back("contact: " + std::to_string(c.cut) +
-                           " searches met more triangles than they may take; a thickness below the edges of "
-                           "the mesh avoids that");
-    if (c.crowded > 0)
-        messages.push_back("contact: " + std::to_string(c.crowded) +
-                           " times a vertex was in more pairs than may push it, so none did, and its "
-                           "partners were pushed alone; a smaller thickness, or meshes that are about as "
-                           "fine as each other, avoid that");
+    const auto say = [&](std::uint64_t times, const char* what) {
+        if (times > 0)
+            messages.push_back("contact: " + std::to_string(times) + what);
+    };
+    say(c.pinched, " times held vertices that move left no place for others: the guarantee does not hold "
+                   "there");
+    say(c.missing, " pairs found no place in their list, which has grown since");
+    say(c.cut, " searches met more triangles than they may take; a thickness below the edges of the mesh "
+               "avoids that");
+    say(c.crowded, " times a vertex was in more pairs than may push it, so none did, and its partners were "
+                   "pushed alone; a smaller thickness, or meshes that are about as fine as each other, "
+                   "avoid that");
 }
 
 } // namespace taut::cli
