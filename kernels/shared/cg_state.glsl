@@ -52,13 +52,7 @@ CgState cg_next(CgState s, real rz, real rr, real bb, INOUT(bool) replace, INOUT
         s.status = uint(TAUT_CG_RAN_AWAY);
         keep = false;
     }
-    else if (rr <= s.tolerance_squared * s.bb)
-    {
-        if (s.fresh != 0u)
-            s.status = uint(TAUT_CG_CONVERGED);
-        replace = s.fresh == 0u;
-    }
-    else if (rz == real(0) && rr < real(TAUT_CG_NOTHING))
+    else if (rr <= s.tolerance_squared * s.bb || (rz == real(0) && rr < real(TAUT_CG_NOTHING)))
     {
         if (s.fresh != 0u)
             s.status = uint(TAUT_CG_CONVERGED);
