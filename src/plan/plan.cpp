@@ -75,6 +75,21 @@ void warn_of_precision(const Scene& scene, PlanBuilder& builder)
                                 " m; use double or places nearer the origin"});
 }
 
+/// What hangs from few edges, or waves faster than a sweep, under as many substeps as there may be.
+void warn_of_few_substeps(const Scene& scene, PlanBuilder& builder)
+{
+    if (builder.plan.substeps < kMostSubsteps)
+        return; // named, or as many as the scene asks for
+    const double wanted = wanted_substeps(scene);
+    if (wanted > kMostSubsteps)
+        builder.plan.warnings.push_back(
+            {"few_substeps", 1,
+             "mesh, material and time step ask for " + shown(wanted, 3) + " substeps, more than the " +
+                 std::to_string(kMostSubsteps) + " there may be; use a shorter timestep (" +
+                 shown(scene.timestep * kMostSubsteps / wanted, 2) +
+                 " s), more iterations, a coarser mesh or method.type \"implicit_euler\""});
+}
+
 /// The rows of the table that this scene calls for.
 std::vector<const Effect*> wanted_effects(const Scene& scene, const PlanOptions& options)
 {
@@ -169,6 +184,7 @@ Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOpti
         if (row->prepare != nullptr && row->stage != Stage::predict)
             row->prepare(builder);
     warn_of_precision(resolved, builder);
+    warn_of_few_substeps(resolved, builder);
     record_step(builder, rows);
     builder.finish_paper();
     builder.plan.barrier_before = derive_barriers(builder.plan.passes);

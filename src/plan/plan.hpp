@@ -144,7 +144,7 @@ enum class Pull : std::uint8_t
 /// Something a user should know before anything runs. The words are those of docs/statuses.md.
 struct PlanWarning
 {
-    std::string word;        ///< "conflict", "degenerate", "energy_growth" or "precision"
+    std::string word;        ///< "conflict", "degenerate", "energy_growth", "few_substeps" or "precision"
     std::uint64_t count = 1; ///< how many constraints or hinges it is about
     std::string text;        ///< with the numbers
 

@@ -21,7 +21,6 @@
 namespace taut {
 namespace {
 
-constexpr std::uint32_t kMostSubsteps = 1000; // as a scene may ask for
 
 } // namespace
 

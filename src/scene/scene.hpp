@@ -274,6 +274,7 @@ struct Collider
 inline constexpr std::array<std::string_view, 7> kMethodNames = {
     "mass_spring", "implicit_euler", "implicit_constraints", "acad", "pbd", "xpbd", "vbd"};
 
+inline constexpr std::uint32_t kMostSubsteps = 1000; ///< of a time step
 /// How a step advances. docs/methods.md says which method reads which setting.
 struct MethodSettings
 {
@@ -388,6 +389,7 @@ std::vector<SceneIssue> check_resolved(const Scene& scene);
 /// Substeps for a resolved scene that names none, 10 to 1,000: under xpbd, pbd and vbd what weight, mesh and
 /// stiffness ask for, under implicit_euler what solids on colliders do; 10 under others (docs/methods.md).
 std::uint32_t automatic_substeps(const Scene& resolved);
+double wanted_substeps(const Scene& resolved); ///< the same without an upper limit
 
 /// Checks, generates or loads every body's mesh, applies transforms, resolves pins; returns a scene
 /// whose bodies have `mesh`, and whose pins have only `vertices` and `motion`. Throws Error with the

@@ -355,7 +355,7 @@ SweepLoad sweep_load(const Body& body)
     return out;
 }
 
-std::uint32_t automatic_substeps(const Scene& scene)
+double wanted_substeps(const Scene& scene)
 {
     const std::string& method = scene.method.type;
     const double g = glm::length(scene.gravity);
@@ -363,7 +363,12 @@ std::uint32_t automatic_substeps(const Scene& scene)
     if (method == "xpbd" || method == "pbd" || method == "vbd" || method == "implicit_euler")
         for (const Body& body : scene.bodies)
             most = std::max(most, std::ceil(scene.timestep / longest_substep(scene, body, g)));
-    return static_cast<std::uint32_t>(std::min<double>(most, kMostAutomaticSubsteps));
+    return most;
+}
+
+std::uint32_t automatic_substeps(const Scene& scene)
+{
+    return static_cast<std::uint32_t>(std::min<double>(wanted_substeps(scene), kMostSubsteps));
 }
 
 } // namespace taut

@@ -5,7 +5,7 @@
 
 namespace taut {
 
-inline constexpr std::uint32_t kLeastSubsteps = 10, kMostAutomaticSubsteps = 1000;
+inline constexpr std::uint32_t kLeastSubsteps = 10;
 /// Strain that sweeps over constraints or vertices may leave under the scene's own weight.
 inline constexpr double kSweepStrain = 0.01;
 /// A hundredth of a body's size is where somebody sees that it hangs elsewhere.

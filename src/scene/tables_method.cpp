@@ -36,7 +36,7 @@ void read_release_strain(const Field& method, MethodSettings& out)
 constexpr Key kMethod[] = {
     key<&MethodSettings::type>("type", "the method").words(kMethodNames),
     key<&MethodSettings::substeps>("substeps", "parts of a time step; the main price of accuracy")
-        .range(1, 1000)
+        .range(1, kMostSubsteps)
         .or_word("automatic", 0)
         .usually("\"automatic\": what mesh, weight and gas ask for "
                  "([rule](methods.md#substeps-that-nobody-named))"),

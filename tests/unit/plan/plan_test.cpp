@@ -136,6 +136,31 @@ TEST_CASE("pins that have their vertices elsewhere at time 0 are a conflict, wit
     CHECK(make_plan(scene).warnings.empty());
 }
 
+TEST_CASE("a scene that asks for more substeps than there may be is told, with the step that would do")
+{
+    Scene scene = test::hanging(16);
+    scene.method.substeps = 0;
+    scene.method.type = "vbd";
+    scene.bodies[0].material.stretch_stiffness = 1e8; // a wave passes an edge in 0.6 us
+    const auto warned = [](const Scene& s) {
+        const Plan plan = make_plan(s);
+        return std::any_of(plan.warnings.begin(), plan.warnings.end(), [](const PlanWarning& w) {
+            return w.word == "few_substeps" && w.text.find("implicit_euler") != std::string::npos;
+        });
+    };
+    CHECK(wanted_substeps(scene) > kMostSubsteps);
+    CHECK(automatic_substeps(scene) == kMostSubsteps);
+    CHECK(warned(scene));
+    scene.timestep *= 0.9 * kMostSubsteps / wanted_substeps(scene);
+    CHECK_FALSE(warned(scene));
+    scene.timestep = 1.0 / 60;
+    scene.method.substeps = 20; // what a scene names is its own affair; load_residual judges it
+    CHECK_FALSE(warned(scene));
+    scene.method.substeps = kMostSubsteps;
+    scene.bodies[0].material.stretch_stiffness = 1e3;
+    CHECK_FALSE(warned(scene));
+}
+
 TEST_CASE("constraint enforcement and ACAD take no integrator but their own")
 {
     Scene scene = test::hanging(2);
