@@ -4,7 +4,7 @@
 # release: tests/run.sh, and the benches are built. headers: each file alone and without precompiled headers, so that it includes what it
 # uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
-# tests/run.sh in a chroot of that Debian (tests/chroot.sh). physics: on OpenGL, too. hard: the hard cases and the
+# tests/run.sh in a chroot of that Debian (tests/chroot.sh). physics: on every executor. hard: the hard cases and the
 # whole map in full on every executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer,
 # for half an hour. A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit
 # status 1 if any failed.
@@ -63,7 +63,7 @@ part_odr() {
         cmake --build build/odr --target taut-cli --parallel "$jobs"
 }
 
-# What ctest runs without OpenGL and cpu:shuffled (TAUT_TEST_SHORT).
+# What ctest runs on cpu:serial and cpu alone (TAUT_TEST_SHORT).
 part_physics() { TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} "$root/build/release/tests/test_physics"; }
 
 part_stable() { "$root/tests/chroot.sh" stable; }

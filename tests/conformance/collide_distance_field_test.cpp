@@ -99,11 +99,11 @@ struct Entry
     bool doubtful = false;
 };
 
-/// The first time at which a way is not above 0, looked for in 4,000 places. Doubtful where it hardly dips
+/// The first time at which a way is not above 0, looked for in 1,000 places. Doubtful where it hardly dips
 /// below, or leaves again sooner than the kernel promises to notice.
 Entry entry_of(const std::function<double(double)>& height, double rounding)
 {
-    constexpr int kPlaces = 4000;
+    constexpr int kPlaces = 1000;
     Entry out;
     int in = 0;
     double deepest = 0, last = height(0);

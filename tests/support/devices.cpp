@@ -69,11 +69,11 @@ std::vector<std::string> find_devices()
     if (chosen && *chosen)
         return split(chosen); // named by a person: a missing one fails when it is opened
     std::vector<std::string> selectors = {"cpu:serial", "cpu"};
-    const bool all = !environment_has("TAUT_TEST_SHORT");
-    if (all)
-        selectors.emplace_back("cpu:shuffled");
+    if (environment_has("TAUT_TEST_SHORT"))
+        return selectors;
+    selectors.emplace_back("cpu:shuffled");
     for (const char* selector : {"vulkan", "opengl", "opengl:spirv"})
-        if ((all || selector == std::string("vulkan")) && opens(selector))
+        if (opens(selector))
             selectors.push_back(selector);
     return selectors;
 }

@@ -5,8 +5,9 @@
 //   const auto device = taut::test_device(selector);
 //
 // TAUT_TEST_DEVICES=cpu,vulkan    takes these instead of all.
-// TAUT_TEST_SHORT=1               leaves OpenGL and cpu:shuffled out, as ctest does where other suites hold
-//                                 them to the same bits (conformance, golden).
+// TAUT_TEST_SHORT=1               takes cpu:serial and cpu alone, as ctest does where other suites hold the
+//                                 others to the same bits (conformance, golden): a dispatch of a software
+//                                 driver takes a hundred times as long.
 // TAUT_REQUIRE_DEVICE=1           makes a missing executor an error; without it, the program says what
 //                                 is left out, and why, and ends as skipped (skip.hpp).
 
