@@ -1,5 +1,6 @@
 // A scene made ready for planning: meshes in world space, pins as lists of vertices.
 
+#include "taut/scene/check_room.hpp"
 #include "taut/scene/check_size.hpp"
 #include "taut/scene/checker.hpp"
 #include "taut/scene/distance_field.hpp"
@@ -357,6 +358,7 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
 {
     std::vector<SceneIssue> issues = check(scene);
     throw_if_any(issues, found);
+    scene_file::check_room(scene, scene_file::host_memory());
     Scene resolved = scene;
     const Checker out(issues);
     FieldFiles files;

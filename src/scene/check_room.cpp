@@ -1,0 +1,68 @@
+// Whether this machine has the memory that generated bodies take.
+
+#include "taut/scene/check_room.hpp"
+
+#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace taut::scene_file {
+namespace {
+
+/// Bytes a vertex: no more than `taut plan` takes at its peak, of grids of 1,000^2 cells (430) and boxes of
+/// 40^3 (1,500), so that nothing is refused that would fit. A run that is judged takes up to five times that.
+constexpr double kOfSurface = 400, kOfSolid = 1400;
+
+/// Of bodies that are not read from files.
+double bytes_of(const Shape& shape)
+{
+    const auto cube = [](const glm::uvec3& c) { return (c.x + 1.0) * (c.y + 1.0) * (c.z + 1.0); };
+    switch (shape.kind)
+    {
+    case ShapeKind::grid: return kOfSurface * (shape.cells.x + 1.0) * (shape.cells.y + 1.0);
+    case ShapeKind::box: return kOfSolid * cube(shape.box_cells);
+    case ShapeKind::ball: return kOfSolid * cube(glm::uvec3(shape.ball_cells)); // a cube that is made round
+    case ShapeKind::chain:
+    case ShapeKind::mesh:
+    case ShapeKind::tetrahedra: break;
+    }
+    return 0;
+}
+
+} // namespace
+
+std::uint64_t host_memory()
+{
+    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+    std::uint64_t out =
+        pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes) : 0;
+    std::uint64_t group = 0; // "max" where there is no limit, which is no number
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> group && group > 0)
+        out = out > 0 ? std::min(out, group) : group;
+    return out;
+}
+
+void check_room(const Scene& scene, std::uint64_t memory)
+{
+    double bytes = 0, largest = -1;
+    std::size_t at = 0;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+        const double own = bytes_of(scene.bodies[b].shape);
+        bytes += own;
+        if (own > largest)
+            largest = own, at = b;
+    }
+    if (memory > 0 && bytes > static_cast<double>(memory))
+        throw Error(ErrorCode::out_of_memory,
+                    "the bodies take about " + shown(bytes / 1e9, 2) + " GB, and there are " +
+                        shown(static_cast<double>(memory) / 1e9, 2) +
+                        " GB here; take fewer cells, of bodies[" + std::to_string(at) + "] first");
+}
+
+} // namespace taut::scene_file
