@@ -75,19 +75,22 @@ void warn_of_precision(const Scene& scene, PlanBuilder& builder)
                                 " m; use double or places nearer the origin"});
 }
 
-/// What hangs from few edges, or waves faster than a sweep, under as many substeps as there may be.
+/// Of bodies that would take more substeps than there may be: heavy ends, stiff solids on colliders, gases.
 void warn_of_few_substeps(const Scene& scene, PlanBuilder& builder)
 {
     if (builder.plan.substeps < kMostSubsteps)
         return; // named, or as many as the scene asks for
     const double wanted = wanted_substeps(scene);
+    // Under implicit_euler only solids that stand on something ask for many, whatever the iterations.
+    const bool sweeps = scene.method.type != "implicit_euler";
     if (wanted > kMostSubsteps)
         builder.plan.warnings.push_back(
             {"few_substeps", 1,
              "mesh, material and time step ask for " + shown(wanted, 3) + " substeps, more than the " +
                  std::to_string(kMostSubsteps) + " there may be; use a shorter timestep (" +
                  shown(scene.timestep * kMostSubsteps / wanted, 2) +
-                 " s), more iterations, a coarser mesh or method.type \"implicit_euler\""});
+                 " s), a coarser mesh" +
+                 (sweeps ? ", more iterations or method.type \"implicit_euler\"" : " or a softer solid")});
 }
 
 /// The rows of the table that this scene calls for.

@@ -19,11 +19,6 @@
 #include <limits>
 
 namespace taut {
-namespace {
-
-
-} // namespace
-
 std::array<double, 4> hinge_gradient_sizes(const BendElement& h, std::span<const glm::dvec3> x)
 {
     const glm::dvec3 e = x[h.edge1] - x[h.edge0], a = x[h.wing0] - x[h.edge0], b = x[h.wing1] - x[h.edge0];

@@ -141,7 +141,7 @@ TEST_CASE("a scene that asks for more substeps than there may be is told, with t
     Scene scene = test::hanging(16);
     scene.method.substeps = 0;
     scene.method.type = "vbd";
-    scene.bodies[0].material.stretch_stiffness = 1e8; // a wave passes an edge in 0.6 us
+    scene.bodies[0].material.stretch_stiffness = 1e8;
     const auto warned = [](const Scene& s) {
         const Plan plan = make_plan(s);
         return std::any_of(plan.warnings.begin(), plan.warnings.end(), [](const PlanWarning& w) {
