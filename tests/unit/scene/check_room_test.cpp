@@ -44,6 +44,9 @@ TEST_CASE("bodies that no memory holds are refused before they are made, and the
     CHECK(refusal(sheets({2000}), 4 * gib).empty());
     CHECK(refusal(sheets({3000, 3000, 3000}), 8 * gib).find("GB") != std::string::npos); // one would fit
     CHECK(refusal(sheets({8000}), 0).empty());
+    Scene led = sheets({8000});
+    led.bodies[0].kinematic.used = true; // has no constraints
+    CHECK(refusal(led, 16 * gib).empty());
     Scene box = sheets({1});
     box.bodies[0].shape.kind = ShapeKind::box;
     box.bodies[0].shape.box_cells = {400, 400, 100};
