@@ -4,7 +4,8 @@
 # release: tests/run.sh, and the benches are built. headers: each file alone and without precompiled headers, so that it includes what it
 # uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
-# tests/run.sh in a chroot of that Debian (tests/chroot.sh). physics: on every executor. hard: the hard cases and the
+# tests/run.sh in a chroot of that Debian (tests/chroot.sh). executors: physics, golden scenes and hard matrices on
+# every executor, of which ctest runs some. hard: the hard cases and the
 # whole map in full on every executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer,
 # for half an hour. A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit
 # status 1 if any failed.
@@ -63,15 +64,21 @@ part_odr() {
         cmake --build build/odr --target taut-cli --parallel "$jobs"
 }
 
-# What ctest runs on cpu:serial and cpu alone (TAUT_TEST_SHORT).
-part_physics() { TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} "$root/build/release/tests/test_physics"; }
+# What ctest runs on cpu:serial and cpu alone (TAUT_TEST_SHORT), or in part on software drivers.
+part_executors() {
+    local program failed=0
+    for program in physics golden linear_hard; do
+        TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} "$root/build/release/tests/test_$program" || failed=1
+    done
+    return $failed
+}
 
 part_stable() { "$root/tests/chroot.sh" stable; }
 part_testing() { "$root/tests/chroot.sh" testing; }
 
 part_mutants() { "$root/tests/mutants.sh" --sample 10 --budget 1800; }
 
-[ $# -gt 0 ] || set -- release headers asan tsan clang odr stable testing physics hard mutants
+[ $# -gt 0 ] || set -- release headers asan tsan clang odr stable testing executors hard mutants
 failed=0
 for part in "$@"; do
     if ! declare -F "part_$part" > /dev/null; then

@@ -49,8 +49,8 @@ constexpr std::uint32_t kMostMeeting = 1u << 20;
 constexpr std::uint32_t kLeastCapacity = 1u << 12;
 static_assert(TAUT_CONTACT_GROUP == kGroupSize);
 
-/// m, of each plan vertex; distances within a body are all that is asked.
-std::vector<glm::dvec3> rest_of(const PlanBuilder& b)
+/// m, of each plan vertex from the first of its body: distances within a body are all that is asked.
+std::vector<glm::dvec3> rest_from_first(const PlanBuilder& b)
 {
     std::vector<glm::dvec3> out(b.plan.vertex_count, glm::dvec3(0));
     for (std::size_t k = 0; k < b.scene.bodies.size(); ++k)
@@ -72,7 +72,7 @@ std::vector<ContactLeaf> leaves_of(const PlanBuilder& b)
     out = in_tree_order(std::move(out), b.start);
     share_out(out);
     if (!wants_guarantee(b.scene)) // which lists everything that could meet
-        mark_patches(out, rest_of(b));
+        mark_patches(out, rest_from_first(b));
     return out;
 }
 
@@ -94,7 +94,7 @@ void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLe
         triangles.push_back({leaf.corner[0], leaf.corner[1], leaf.corner[2], leaf.body, leaf.owns});
     std::vector<layout::ContactBody<Real>> bodies;
     std::vector<glm::vec<4, Real>> rest;
-    for (const glm::dvec3& x : rest_of(b))
+    for (const glm::dvec3& x : rest_from_first(b))
         rest.emplace_back(glm::vec<3, Real>(x), Real(0));
     for (std::size_t k = 0; k < b.scene.bodies.size(); ++k)
     {

@@ -27,7 +27,7 @@ namespace {
 double substep_of(const PlanBuilder& b) { return b.plan.timestep / b.plan.substeps; }
 
 /// Places at rest by plan vertex.
-std::vector<glm::dvec3> rest_of(const PlanBuilder& b)
+std::vector<glm::dvec3> rest_places(const PlanBuilder& b)
 {
     std::vector<glm::dvec3> out(b.plan.vertex_count);
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> CornerSet::corners() const
 CornerSet corner_set(PlanBuilder& b)
 {
     const double h = substep_of(b);
-    const std::vector<glm::dvec3> rest = rest_of(b);
+    const std::vector<glm::dvec3> rest = rest_places(b);
     CornerSet out;
     for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
         for (VolumeElement e : acting_volumes(b, body))

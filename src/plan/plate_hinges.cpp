@@ -23,7 +23,7 @@
 namespace taut {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using TriangleCorners = std::array<std::uint32_t, 3>;
 using Matrix = std::array<std::array<double, 3>, 3>;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
@@ -53,7 +53,7 @@ glm::dvec3 first_axis(const Body& body, const std::vector<glm::dvec3>& warp, std
     if (!warp.empty())
         return warp[t];
     const auto& x = body.mesh.positions;
-    const Corners& c = body.mesh.triangles[t];
+    const TriangleCorners& c = body.mesh.triangles[t];
     return glm::normalize(x[c[1]] - x[c[0]]);
 }
 
@@ -63,7 +63,7 @@ void fill_stiffness(const Body& body, const glm::dvec3& u, std::size_t t, const 
                     Plate& out)
 {
     const auto& x = body.mesh.positions;
-    const Corners& c = body.mesh.triangles[t];
+    const TriangleCorners& c = body.mesh.triangles[t];
     const glm::dvec3 up = glm::cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]]);
     const double area = glm::length(up) / 2;
     const glm::dvec3 v = glm::cross(up / (2 * area), u);
@@ -93,7 +93,7 @@ std::vector<Plate> plates_of(const Body& body)
     std::vector<Plate> out(body.mesh.triangles.size());
     for (std::size_t t = 0; t < out.size(); ++t)
     {
-        const Corners& c = body.mesh.triangles[t];
+        const TriangleCorners& c = body.mesh.triangles[t];
         out[t].has_area = glm::length(glm::cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]])) > 0;
         out[t].held = held[c[0]] && held[c[1]] && held[c[2]];
         if (out[t].has_area && !out[t].held)
@@ -111,7 +111,7 @@ std::string edge_name(const Hinge& h)
 void enter(const Body& body, const Hinge& h, std::uint32_t hinge, std::uint32_t side, std::size_t t,
            Plate& plate)
 {
-    const Corners& c = body.mesh.triangles[t];
+    const TriangleCorners& c = body.mesh.triangles[t];
     for (std::uint32_t i = 0; i < 3; ++i)
     {
         const std::uint32_t a = c[i], b = c[(i + 1) % 3];
@@ -238,8 +238,8 @@ bool is_plate(const Body& body)
 std::vector<PlateHinge> plate_hinges(const Body& body, std::size_t* dropped)
 {
     std::vector<Plate> plates = plates_of(body);
-    std::map<Corners, std::size_t> triangle;
-    const auto sorted = [](Corners c) {
+    std::map<TriangleCorners, std::size_t> triangle;
+    const auto sorted = [](TriangleCorners c) {
         std::sort(c.begin(), c.end());
         return c;
     };

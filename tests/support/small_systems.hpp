@@ -194,10 +194,10 @@ struct Thousand
     std::vector<System> systems;
     std::vector<std::vector<double>> exact;
 
-    Thousand()
+    explicit Thousand(std::uint32_t count = 1000)
     {
         conformance::Random random(31);
-        for (std::uint32_t k = 0; k < 1000; ++k)
+        for (std::uint32_t k = 0; k < count; ++k)
         {
             const std::uint32_t edges[] = {1, 2, 127, 128, 129, 1023, 1024};
             systems.push_back(random_system(random, k < 7 ? edges[k] : 1 + random.below(1024)));
