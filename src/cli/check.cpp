@@ -104,8 +104,10 @@ std::vector<SceneIssue> find_issues(const std::string& file)
     }
     catch (const Error& error)
     {
-        if (error.code() == ErrorCode::io || error.code() == ErrorCode::out_of_memory)
+        if (error.code() == ErrorCode::io)
             throw;
+        if (const std::string text = error.what(); error.code() == ErrorCode::out_of_memory)
+            throw Error(error.code(), text.starts_with(file + ":") ? text : file + ": " + text);
         issues.push_back({true, "", error.what()});
     }
     return issues;

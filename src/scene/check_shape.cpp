@@ -8,6 +8,20 @@ namespace {
 /// More cells than a body may have vertices.
 bool too_many(double x, double y, double z = 0) { return (x + 1) * (y + 1) * (z + 1) > kMaxVertices; }
 
+/// Numbers of an effect that another key would have to switch on.
+void warn_of_idle_numbers(const Material& material, const Checker& out)
+{
+    const Material none;
+    const std::string flows = ", which does nothing: without a plastic_yield (a strain) nothing flows";
+    if (material.plastic_yield == 0 && material.plastic_creep != none.plastic_creep)
+        out.warning("plastic_creep", "is " + shown(material.plastic_creep) + " 1/s" + flows);
+    if (material.plastic_yield == 0 && material.plastic_limit != none.plastic_limit)
+        out.warning("plastic_limit", "is " + shown(material.plastic_limit) + flows);
+    if (material.pressure == 0 && material.pressure_law != none.pressure_law)
+        out.warning("pressure_law", "is \"" + material.pressure_law +
+                                        "\", which does nothing: there is no gas without a pressure (Pa)");
+}
+
 } // namespace
 
 void check_grid(const Shape& shape, const Checker& out)
@@ -37,6 +51,7 @@ void check_ball(const Shape& shape, const Checker& out)
 void check_cloth(const Material& material, const Checker& out)
 {
     check_fabric_beside(material, out);
+    warn_of_idle_numbers(material, out);
     if (material.bending_model == "plate" && !resists_bending(material))
         out.warning("bending_model", "is \"plate\" of cloth that does not resist bending; give it a "
                                      "bending_stiffness (N m), or a fabric that bends");
@@ -63,6 +78,7 @@ void check_solid(const Material& material, const Checker& out)
 {
     if (material.tear_strain != 0)
         out.error("tear_strain", "is " + shown(material.tear_strain) + "; solids do not tear");
+    warn_of_idle_numbers(material, out);
     if (material.model == "springs")
         return;
     const std::string none = ", which does nothing: only model \"springs\" has springs and held volumes";
