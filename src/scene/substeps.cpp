@@ -15,7 +15,10 @@
 //   sweep carries what happened at a vertex over about one edge: held bodies take as many as their waves
 //   need. Membranes, of which each corner hangs from several triangles at once, get a ninth of the strain. A
 //   gas of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
-//   one constraint (the tension of a sphere is p r / 2). Measured in docs/methods.md.
+//   one constraint (the tension of a sphere is p r / 2). A sail that is held all
+//   round is spanned by the wind's push. One sweep bends cloth softer by k B h^2 / (s edge^4), k measured,
+//   whatever B is where that is large: cloth that stands out sags by k g h^2 L^4 / (8 edge^4) too far.
+//   Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
@@ -33,94 +36,10 @@ namespace {
 
 constexpr double kSofter = 0.2;
 constexpr double kMembraneShare = 1.0 / 9; ///< of kSweepStrain
-constexpr double kShortArm = 0.05; ///< of a body's size: nearer to its pins it does not swing
-
-using Neighbours = std::vector<std::vector<std::uint32_t>>;
-
-Neighbours neighbours_of(const Body& body)
-{
-    Neighbours out(body.mesh.positions.size());
-    const auto add = [&](std::uint32_t a, std::uint32_t b) {
-        out[a].push_back(b);
-        out[b].push_back(a);
-    };
-    for (const auto& t : body.mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k)
-            add(t[k], t[(k + 1) % 3]);
-    for (const auto& t : body.mesh.tetrahedra)
-        for (std::size_t k = 0; k < 4; ++k)
-            for (std::size_t j = k + 1; j < 4; ++j)
-                add(t[k], t[j]);
-    for (const auto& link : body.mesh.links)
-        add(link[0], link[1]);
-    for (const Body::Spring& spring : body.springs)
-        add(spring.a, spring.b);
-    for (auto& list : out)
-    {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
-    return out;
-}
-
-/// Edges to the furthest vertex that `sources` reach, and that vertex.
-std::pair<std::uint32_t, std::uint32_t> furthest(const Neighbours& around, std::vector<std::uint32_t> wave)
-{
-    std::vector<bool> seen(around.size(), false);
-    for (const std::uint32_t v : wave)
-        seen[v] = true;
-    std::uint32_t depth = 0, last = wave.empty() ? 0 : wave.front();
-    while (!wave.empty())
-    {
-        std::vector<std::uint32_t> next;
-        last = wave.front();
-        for (const std::uint32_t v : wave)
-            for (const std::uint32_t u : around[v])
-                if (!seen[u])
-                {
-                    seen[u] = true;
-                    next.push_back(u);
-                }
-        if (!next.empty())
-            ++depth;
-        wave = std::move(next);
-    }
-    return {depth, last};
-}
-
-double mean_edge(const Body& body, const Neighbours& around)
-{
-    double sum = 0, count = 0;
-    for (std::uint32_t v = 0; v < around.size(); ++v)
-        for (const std::uint32_t u : around[v])
-        {
-            sum += glm::distance(body.mesh.positions[u], body.mesh.positions[v]);
-            ++count;
-        }
-    return count > 0 ? sum / count : 0;
-}
-
-/// Mass that moves over the mass of a vertex, for each edge from a pinned vertex to one that moves.
-double hanging_vertices(const Body& body, const Neighbours& around, const std::vector<bool>& held)
-{
-    const auto mass = [&](std::uint32_t v) {
-        return body.vertex_masses.empty() ? 1.0 : body.vertex_masses[v];
-    };
-    double total = 0, edges = 0, carriers = 0;
-    for (std::uint32_t v = 0; v < around.size(); ++v)
-    {
-        if (held[v])
-            continue;
-        total += mass(v);
-        for (const std::uint32_t u : around[v])
-            if (held[u])
-            {
-                ++edges;
-                carriers += mass(v);
-            }
-    }
-    return edges > 0 ? total / carriers : 0;
-}
+constexpr double kShortArm = 0.05;         ///< of a body's size: nearer to its pins it does not swing
+constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is more than 40 degrees below level
+constexpr double kLimp = 2;       ///< of its length: cloth that a beam's formula lets sag further hangs
+constexpr double kHingeSweep = 8; ///< of B h^2 / (s edge^4): by how much softer one sweep bends
 
 glm::dvec3 centre_of_mass(const Body& body)
 {
@@ -208,7 +127,7 @@ double wave_speed_squared(const Body& body)
     return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
 }
 
-/// s: the longest substep in which a solid acts under xpbd as stiff as it is but for kSofter.
+/// s: the longest substep in which a body acts under xpbd as stiff as it is but for kSofter.
 double longest_for_stiffness(const Body& body, const SweepLoad& load)
 {
     return load.edge * std::sqrt(kSofter / wave_speed_squared(body));
@@ -253,11 +172,12 @@ double longest_for_waves(const Body& body, const SweepLoad& load, double iterati
     return square > 0 ? load.edge * std::sqrt(kWave * iterations / square) : HUGE_VAL;
 }
 
-/// s: the longest substep in which sweeps carry a body's weight.
-double longest_for_weight(const Scene& scene, const Body& body, const SweepLoad& load, double g)
+/// s: the longest substep in which sweeps carry a body that is pushed everywhere by so many m/s^2.
+double longest_for_push(const Scene& scene, const Body& body, const SweepLoad& load, const glm::dvec3& push)
 {
-    const bool spanned = is_spanned(body, scene.gravity);
-    const double pull = spanned ? 1 : swing_pull(body, scene.gravity / g);
+    const double g = glm::length(push);
+    const bool spanned = is_spanned(body, push);
+    const double pull = spanned ? 1 : swing_pull(body, push / g);
     const double open = 2 * std::max(load.vertices, 1.0) * pull * g; // m/s^2: see "Based on"
     const bool sweeps = scene.method.type != "vbd"; // whose steps at a vertex see all its triangles
     const auto is_membrane = [](const Body::Elements& e) { return e.kind == scene_file::kMembrane; };
@@ -267,8 +187,9 @@ double longest_for_weight(const Scene& scene, const Body& body, const SweepLoad&
     return std::sqrt(strain * load.edge / open);
 }
 
-/// s: the longest substep in which sweeps carry what a gas presses on closed cloth; no limit without.
-double longest_for_pressure(const Body& body, const SweepLoad& load)
+/// s: the longest substep in which sweeps carry what a gas presses on closed cloth; no limit without. What a
+/// gas of lower pressure draws in presses its edges together, and buckles where xpbd makes them softer.
+double longest_for_pressure(const Scene& scene, const Body& body, const SweepLoad& load)
 {
     const double force = std::abs(body.material.pressure) * area_of(body), mass = mass_of(body); // N, kg
     if (!(force > 0) || !(mass > 0))
@@ -278,7 +199,51 @@ double longest_for_pressure(const Body& body, const SweepLoad& load)
         all.take(p);
     const double radius = all.size() / (2 * std::sqrt(3.0)); // of a ball in that box
     const double vertices = std::max(1.0, radius / (2 * load.edge));
-    return std::sqrt(kSweepStrain * load.edge / (2 * vertices * force / mass));
+    const double carried = std::sqrt(kSweepStrain * load.edge / (2 * vertices * force / mass));
+    const bool buckles =
+        scene.method.type == "xpbd" && body.material.pressure < 0 && wave_speed_squared(body) > 0;
+    return buckles ? std::min(carried, longest_for_stiffness(body, load)) : carried;
+}
+
+/// m/s^2, by which the strongest wind pushes cloth that stands across it.
+glm::dvec3 wind_push(const Scene& scene, const Body& body)
+{
+    glm::dvec3 wind = scene.wind.velocity;
+    for (const Wind::Key& key : scene.wind.keys)
+        wind = glm::length(key.velocity) > glm::length(wind) ? key.velocity : wind;
+    const double mass = mass_of(body);
+    const double drag = scene.wind.density * body.material.drag * area_of(body) / 2;
+    return mass > 0 ? drag / mass * glm::length(wind) * wind : glm::dvec3(0);
+}
+
+/// s: the longest substep in which sweeps carry what blows into a sail; no limit for what is not held on all
+/// sides across the wind, and streams with it.
+double longest_for_wind(const Scene& scene, const Body& body, const SweepLoad& load)
+{
+    const glm::dvec3 push = wind_push(scene, body);
+    return is_spanned(body, push) ? longest_for_push(scene, body, load, push) : HUGE_VAL;
+}
+
+/// s: the longest substep in which cloth that stands out from its pins by its bending stiffness sags by no
+/// more than is seen too far, or bends no softer than kSofter; no limit for cloth that hangs, is spanned, or
+/// is too limp to stand out.
+double longest_for_bending(const Body& body, const SweepLoad& load, const glm::dvec3& gravity)
+{
+    const Material& m = body.material;
+    const FabricBending& woven = m.fabric.bending;
+    const double rigidity =
+        m.fabric.used && woven.used ? std::max(woven.warp, woven.weft) : m.bending_stiffness;
+    const double g = glm::length(gravity);
+    if (!(rigidity > 0) || body.pins.empty() || body.mesh.triangles.empty() || !(m.density > 0) ||
+        is_spanned(body, gravity) || swing_pull(body, gravity / g) < kStandsOut)
+        return HUGE_VAL;
+    const double steps = load.reach, length = load.length;
+    if (!(length > 0) || m.density * g * length * length * length > 8 * kLimp * rigidity)
+        return HUGE_VAL;
+    const double fourth = std::pow(length / steps, 4); // m^4, of an edge along the way
+    const double softer = kSofter * m.density * fourth / (kHingeSweep * rigidity);
+    const double seen = 8 * kSeenWay * length / (kHingeSweep * g * std::pow(steps, 4));
+    return std::sqrt(std::max(softer, seen));
 }
 
 /// s: the longest substep that a body allows.
@@ -289,20 +254,25 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     if (!(load.edge > 0) || body.kinematic.used) // whose vertices are all led
         return HUGE_VAL;
     const double sweeps = std::sqrt(scene.method.iterations);
-    const double gas = method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_pressure(body, load);
+    const double gas =
+        method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
+    const double carried = // whatever gravity does
+        method == "vbd" ? std::min(gas, longest_for_waves(body, load, scene.method.iterations)) : gas;
+    const double blown = method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_wind(scene, body, load);
     if (!(g > 0))
-        return gas;
+        return std::min(carried, blown);
     const bool meets = !scene.colliders.empty() || scene.contact.between;
     const double standing = meets ? longest_for_standing(body, load, scene.gravity) : HUGE_VAL;
     if (method == "implicit_euler")
         return standing;
-    const double weight = longest_for_weight(scene, body, load, g);
+    const double weight = sweeps * longest_for_push(scene, body, load, scene.gravity);
+    const double all = std::min({carried, blown, weight});
     if (method == "vbd") // whose contacts come once a substep, whatever the sweeps
-        return std::min(
-            {gas, sweeps * weight, longest_for_waves(body, load, scene.method.iterations), standing});
+        return std::min(all, standing);
     if (method == "pbd")
-        return std::min(gas, sweeps * weight);
-    return std::min(gas, sweeps * std::min({weight, longest_for_solid(body, load, g), standing}));
+        return all;
+    return std::min(all, sweeps * std::min({longest_for_solid(body, load, g), standing,
+                                            longest_for_bending(body, load, scene.gravity)}));
 }
 
 } // namespace
@@ -332,27 +302,6 @@ bool is_spanned(const Body& body, const glm::dvec3& gravity)
     const double below = glm::dot(off, down);
     return lowest - highest <= kBelow * size && pins.size() >= kSpan * size &&
            std::abs(below) <= kBelow * size && glm::length(off - below * down) <= kBeside * size;
-}
-
-SweepLoad sweep_load(const Body& body)
-{
-    const Neighbours around = neighbours_of(body);
-    std::vector<bool> held(around.size(), false);
-    std::vector<std::uint32_t> pinned;
-    for (const Pin& pin : body.pins)
-        for (const std::uint32_t v : pin.vertices)
-        {
-            held[v] = true;
-            pinned.push_back(v);
-        }
-    if (around.empty())
-        return {};
-    SweepLoad out;
-    out.edge = mean_edge(body, around);
-    out.reach = furthest(around, pinned.empty() ? std::vector{furthest(around, {0}).second} : pinned).first;
-    out.vertices =
-        pinned.empty() ? out.reach : std::max<double>(out.reach, hanging_vertices(body, around, held));
-    return out;
 }
 
 double wanted_substeps(const Scene& scene)

@@ -16,6 +16,7 @@ struct SweepLoad
 {
     double vertices = 0; ///< masses of one vertex that hang from one constraint, at most
     double edge = 0;     ///< m, mean length
+    double length = 0;   ///< m, straight from what is furthest, by edges, to the nearest pin; 0 without pins
     std::uint32_t reach = 0; ///< edges from the pins, or from one end, to what is furthest
 };
 SweepLoad sweep_load(const Body& resolved);
