@@ -2,14 +2,14 @@
 # What the pages conclude is what their tables say, and the tables of a page are the CSV files beside it: exit status 0
 # when all of it holds. In CI.
 #
-#   docs/check.sh [PAGE...]      cloth, contact, fabric, solids, hybrid, linear, acad, accuracy, bench, gpu; all without
+#   docs/check.sh [PAGE...]      cloth, contact, fabric, solids, hybrid, linear, acad, accuracy, bench, gpu, tune; all without
 set -eu
 cd "$(dirname "$0")"
 . ./put.sh
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 bad=0
-[ $# -gt 0 ] || set -- cloth contact fabric solids hybrid linear acad accuracy bench gpu
+[ $# -gt 0 ] || set -- cloth contact fabric solids hybrid linear acad accuracy bench gpu tune
 for page in "$@"; do
     case $page in
         accuracy) sh accuracy/check.sh ;;
@@ -28,6 +28,8 @@ for page in "$@"; do
         fabric) awk -f claims.awk -f fabric/claims.awk fabric.md fabric/overhang.csv ;;
         hybrid) awk -f claims.awk -f hybrid/claims.awk hybrid.md ../tests/bench/results/split.csv ;;
         gpu) awk -f results/gpu/claims.awk results/gpu.md ../tests/hardware/radv.csv || bad=1 ;;
+        tune) check_tables tune.md tune || bad=1
+            awk -f claims.awk -f tune/claims.awk tune.md tune/tune.csv ;;
         linear) awk -f claims.awk -f linear/claims.awk linear.md ../tests/bench/results/linear_*.csv ;;
         *) check_tables "$page.md" "$page" || bad=1
             awk -f claims.awk -f "$page/claims.awk" "$page.md" "$page"/*.csv ;;
