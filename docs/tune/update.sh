@@ -1,5 +1,5 @@
 #!/bin/sh
-# What `taut tune` answers for every example, written into docs/tune/tune.csv and the table of docs/tune.md: about 45
+# What `taut tune` answers for every example, written into docs/tune/tune.csv and the table of docs/tune.md: about 25
 # minutes on two cores with nothing beside it. Rows of scenes that are not named stay.
 #
 #   docs/tune/update.sh build/release/taut [SCENE...]      hanging, solids/drop, ...; all without
@@ -15,7 +15,7 @@ table=docs/tune/tune.csv
 all=$(cd examples/scenes && find . -name '*.json' | sed 's|^\./||; s|\.json$||' | sort)
 [ $# -gt 0 ] || set -- $all
 
-# Every row that there is, each as it comes: what is cut off is not lost.
+# The table is written after every scene: an interrupted run keeps its rows.
 for scene in "$@"; do
     begin=$(date +%s)
     status=0

@@ -106,9 +106,10 @@ std::vector<SceneIssue> find_issues(const std::string& file)
     {
         if (error.code() == ErrorCode::io)
             throw;
-        if (const std::string text = error.what(); error.code() == ErrorCode::out_of_memory)
+        const std::string text = error.what();
+        if (error.code() == ErrorCode::out_of_memory)
             throw Error(error.code(), text.starts_with(file + ":") ? text : file + ": " + text);
-        issues.push_back({true, "", error.what()});
+        issues.push_back({true, "", text});
     }
     return issues;
 }

@@ -107,7 +107,7 @@ void check_body(const Body& body, const Checker& out)
                   "is " + shown(body.material.tear_strain) +
                       ", but only cloth whose springs are its edges can tear; leave out the network and the "
                       "springs, or take a grid or a mesh");
-    if (body.material.attachment_slack >= 0 && body.pins.empty())
+    if (body.material.attachment_slack >= 0 && body.pins.empty() && !body.kinematic.used)
         out.warning("material.attachment_slack",
                     "is " + shown(body.material.attachment_slack) +
                         ", which does nothing: the body has no pins that its vertices could be attached to");

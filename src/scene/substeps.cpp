@@ -15,10 +15,10 @@
 //   sweep carries what happened at a vertex over about one edge: held bodies take as many as their waves
 //   need. Membranes, of which each corner hangs from several triangles at once, get a ninth of the strain. A
 //   gas of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
-//   one constraint (the tension of a sphere is p r / 2). A sail that is held all
-//   round is spanned by the wind's push. One sweep bends cloth softer by k B h^2 / (s edge^4), k measured,
-//   whatever B is where that is large: cloth that stands out sags by k g h^2 L^4 / (8 edge^4) too far.
-//   Measured in docs/methods.md.
+//   one constraint (the tension of a sphere is p r / 2); one that draws in presses edges together, which
+//   buckle where they act softer by (c h / edge)^2. A sail that is held all round is spanned by the wind's
+//   push. One sweep bends cloth softer by k B h^2 / (s edge^4), k measured, whatever B is where that is
+//   large: cloth that stands out sags by k g h^2 L^4 / (8 edge^4) too far. Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
@@ -37,7 +37,8 @@ namespace {
 constexpr double kSofter = 0.2;
 constexpr double kMembraneShare = 1.0 / 9; ///< of kSweepStrain
 constexpr double kShortArm = 0.05;         ///< of a body's size: nearer to its pins it does not swing
-constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is more than 40 degrees below level
+constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is within 41 degrees of the plumb
+constexpr double kPressed = 1e-4; ///< strain of edges that are pressed together: less buckles nothing
 constexpr double kLimp = 2;       ///< of its length: cloth that a beam's formula lets sag further hangs
 constexpr double kHingeSweep = 8; ///< of B h^2 / (s edge^4): by how much softer one sweep bends
 
@@ -200,33 +201,60 @@ double longest_for_pressure(const Scene& scene, const Body& body, const SweepLoa
     const double radius = all.size() / (2 * std::sqrt(3.0)); // of a ball in that box
     const double vertices = std::max(1.0, radius / (2 * load.edge));
     const double carried = std::sqrt(kSweepStrain * load.edge / (2 * vertices * force / mass));
-    const bool buckles =
-        scene.method.type == "xpbd" && body.material.pressure < 0 && wave_speed_squared(body) > 0;
+    if (scene.method.type != "xpbd" || !body.mesh.tetrahedra.empty())
+        return carried;
+    const double stiffness = wave_speed_squared(body) * body.material.density; // N/m; 0: rigid
+    const bool buckles = stiffness > 0 && -body.material.pressure * radius / 2 > kPressed * stiffness;
     return buckles ? std::min(carried, longest_for_stiffness(body, load)) : carried;
 }
 
-/// m/s^2, by which the strongest wind pushes cloth that stands across it.
+/// The mean of all triangles, of length 1 where they lie in a plane, 0 where they enclose a volume.
+glm::dvec3 mean_normal(const Body& body)
+{
+    const auto& x = body.mesh.positions;
+    glm::dvec3 sum(0);
+    for (const auto& t : body.mesh.triangles)
+        sum += glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]) / 2.0;
+    const double area = area_of(body);
+    return area > 0 ? sum / area : sum;
+}
+
+/// m/s^2, by which the wind pushes a body along its normal where it pushes most.
 glm::dvec3 wind_push(const Scene& scene, const Body& body)
 {
-    glm::dvec3 wind = scene.wind.velocity;
-    for (const Wind::Key& key : scene.wind.keys)
-        wind = glm::length(key.velocity) > glm::length(wind) ? key.velocity : wind;
+    const glm::dvec3 normal = mean_normal(body);
+    const auto square = [&](const glm::dvec3& v) { return glm::length(v) * std::abs(glm::dot(v, normal)); };
+    const auto& keys = scene.wind.keys;
+    double most = keys.empty() || keys.front().time > 0 ? square(scene.wind.velocity) : 0;
+    for (const Wind::Key& key : keys)
+        most = std::max(most, square(key.velocity));
     const double mass = mass_of(body);
     const double drag = scene.wind.density * body.material.drag * area_of(body) / 2;
-    return mass > 0 ? drag / mass * glm::length(wind) * wind : glm::dvec3(0);
+    return mass > 0 ? drag / mass * most * normal : glm::dvec3(0);
 }
 
 /// s: the longest substep in which sweeps carry what blows into a sail; no limit for what is not held on all
-/// sides across the wind, and streams with it.
+/// sides of its plane, as a flag, which streams.
 double longest_for_wind(const Scene& scene, const Body& body, const SweepLoad& load)
 {
     const glm::dvec3 push = wind_push(scene, body);
     return is_spanned(body, push) ? longest_for_push(scene, body, load, push) : HUGE_VAL;
 }
 
+/// Whether pins hold the direction of a body, not places alone.
+bool holds_a_triangle(const Body& body)
+{
+    std::vector<bool> held(body.mesh.positions.size(), false);
+    for (const Pin& pin : body.pins)
+        for (const std::uint32_t v : pin.vertices)
+            held[v] = true;
+    return std::ranges::any_of(body.mesh.triangles,
+                               [&](const auto& t) { return held[t[0]] && held[t[1]] && held[t[2]]; });
+}
+
 /// s: the longest substep in which cloth that stands out from its pins by its bending stiffness sags by no
-/// more than is seen too far, or bends no softer than kSofter; no limit for cloth that hangs, is spanned, or
-/// is too limp to stand out.
+/// more than is seen too far, or bends no softer than kSofter; no limit for cloth that hangs, is spanned, is
+/// held about its middle or by an axle (no triangle is held), or is too limp to stand out.
 double longest_for_bending(const Body& body, const SweepLoad& load, const glm::dvec3& gravity)
 {
     const Material& m = body.material;
@@ -235,7 +263,7 @@ double longest_for_bending(const Body& body, const SweepLoad& load, const glm::d
         m.fabric.used && woven.used ? std::max(woven.warp, woven.weft) : m.bending_stiffness;
     const double g = glm::length(gravity);
     if (!(rigidity > 0) || body.pins.empty() || body.mesh.triangles.empty() || !(m.density > 0) ||
-        is_spanned(body, gravity) || swing_pull(body, gravity / g) < kStandsOut)
+        !holds_a_triangle(body) || is_spanned(body, gravity) || swing_pull(body, gravity / g) < kStandsOut)
         return HUGE_VAL;
     const double steps = load.reach, length = load.length;
     if (!(length > 0) || m.density * g * length * length * length > 8 * kLimp * rigidity)
@@ -277,14 +305,14 @@ double longest_substep(const Scene& scene, const Body& body, double g)
 
 } // namespace
 
-bool is_spanned(const Body& body, const glm::dvec3& gravity)
+bool is_spanned(const Body& body, const glm::dvec3& push)
 {
     constexpr double kSpan = 0.5, kBeside = 0.1, kBelow = 0.2; // of the body's size
-    if (!(glm::length(gravity) > 0))
+    if (!(glm::length(push) > 0))
         return false;
-    const glm::dvec3 down = glm::normalize(gravity);
+    const glm::dvec3 down = glm::normalize(push);
     Extent all, pins;
-    double highest = HUGE_VAL, lowest = -HUGE_VAL; // pins, along gravity
+    double highest = HUGE_VAL, lowest = -HUGE_VAL; // pins, along the push
     for (const glm::dvec3& p : body.mesh.positions)
         all.take(p);
     for (const Pin& pin : body.pins)

@@ -6,7 +6,7 @@
 namespace taut {
 
 inline constexpr std::uint32_t kLeastSubsteps = 10;
-/// Strain that sweeps over constraints or vertices may leave under the scene's own weight.
+/// Strain that sweeps over constraints or vertices may leave under the scene's own loads.
 inline constexpr double kSweepStrain = 0.01;
 /// A hundredth of a body's size is where somebody sees that it hangs elsewhere.
 inline constexpr double kSeenWay = 0.01;
@@ -21,7 +21,8 @@ struct SweepLoad
 };
 SweepLoad sweep_load(const Body& resolved);
 
-/// Whether pins on all sides carry a body across gravity, as a hammock: then strain shows as its root.
-bool is_spanned(const Body& resolved, const glm::dvec3& gravity);
+/// Whether pins on all sides carry a body across a push, of gravity or the wind, as a hammock or a sail: then
+/// strain shows as its root. A push of 0 spans nothing.
+bool is_spanned(const Body& resolved, const glm::dvec3& push);
 
 } // namespace taut

@@ -38,7 +38,7 @@ constexpr Key kMethod[] = {
     key<&MethodSettings::substeps>("substeps", "parts of a time step; the main price of accuracy")
         .range(1, kMostSubsteps)
         .or_word("automatic", 0)
-        .usually("\"automatic\": what mesh, weight and gas ask for "
+        .usually("\"automatic\": what mesh, material and loads ask for "
                  "([rule](methods.md#substeps-that-nobody-named))"),
     key<&MethodSettings::iterations>(
         "iterations", "in a substep: sweeps (pbd, xpbd, vbd), Newton steps (implicit_euler), linear solves "

@@ -189,12 +189,12 @@ inline double difference(const std::vector<double>& a, const std::vector<double>
     return norm(d) / norm(b);
 }
 
-struct Thousand
+struct RandomSystems
 {
     std::vector<System> systems;
     std::vector<std::vector<double>> exact;
 
-    explicit Thousand(std::uint32_t count = 1000)
+    explicit RandomSystems(std::uint32_t count)
     {
         conformance::Random random(31);
         for (std::uint32_t k = 0; k < count; ++k)

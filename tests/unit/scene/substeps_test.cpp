@@ -131,10 +131,12 @@ TEST_CASE("a gas asks for substeps, also without gravity", "[substeps]")
     const double strong = substeps(1000);
     CHECK(strong > 20);
     CHECK(substeps(4000) == Approx(2 * strong).margin(2));
-    CHECK(substeps(-1000) >= strong); // what is sucked in likewise
-    scene.bodies[0].material.stretch_stiffness = 1e4;
-    CHECK(substeps(1) == 10);
-    CHECK(substeps(-1) > 30); // edges that are pressed together buckle where they act softer
+    const double drawn_in = substeps(-20); // edges that are pressed together buckle where they act softer
+    CHECK(drawn_in > 30);
+    CHECK(substeps(-40) == drawn_in);
+    CHECK(substeps(-1e-3) == 10); // not by so little
+    scene.method.type = "pbd";
+    CHECK(substeps(-1000) == strong);
     scene.method.type = "implicit_euler";
     CHECK(substeps(1000) == 10);
 }
@@ -220,8 +222,10 @@ TEST_CASE("a sail that is held all round takes what the wind asks for, a flag do
     body.shape.cells = {10, 10};
     body.material.density = 0.2;
     body.material.drag = 1.2;
+    body.material.stretch_stiffness = 0;
+    body.material.fabric = {.used = true, .warp = 5000, .weft = 5000, .shear = 500};
     scene.wind.density = 1.2;
-    scene.wind.keys = {{0, {0, 0, 1}}, {1, {0, 0, 4}}};
+    scene.wind.keys = {{0, {0, 0, 1}}, {1, {0, 0, 4}}, {2, {9, 0, 0}}}; // the last blows along the sail
     scene.method.substeps = 0;
     const auto substeps = [&](const char* method, std::vector<std::string> edges) {
         body.pins.clear();
@@ -234,7 +238,16 @@ TEST_CASE("a sail that is held all round takes what the wind asks for, a flag do
     CHECK(substeps("pbd", {"top", "bottom", "left", "right"}) == sail);
     CHECK(substeps("implicit_euler", {"top", "bottom", "left", "right"}) == 10);
     CHECK(substeps("xpbd", {"left"}) == 10);
+    scene.gravity = {0, -1e-3, 0};
+    CHECK(substeps("xpbd", {"top", "bottom", "left", "right"}) == sail);
+    scene.wind.keys = {{0, {4, 0, 4}}}; // 32 (m/s)^2 at 45 degrees: more than 16 straight at it
+    CHECK(substeps("xpbd", {"top", "bottom", "left", "right"}) > sail);
+    scene.wind.velocity = {0, 0, 40}; // nobody sees it: the first key is at the start
+    CHECK(substeps("xpbd", {"top", "bottom", "left", "right"}) < 2 * sail);
     scene.wind.keys.clear();
+    scene.wind.velocity = {0, 0, 4};
+    CHECK(substeps("xpbd", {"top", "bottom", "left", "right"}) == sail);
+    scene.wind.velocity = {0, 0, 0};
     CHECK(substeps("xpbd", {"top", "bottom", "left", "right"}) == 10);
 }
 
@@ -264,29 +277,55 @@ TEST_CASE("cloth that stands out by its bending stiffness takes substeps by its 
     body.shape.size = {0.0125, 0.05};
     body.material.density = 0.2;
     body.material.bending_stiffness = 0.003;
-    body.pins.emplace_back().edges = {"top"};
+    body.pins.emplace_back().vertices = {0, 1, 2, 3, 4, 5}; // two rows
     scene.method.type = "xpbd";
     const auto substeps = [&] {
         scene.method.substeps = 0;
         return resolve(scene).method.substeps;
     };
     scene.gravity = {0, 0, -9.81}; // across the strip
-    const std::uint32_t standing = substeps();
+    const double standing = substeps();
     CHECK(standing > 100);
     body.material.bending_stiffness = 0.3; // what sags too far does not depend on it
     CHECK(substeps() == standing);
     body.material.fabric = {.used = true, .warp = 1e4, .weft = 1e4, .shear = 1e3};
     body.material.stretch_stiffness = body.material.bending_stiffness = 0;
-    body.material.fabric.bending = {.used = true, .warp = 0.003, .weft = 0.003};
+    body.material.fabric.bending = {.used = true, .warp = 1e-9, .weft = 0.003};
     CHECK(substeps() == standing);
     body.material.fabric = {};
-    body.material.stretch_stiffness = 1e4;
-    body.material.bending_stiffness = 1e-7; // limp: it hangs
-    CHECK(substeps() < standing / 2);
+    body.material.stretch_stiffness = 10;
     body.material.bending_stiffness = 0.3;
-    scene.gravity = {0, -9.81, 0}; // along it
+    CHECK(substeps() == standing);
+    scene.method.type = "vbd"; // whose steps at a vertex are in balance with its hinges
     CHECK(substeps() < standing / 2);
+    scene.method.type = "xpbd";
+    body.pins[0].vertices = {0, 1, 2}; // an axle
+    CHECK(substeps() < standing / 2);
+    body.pins[0].vertices = {0, 1, 2, 3, 4, 5};
+    scene.gravity = {0, -9.81, 0}; // along it, from one end or from the other
+    const double hanging = substeps();
+    scene.gravity = {0, 9.81, 0};
+    CHECK(std::min<double>(hanging, substeps()) < standing / 2);
+}
+
+TEST_CASE("cloth that is too limp to stand out takes the substeps of its weight", "[substeps]")
+{
+    Scene scene;
+    scene.bodies.resize(1);
+    Body& body = scene.bodies[0];
+    body.shape.cells = {2, 32};
+    body.shape.size = {0.0625, 1};
+    body.material.density = 0.2;
+    body.pins.emplace_back().vertices = {0, 1, 2, 3, 4, 5};
     scene.gravity = {0, 0, -9.81};
-    scene.method.type = "vbd";
-    CHECK(substeps() != standing); // whose steps at a vertex are in balance with its hinges
+    scene.method.type = "xpbd";
+    const auto substeps = [&](double rigidity) -> double {
+        body.material.bending_stiffness = rigidity;
+        scene.method.substeps = 0;
+        return resolve(scene).method.substeps;
+    };
+    const double length = 31.0 / 32, limit = 0.2 * 9.81 * length * length * length / 16;
+    CHECK(substeps(0.9 * limit) == substeps(0));
+    CHECK(substeps(1.1 * limit) > 1.5 * substeps(0));
+    CHECK(substeps(4.4 * limit) == Approx(2 * substeps(1.1 * limit)).margin(2)); // no softer than by a fifth
 }
