@@ -53,17 +53,18 @@ std::string hash_on(const std::shared_ptr<Device>& device, const std::string& na
     return text.str();
 }
 
-/// Set by ctest: of the scenes OpenGL runs a quarter by each of its two ways to a shader; alone, all by both.
+/// Set by ctest: each scene runs on one of the drivers, half of them on Vulkan, a quarter by each of OpenGL's
+/// two ways to a shader; alone, all on all.
 bool short_run() { return std::getenv("TAUT_GOLDEN_SHORT") != nullptr; }
 
 bool is_run(const std::string& selector, std::size_t scene)
 {
     const std::vector<std::string>& all = test_devices();
     const auto has = [&](const char* one) { return std::find(all.begin(), all.end(), one) != all.end(); };
-    const bool both = has("opengl") && has("opengl:spirv");
-    if (!short_run() || !both || !selector.starts_with("opengl"))
+    const bool every = has("vulkan") && has("opengl") && has("opengl:spirv");
+    if (!short_run() || !every || selector.starts_with("cpu"))
         return true;
-    return scene % 4 == (selector == "opengl" ? 0 : 2);
+    return selector == "vulkan" ? scene % 2 == 1 : scene % 4 == (selector == "opengl" ? 0 : 2);
 }
 
 /// In a short run a third on software drivers for what solves linear systems: hundreds of dispatches a step.
