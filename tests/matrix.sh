@@ -5,9 +5,9 @@
 # uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
 # tests/run.sh in a chroot of that Debian (tests/chroot.sh). executors: physics, golden scenes and linear
-# systems on every executor, of which ctest runs some. hard: the hard cases and the whole map in full on every executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer,
-# for half an hour. A part that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit
-# status 1 if any failed.
+# systems on every executor, of which ctest runs some. hard: the hard cases and the whole map in full on every
+# executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer, for half an hour. A part
+# that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any failed.
 # shellcheck disable=SC2317 # parts are called by name
 set -uo pipefail
 

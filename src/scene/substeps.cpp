@@ -23,6 +23,7 @@
 #include "taut/scene/substeps.hpp"
 
 #include "taut/scene/extent.hpp"
+#include "taut/scene/held.hpp"
 #include "taut/scene/membrane.hpp"
 
 #include <glm/geometric.hpp>
@@ -244,10 +245,7 @@ double longest_for_wind(const Scene& scene, const Body& body, const SweepLoad& l
 /// Whether pins hold the direction of a body, not places alone.
 bool holds_a_triangle(const Body& body)
 {
-    std::vector<bool> held(body.mesh.positions.size(), false);
-    for (const Pin& pin : body.pins)
-        for (const std::uint32_t v : pin.vertices)
-            held[v] = true;
+    const std::vector<bool> held = held_vertices(body);
     return std::ranges::any_of(body.mesh.triangles,
                                [&](const auto& t) { return held[t[0]] && held[t[1]] && held[t[2]]; });
 }

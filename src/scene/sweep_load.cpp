@@ -1,5 +1,6 @@
 // A body as a method that sweeps sees it: what hangs from one constraint, and how far from its pins.
 
+#include "taut/scene/held.hpp"
 #include "taut/scene/substeps.hpp"
 
 #include <glm/geometric.hpp>
@@ -101,14 +102,9 @@ double hanging_vertices(const Body& body, const Neighbours& around, const std::v
 SweepLoad sweep_load(const Body& body)
 {
     const Neighbours around = neighbours_of(body);
-    std::vector<bool> held(around.size(), false);
     std::vector<std::uint32_t> pinned;
     for (const Pin& pin : body.pins)
-        for (const std::uint32_t v : pin.vertices)
-        {
-            held[v] = true;
-            pinned.push_back(v);
-        }
+        pinned.insert(pinned.end(), pin.vertices.begin(), pin.vertices.end());
     if (around.empty())
         return {};
     SweepLoad out;
@@ -121,8 +117,9 @@ SweepLoad sweep_load(const Body& body)
     };
     const auto nearest = std::ranges::min_element(pinned, {}, apart);
     out.length = nearest == pinned.end() ? 0 : apart(*nearest);
-    out.vertices =
-        pinned.empty() ? out.reach : std::max<double>(out.reach, hanging_vertices(body, around, held));
+    out.vertices = pinned.empty()
+                       ? out.reach
+                       : std::max<double>(out.reach, hanging_vertices(body, around, held_vertices(body)));
     return out;
 }
 
