@@ -10,6 +10,7 @@
 
 #include "taut/plan/topology.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/held.hpp"
 #include "taut/scene/membrane.hpp"
 
 #include <glm/geometric.hpp>
@@ -83,10 +84,7 @@ void fill_stiffness(const Body& body, const glm::dvec3& u, std::size_t t, const 
 std::vector<Plate> plates_of(const Body& body)
 {
     const auto& x = body.mesh.positions;
-    std::vector<bool> held(x.size(), false);
-    for (const Pin& pin : body.pins)
-        for (const std::uint32_t v : pin.vertices)
-            held[v] = true;
+    const std::vector<bool> held = held_vertices(body);
     const glm::dmat3 rigidity = rigidity_of(body.material);
     const std::vector<glm::dvec3> warp =
         body.material.fabric.used ? scene_file::warp_directions(body) : std::vector<glm::dvec3>();
