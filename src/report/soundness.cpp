@@ -209,6 +209,25 @@ Soundness judge_inverted(const RunState& state)
                      "; take more substeps or iterations, or stiffer material where its loads crush it");
 }
 
+/// A surface that is inside out encloses nothing that a gas could push on; nor does torn cloth, which is not
+/// judged.
+Soundness judge_inside_out(const PhysicalModel& model, const RunState& state)
+{
+    if (state.x.size() != model.mass.size())
+        return {};
+    for (const GasElement& e : model.gases)
+    {
+        const double share = enclosed_volume(e.triangles, state.x) / e.rest_volume;
+        if (share < -state.scene.accept.stretch)
+            return found(Status::unconverged,
+                         "closed cloth with a pressure is inside out: it encloses " + shown(share, 3) +
+                             " of its volume at rest, -accept.stretch is " +
+                             shown(-state.scene.accept.stretch, 3) +
+                             "; give it less suction, more stiffness, or contact with itself");
+    }
+    return {};
+}
+
 /// Constraint enforcement keeps lengths by their rates: after a step that was solved no spring changes its
 /// length much. Root mean square over springs, of their lengths, in a substep.
 double length_change(const PhysicalModel& model, const RunState& state)
@@ -341,6 +360,7 @@ Soundness judge_state(const EnergyBudget& budget, const RunState& state)
     out = worse(out, motion);
     out = worse(out, judge_strain(strain, state.scene.accept.stretch));
     out = worse(out, judge_inverted(state));
+    out = worse(out, judge_inside_out(budget.model(), state));
     out = worse(out, judge_rates(budget.model(), state));
     const double bound = kUnconvergedEnergy * most + slack;
     out = worse(out, judge_energy(energy, most, bound, Status::unconverged, what));

@@ -9,6 +9,7 @@
 #include "taut/report/reference_dynamic.hpp"
 #include "taut/report/reference_static.hpp"
 #include "taut/report/report.hpp"
+#include "taut/report/soundness.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -199,4 +200,24 @@ TEST_CASE("the bound on frequencies counts a gas", "[gas]")
     const double volume = enclosed_volume(with.gases[0].triangles, x);
     const double pressure = 5000 * with.gases[0].rest_volume / volume;
     CHECK(more > pressure * square / volume);
+}
+
+TEST_CASE("closed cloth with a suction that has turned inside out is unconverged")
+{
+    const bool inwards = GENERATE(false, true);
+    Scene scene = balloon("isothermal", -100, inwards);
+    scene.bodies[0].material.stretch_stiffness = 1e-6; // what is strained has next to no energy
+    const auto judged = [&](double share) {
+        std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+        for (glm::dvec3& p : x)
+            p.y *= share;
+        const std::vector<glm::dvec3> still(x.size(), glm::dvec3(0));
+        return judge_state(EnergyBudget(scene),
+                           {scene, x, still, {1, 1.0 / 600, 0, true, 0}, Precision::float32, {}, 0});
+    };
+    CHECK(judged(1).sound());
+    CHECK(judged(-0.05).sound()); // two layers that lie on each other, and cross a little
+    const Soundness turned = judged(-0.5);
+    CHECK(turned.status == Status::unconverged);
+    CHECK_THAT(turned.reason, Contains("inside out: it encloses -0.5"));
 }
