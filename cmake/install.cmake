@@ -6,7 +6,7 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 
 # ---------------------------------------------------------------- headers
 # What a program may use, and nothing else: a header that is not here can change without notice. The test
-# install_prefix compiles each alone.
+# install_prefix compiles them (each alone in tests/matrix.sh headers).
 set(taut_public_headers
     elements/element.hpp
     scene/scene.hpp scene/contact.hpp scene/fabric.hpp scene/fabric_readings.hpp scene/method_kind.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The suites that take longer than a build should: run before a release, one line of summary a part.
 #   tests/matrix.sh [PART...]      all by default
-# release: tests/run.sh, and the benches are built. headers: each file alone and without precompiled headers, so that it includes what it
-# uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
+# release: tests/run.sh, and the benches are built. headers: each file, and each installed header, alone and without precompiled
+# headers, so that it includes what it uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
 # tests/run.sh in a chroot of that Debian (tests/chroot.sh). executors: physics, golden scenes and linear
 # systems on every executor, of which ctest runs some. hard: the hard cases and the whole map in full on every
@@ -30,7 +30,8 @@ part_release()
 part_headers() {
     cd "$root" && cmake -S . -B build/headers -DCMAKE_BUILD_TYPE=Debug -DTAUT_BUILD_TESTS=ON \
         -DTAUT_BUILD_EXAMPLES=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DTAUT_UNITY=OFF &&
-        cmake --build build/headers --parallel "$jobs"
+        cmake --build build/headers --parallel "$jobs" &&
+        TAUT_HEADERS_ALONE=1 ctest --test-dir build/headers --output-on-failure -R install_prefix
 }
 
 part_asan() { preset asan; }
