@@ -39,6 +39,7 @@ struct Substep
     /// With dampers as springs: that of the view, which outlives it, where there are none.
     std::shared_ptr<const PhysicalModel> model;
     std::vector<glm::dvec3> moved, inertia; ///< m; (x - x~) / h^2, m/s^2
+    std::vector<glm::dvec3> gas;            ///< N, a part of what x~ was pushed with
     Leftover left;
 };
 
@@ -96,6 +97,7 @@ std::optional<Substep> last_substep(const View& view, double time = 0)
         out.inertia.push_back((out.moved[i] - guess[i]) / (h * h));
         out.left.force[i] = mass * out.inertia[i] - elastic;
     }
+    out.gas = std::move(gas);
     return out;
 }
 
@@ -208,19 +210,23 @@ std::size_t body_of(const PhysicalModel& model, std::uint32_t vertex)
 std::vector<bool> beside(const PhysicalModel& model, const std::vector<bool>& touches)
 {
     std::vector<bool> out(touches.size(), false);
-    const auto spread = [&](std::initializer_list<std::uint32_t> corners) {
+    const auto spread = [&](const auto& corners) {
         if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return touches[v]; }))
             for (const std::uint32_t v : corners)
                 out[v] = !touches[v];
     };
     for (const StretchElement& e : model.springs)
-        spread({e.a, e.b});
+        spread(std::array{e.a, e.b});
     for (const BendElement& e : model.hinges)
-        spread({e.edge0, e.edge1, e.wing0, e.wing1});
+        spread(std::array{e.edge0, e.edge1, e.wing0, e.wing1});
     for (const VolumeElement& e : model.volumes)
-        spread({e.vertex[0], e.vertex[1], e.vertex[2], e.vertex[3]});
+        spread(e.vertex);
     for (const SolidElement& e : model.solids)
-        spread({e.vertex[0], e.vertex[1], e.vertex[2], e.vertex[3]});
+        spread(e.vertex);
+    for (const PlateHinge& h : model.plates)
+        spread(std::array{h.element.edge0, h.element.edge1, h.element.wing0, h.element.wing1});
+    for (const AddedElement& e : model.added)
+        spread(std::span(e.vertex).first(e.kind->corners));
     return out;
 }
 
@@ -243,6 +249,13 @@ std::vector<double> least_loads(const View& view, double substep)
     return out;
 }
 
+/// m/s^2: what elements have answered, but, under xpbd, to gases: that is held against what these move.
+glm::dvec3 answered(const View& view, const Substep& last, std::size_t vertex)
+{
+    const bool apart = method_of(view.world.scene()) == MethodKind::xpbd;
+    return last.inertia[vertex] + (apart ? last.gas[vertex] / last.model->mass[vertex] : glm::dvec3(0));
+}
+
 /// Puts loads and touches of all vertices into `last`.
 void put_loads(const View& view, Substep& last)
 {
@@ -252,7 +265,8 @@ void put_loads(const View& view, Substep& last)
     for (std::size_t b = 0; b < least.size(); ++b)
         for (std::size_t i = view.model.body_start[b]; i < view.model.body_start[b + 1]; ++i)
         {
-            last.left.load[i] = last.model->mass[i] * std::max(least[b], glm::length(last.inertia[i]));
+            const double own = glm::length(answered(view, last, i));
+            last.left.load[i] = last.model->mass[i] * std::max(least[b], own);
             // One that a collider pushed may have left it in the same substep.
             ways.push_back(glm::length(last.moved[i]) + gravity * h * h);
         }
@@ -264,6 +278,8 @@ void put_loads(const View& view, Substep& last)
     for (std::size_t i = 0; i < met.size(); ++i)
         last.left.touches[i] = last.left.touches[i] || met[i];
     last.left.beside = beside(*last.model, last.left.touches);
+    if (!last.model->gases.empty())
+        last.left.gas = last.gas;
 }
 
 /// Bodies with forces that are on no record, or that join far vertices.
@@ -282,10 +298,6 @@ std::vector<bool> unjudged_bodies(const View& view)
     mark_rigid(model.volumes, [](const VolumeElement& e) { return e.vertex[0]; });
     for (const SurfaceElement& e : model.surfaces)
         mark(e.triangles.at(0)[0]);
-    for (const AddedElement& e : model.added)
-        mark(e.vertex[0]);
-    for (const PlateHinge& e : model.plates)
-        mark(e.element.edge0);
     const auto& bodies = view.world.scene().bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b)
         out[b] = out[b] || bodies[b].material.attachment_slack >= 0;
@@ -304,9 +316,8 @@ PhysicalModel judged_part(const PhysicalModel& model, const std::vector<bool>& u
     drop(out.volumes, [](const VolumeElement& e) { return e.vertex[0]; });
     drop(out.solids, [](const SolidElement& e) { return e.vertex[0]; });
     drop(out.gases, [](const GasElement& e) { return e.triangles.at(0)[0]; });
-    out.surfaces.clear();
-    out.added.clear();
-    out.plates.clear();
+    drop(out.added, [](const AddedElement& e) { return e.vertex[0]; });
+    out.surfaces.clear(); // plates stay: they know each other by their places, and held vertices need none
     for (std::uint32_t i = 0; i < out.pinned.size(); ++i)
         out.pinned[i] = out.pinned[i] || unjudged[body_of(model, i)];
     return out;

@@ -4,7 +4,8 @@
 //   the distance to a minimum in the variables; the gradient does so in forces, which say little where
 //   directions differ in stiffness).
 // Departures: taken relative to the motion that the loads alone make, by mass; under methods of one sweep in
-//   many small substeps, whose leftovers add up over them, to what the loads move in a long time. A sweep
+//   many small substeps, whose leftovers add up over them, to what the loads move in a long time, and without
+//   the tension that these leftovers make (docs/decisions.md, 70). A sweep
 //   carries a load over one link: where too few are taken, what is left is small beside the springs' own
 //   forces, and yet the body hangs in the air. Roundings of stiff springs are large forces that move nothing.
 
@@ -27,7 +28,6 @@
 namespace taut {
 namespace {
 
-using reference::Curvature;
 using reference::State;
 using reference::StaticEnergy;
 using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
@@ -51,7 +51,7 @@ State state_of(std::span<const glm::dvec3> x)
 std::vector<Motion> factored_steps(const StaticEnergy& energy, std::span<const glm::dvec3> x,
                                    const Leftover& left, const std::vector<Motion>& forces)
 {
-    Matrix stiffness = energy.hessian(state_of(x), Curvature::projected, 1 / (left.time * left.time));
+    Matrix stiffness = energy.hessian(state_of(x), left.curvature(), 1 / (left.time * left.time));
     Eigen::MatrixXd force =
         Eigen::MatrixXd::Zero(energy.unknowns(), static_cast<Eigen::Index>(forces.size()));
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -75,7 +75,8 @@ std::vector<Motion> factored_steps(const StaticEnergy& energy, std::span<const g
     return out;
 }
 
-/// m, of each vertex: the Newton step, and what the loads move along gravity, or along each axis without.
+/// m, of each vertex: the Newton step, and what the loads move along gravity, or along each axis without, and
+/// what gases move.
 struct Steps
 {
     Motion left;
@@ -122,6 +123,8 @@ std::vector<Motion> forces_of(const PhysicalModel& model, const Leftover& left)
             for (const double load : left.load)
                 loads.push_back(load * pull);
         }
+    if (left.against_response && !left.gas.empty())
+        out.push_back(left.gas);
     return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Whether bodies answer to their loads.
 
+#include "taut/report/curvature.hpp"
 #include "taut/report/model.hpp"
 #include "taut/scene/substeps.hpp"
 
@@ -13,13 +14,22 @@ namespace taut {
 struct Leftover
 {
     std::vector<glm::dvec3> force; ///< N: M (x - x~) / h^2 - f(x)
-    std::vector<double> load;  ///< N: mass times the larger of gravity (or its stand-in) and |(x - x~) / h^2|
+    /// N: mass times the larger of gravity (or its stand-in) and |(x - x~) / h^2|, of which `gas` is no part.
+    std::vector<double> load;
     std::vector<bool> touches; ///< something whose force is on no record: a collider, a limit
     std::vector<double> carried;   ///< m: how far a held one was moved within `time`; may be empty
     double time = 0;               ///< s, > 0: the substep, or what a body has to answer in
     bool against_response = false; ///< loads count by what they move within `time`, not free of everything
+    /// N: what gases push with, against which `against_response` counts, too; may be empty.
+    std::vector<glm::dvec3> gas = {};
     std::vector<bool> beside = {}; ///< shares an element with one that touches, whose push it has yet to
                                    ///< follow; may be empty
+    /// Of the Newton step. What sweeps leave strains springs at random, by far more than loads do; what that
+    /// tension adds would hold the step back.
+    reference::Curvature curvature() const
+    {
+        return against_response ? reference::Curvature::elastic : reference::Curvature::projected;
+    }
     bool is_beside(std::size_t vertex) const { return !beside.empty() && beside[vertex]; }
 };
 
@@ -31,16 +41,17 @@ struct LoadResidual
 };
 
 /// What one exact Newton step d would still move of a body's mass, over what its loads move in the time t:
-/// sum m |d| / sum (t^2 l + m c) over its free vertices, c the longest way of one of its held vertices, with
-/// (M / t^2 + K) d = -r, K made positive semidefinite element by element; with `against_response` over sum m
-/// |e|, (M / t^2 + K) e = l along gravity, or without any along the axis for which that is largest. 0
-/// solved, 1 as if nothing pulled. That of the body with the largest share of those whose way is above
-/// kSeenWay, or of all where none is. Contacts push after the solve, and what lies on them has yet to follow:
-/// vertices that touch stay where they are, and r is 0 at those beside them; of such bodies half of d is
-/// counted. Where that is most of a body, r counts beside them, too, and of d what goes along gravity alone;
-/// without gravity nothing is said of it. Infinite where the step is not finite. Models of
-/// more than 10,000 free vertices (of solids: 2,000) are solved by conjugate gradients, to about 3 % of the
-/// share or 0.002, but where a few loose vertices alone carry what the loads move (docs/decisions.md, 51).
+/// sum m |d| / sum (t^2 l + m c) over its free vertices, c the longest way of one of its held vertices,
+/// with (M / t^2 + K) d = -r, K made positive semidefinite element by element (Leftover::curvature). With
+/// `against_response` over sum m |e|, (M / t^2 + K) e = l along gravity, or without any along each axis, or
+/// e of the gases' forces, whichever moves most. 0 solved, 1 as if nothing pulled. That of the body with
+/// the largest share of those whose way is above kSeenWay, or of all where none is. Contacts push after the
+/// solve, and what lies on them has yet to follow: vertices that touch stay where they are, and r is 0 at
+/// those beside them; of such bodies half of d is counted. Where that is most of a body, r counts beside
+/// them, too, and of d what goes along gravity alone; without gravity nothing is said of it. Infinite where
+/// the step is not finite. Models of more than 10,000 free vertices (of solids: 2,000) are solved by
+/// conjugate gradients, to about 3 % of the share or 0.002, but where a few loose vertices alone carry what
+/// the loads move (docs/decisions.md, 51).
 LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);
 
 } // namespace taut

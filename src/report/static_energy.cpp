@@ -5,7 +5,8 @@
 //   eigenvalues of its 9 x 9 matrix that are negative set to zero.
 #include "taut/report/static_energy.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "taut/report/added_stiffness.hpp"
+#include "taut/report/positive_part.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,8 @@ std::array<std::uint32_t, 4> vertices(const BendElement& h)
     return {h.edge0, h.edge1, h.wing0, h.wing1};
 }
 
-/// k (n n^T + (1 - L/l) (I - n n^T)); the second part is dropped in compression when projected.
+/// k (n n^T + (1 - L/l) (I - n n^T)); the second part is dropped in compression when projected, and always
+/// when elastic.
 Eigen::Matrix3d spring_block(const StretchElement& s, const Vec<double>& d, Curvature curvature)
 {
     const Eigen::Vector3d v(d.x, d.y, d.z);
@@ -95,8 +97,8 @@ Eigen::Matrix3d spring_block(const StretchElement& s, const Vec<double>& d, Curv
         return k * Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d along = v * v.transpose() / (l * l);
     double side = 1 - s.rest_length / l;
-    if (curvature == Curvature::projected)
-        side = std::max(side, 0.0);
+    if (curvature != Curvature::exact)
+        side = curvature == Curvature::elastic ? 0 : std::max(side, 0.0);
     return k * (along + side * (Eigen::Matrix3d::Identity() - along));
 }
 
@@ -147,12 +149,8 @@ Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
 Matrix12 solid_block(const SolidElement& e, const State& x, Curvature curvature)
 {
     Matrix9 k = stress_derivative(e, deformation(e, x));
-    if (curvature == Curvature::projected)
-    {
-        const Eigen::SelfAdjointEigenSolver<Matrix9> solver(0.5 * (k + k.transpose()));
-        const Eigen::Matrix<double, 9, 1> kept = solver.eigenvalues().cwiseMax(0);
-        k = solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
-    }
+    if (curvature != Curvature::exact)
+        k = positive_part(k);
     const Eigen::Matrix3d b = inverse_rest(e).cast<double>();
     Eigen::Matrix<double, 9, 12> chain = Eigen::Matrix<double, 9, 12>::Zero(); // dF by the corners
     for (int c = 0; c < 3; ++c)
@@ -284,14 +282,19 @@ void StaticEnergy::elements(const std::function<void(std::span<const std::uint32
         visit(vertices(h));
     for (const SolidElement& e : solids_)
         visit(e.vertex);
+    for (const PlateHinge& h : model_.plates)
+        visit(vertices(h.element));
+    for (const AddedElement& e : model_.added)
+        visit(std::span(e.vertex).first(e.kind->corners));
 }
 
 void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, const Block& visit) const
 {
-    const auto visit_all = [&](const std::array<std::uint32_t, 4>& v, const Matrix12& k) {
-        for (std::size_t r = 0; r < 4; ++r)
-            for (std::size_t c = 0; c < 4; ++c)
-                visit(v[r], v[c], k.block<3, 3>(static_cast<int>(3 * r), static_cast<int>(3 * c)));
+    const auto visit_all = [&](std::span<const std::uint32_t> v, const auto& k) {
+        for (std::size_t r = 0; r < v.size(); ++r)
+            for (std::size_t c = 0; c < v.size(); ++c)
+                visit(v[r], v[c],
+                      k.template block<3, 3>(static_cast<int>(3 * r), static_cast<int>(3 * c)));
     };
     for (std::uint32_t i = 0; i < x.size(); ++i)
         visit(i, i, shift * model_.mass[i] * Eigen::Matrix3d::Identity());
@@ -307,13 +310,29 @@ void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, con
         visit_all(vertices(h), hinge_block(h, x, curvature));
     for (const SolidElement& e : solids_)
         visit_all(e.vertex, solid_block(e, x, curvature));
+    for (const PlateHinge& h : model_.plates)
+        visit_all(vertices(h.element), hinge_block(h.element, x, curvature));
+    if (model_.added.empty())
+        return;
+    std::vector<glm::dvec3> at;
+    for (const Vec<Real>& p : x)
+        at.emplace_back(p.x, p.y, p.z);
+    for (const AddedElement& e : model_.added)
+    {
+        Eigen::MatrixXd k = added_stiffness(e, at);
+        if (curvature == Curvature::elastic)
+            k = without_turns(e, at, k);
+        visit_all(std::span(e.vertex).first(e.kind->corners),
+                  curvature == Curvature::exact ? k : positive_part(k));
+    }
 }
 
 Eigen::SparseMatrix<double> StaticEnergy::hessian(const State& x, Curvature curvature, double shift) const
 {
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(model_.springs.size() * 36 + (model_.hinges.size() + solids_.size()) * 144 +
-                    x.size() * 3);
+    const std::size_t of_four =
+        model_.hinges.size() + solids_.size() + model_.plates.size() + model_.added.size();
+    entries.reserve(model_.springs.size() * 36 + of_four * 144 + x.size() * 3);
     blocks(x, curvature, shift, [&](std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d& block) {
         if (unknown_[b] >= 0 && unknown_[a] >= unknown_[b]) // the lower triangle
             for (int r = 0; r < 3; ++r)

@@ -1,6 +1,7 @@
 #pragma once
 // The energy of a model over its moving vertices, with gradient and Hessian: what reference_static minimises.
 
+#include "taut/report/curvature.hpp"
 #include "taut/report/hinge.hpp"
 #include "taut/report/model.hpp"
 
@@ -16,17 +17,16 @@ namespace taut::reference {
 using Real = long double;
 using State = std::vector<Vec<Real>>; ///< one a vertex, pinned ones too
 
-/// Projected: positive semidefinite; the exact Hessian of cloth that is slack or folded is not.
-enum class Curvature { exact, projected };
-
 class StaticEnergy
 {
 public:
     explicit StaticEnergy(const PhysicalModel& model);
 
-    Real value(const State& x) const;     ///< J
-    State gradient(const State& x) const; ///< N; zero at pins
-    /// N/m; shift * mass is added to the diagonal (1/s^2). The lower triangle, one pattern for all x.
+    Real value(const State& x) const;     ///< J; without plates and added elements
+    State gradient(const State& x) const; ///< N; zero at pins; without these, too
+    /// N/m; shift * mass is added to the diagonal (1/s^2). The lower triangle, one pattern for all x. Plates
+    /// are as stiff as the bound of PlateHinge::element, each hinge for itself; added ones as
+    /// added_stiffness.hpp has them.
     Eigen::SparseMatrix<double> hessian(const State& x, Curvature curvature, double shift) const;
 
     /// The 3 x 3 blocks that hessian() adds up, N/m, in a fixed order and with (b, a) beside (a, b): of every

@@ -262,4 +262,72 @@ TEST_CASE("without loads nothing is missed: bodies at rest and in flight are com
             }
 }
 
+namespace {
+
+/// A plate of 0.8 N m that sticks out by 0.95 m from where it is held.
+Scene overhang(std::uint32_t substeps)
+{
+    Scene scene;
+    Body body;
+    body.shape.cells = {20, 2};
+    body.shape.size = {1, 0.1};
+    body.transform.rotate_axis = {1, 0, 0};
+    body.transform.rotate_degrees = -90;
+    body.material.density = 0.2;
+    body.material.stretch_stiffness = 5000;
+    body.material.bending_stiffness = 0.8;
+    body.material.bending_model = "plate";
+    Pin pin;
+    pin.use_box = true;
+    pin.box_min = {-1, -1, -1};
+    pin.box_max = {-0.44, 1, 1};
+    body.pins = {pin};
+    scene.bodies = {body};
+    scene.damping = 6;
+    scene.method.type = "xpbd";
+    scene.method.substeps = substeps;
+    return resolve(scene);
+}
+
+/// A fabric of 1 m that hangs by its upper edge.
+Scene hung_fabric(std::uint32_t substeps)
+{
+    Scene scene = overhang(substeps);
+    Body& body = scene.bodies[0];
+    body.shape.cells = {2, 20};
+    body.shape.size = {0.1, 1};
+    body.mesh = {};
+    body.transform = {};
+    body.material = {};
+    body.material.stretch_stiffness = 0;
+    body.material.density = 0.2;
+    body.material.fabric.used = true;
+    body.material.fabric.warp = body.material.fabric.weft = 5000;
+    body.material.fabric.shear = 100;
+    Pin pin;
+    pin.edges = {"top"};
+    body.pins = {pin};
+    return resolve(scene);
+}
+
+} // namespace
+
+TEST_CASE("a plate that sweeps let sag is not called completed, nor is a fabric that they let stretch [hard]")
+{
+    const auto check = [](const Scene& few, const Scene& many) {
+        const End loose = end_of(few), right = end_of(many);
+        INFO(loose.lowest << " m for " << right.lowest << ": " << loose.report.load_residual
+                          << " of its loads, " << loose.report.load_way << " of its size; solved "
+                          << right.report.load_residual << ", " << right.report.load_way);
+        CHECK(loose.lowest < right.lowest - 0.01);
+        CHECK(loose.report.load_residual > 1);
+        CHECK(loose.report.status == Status::unconverged);
+        CHECK(right.report.load_residual < 0.1);
+        CHECK(right.report.status == Status::completed);
+        CHECK(right.report.warnings.count("soft") == 0);
+    };
+    check(overhang(34), overhang(400));
+    check(hung_fabric(4), hung_fabric(200));
+}
+
 } // namespace taut::hard

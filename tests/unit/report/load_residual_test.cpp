@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include "support/sphere.hpp"
 
 #include "taut/report/load_residual.hpp"
 
@@ -144,4 +145,32 @@ TEST_CASE("models too large to factor say the same", "[residuals]")
     const PhysicalModel model = free_cloth(1e4, 104); // 33,075 unknowns
     const Leftover left = weight_left(model);
     CHECK(load_residual(model, model.start, left).share == Approx(1).epsilon(1e-2));
+}
+
+TEST_CASE("what a gas pushes with is a load of its own, however weak gravity is", "[residuals]")
+{
+    Scene scene;
+    Body body;
+    body.mesh = test::sphere_mesh(4, 0.5);
+    body.material.stretch_stiffness = 500;
+    body.material.pressure = 100;
+    body.vertex_masses.assign(body.mesh.positions.size(), 1e-3);
+    scene.bodies = {body};
+    const PhysicalModel model = make_model(scene);
+    REQUIRE(model.gases.size() == 1);
+    Leftover left = weight_left(model);
+    left.time = 0.3;
+    left.against_response = true;
+    left.gas.assign(model.mass.size(), glm::dvec3(0));
+    add_gas_forces(model.gases[0], model.start, left.gas);
+    for (std::size_t i = 0; i < left.gas.size(); ++i)
+        left.force[i] = -left.gas[i]; // as if it pushed on nothing
+    for (double& load : left.load)
+        load *= 1e-9;
+    CHECK(load_residual(model, model.start, left).share == Approx(1));
+    for (glm::dvec3& r : left.force)
+        r *= 0.1;
+    CHECK(load_residual(model, model.start, left).share == Approx(0.1));
+    left.gas.clear();
+    CHECK(load_residual(model, model.start, left).share > 1e3);
 }
