@@ -42,6 +42,13 @@ void on_every_device(F&& f)
 
 inline bool is_cpu(const Device& device) { return device.info().executor.starts_with("cpu"); }
 
+/// Iterations where software drivers run, too, of which each takes them milliseconds: a third under
+/// TAUT_LINEAR_SHORT (as ctest sets it), enough for what differs between executors to differ.
+inline std::uint32_t driver_iterations(std::uint32_t alone)
+{
+    return environment_has("TAUT_LINEAR_SHORT") ? alone / 3 : alone;
+}
+
 inline void note(const std::string& id, const Device& device, const std::string& what, double value)
 {
     if (const char* wanted = std::getenv("TAUT_NOTES"); wanted && *wanted)

@@ -115,7 +115,7 @@ TEST_CASE("every matrix of the folder ends in a true word on every executor")
                 SolveOptions options;
                 options.format = format;
                 options.precision = precision;
-                options.max_iterations = is_cpu(*device) ? 300 : 64;
+                options.max_iterations = is_cpu(*device) ? 300 : driver_iterations(64);
                 check_word(device, l, options, false);
             }
         ++turn;

@@ -97,7 +97,8 @@ TEST_CASE("every executor finds the same digits, iteration by iteration")
                     options.precision = precision;
                     options.preconditioner = kind;
                     options.tolerance = precision == SolvePrecision::float32 ? 1e-6 : 1e-10;
-                    options.max_iterations = 50; // iterates that have not converged must agree too
+                    // Iterates that have not converged must agree, too.
+                    options.max_iterations = driver_iterations(50);
                     options.keep_history = true;
                     CAPTURE(system.name, words_of(options));
                     const Solution serial =
