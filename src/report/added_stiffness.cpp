@@ -3,8 +3,6 @@
 // Departures: none.
 #include "taut/report/added_stiffness.hpp"
 
-#include <Eigen/Geometry>
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -67,28 +65,6 @@ Eigen::MatrixXd added_stiffness(const AddedElement& element, std::span<const glm
                 (local.moved(r, s, step) + local.moved(r, s, -step) - single[r] - single[s] + 2 * middle) /
                 (2 * step * step);
     }
-    return out;
-}
-
-Eigen::MatrixXd without_turns(const AddedElement& element, std::span<const glm::dvec3> x,
-                              const Eigen::MatrixXd& stiffness)
-{
-    const auto edge = [&](std::size_t corner) {
-        const glm::dvec3 d = x[element.vertex[corner]] - x[element.vertex[0]];
-        return Eigen::Vector3d(d.x, d.y, d.z);
-    };
-    const std::uint32_t corners = element.kind->corners;
-    if (corners > 3)
-        return stiffness;
-    const Eigen::Vector3d way = corners == 2 ? edge(1) : edge(1).cross(edge(2));
-    if (!(way.squaredNorm() > 0))
-        return stiffness;
-    const Eigen::Matrix3d along = way * way.transpose() / way.squaredNorm();
-    const Eigen::Matrix3d kept = corners == 2 ? along : Eigen::Matrix3d::Identity() - along;
-    Eigen::MatrixXd out = stiffness;
-    for (Eigen::Index r = 0; r < out.rows(); r += 3)
-        for (Eigen::Index c = 0; c < out.cols(); c += 3)
-            out.block<3, 3>(r, c) = kept * stiffness.block<3, 3>(r, c) * kept;
     return out;
 }
 

@@ -11,9 +11,4 @@ namespace taut::reference {
 /// seven digits. Zero where all its corners are in one place.
 Eigen::MatrixXd added_stiffness(const AddedElement& element, std::span<const glm::dvec3> x);
 
-/// Of that what is along a link of two corners, or in the plane of three. What is across turns them to first
-/// order, so it comes of their tension alone. All of it where they have no direction, and of four corners.
-Eigen::MatrixXd without_turns(const AddedElement& element, std::span<const glm::dvec3> x,
-                              const Eigen::MatrixXd& stiffness);
-
 } // namespace taut::reference

@@ -80,7 +80,7 @@ std::optional<Substep> last_substep(const View& view, double time = 0)
         return std::nullopt;
     const std::size_t count = view.x.size();
     const double h = view.plan.timestep / view.plan.substeps;
-    Substep out{nullptr, view.world.displacements(), {}, {}};
+    Substep out{nullptr, view.world.displacements(), {}, {}, {}};
     out.model = with_dampers_as_springs(view, out.moved, h, time > 0 ? time : h);
     std::vector<glm::dvec3> force(count, glm::dvec3(0)), gas(count, glm::dvec3(0));
     add_forces(*out.model, view.x, force);
@@ -347,6 +347,7 @@ LoadResidual measure_load_residual(const World& world)
         last->model = std::make_shared<PhysicalModel>(judged_part(*last->model, unjudged));
     Leftover& left = last->left;
     left.against_response = sweeps;
+    left.followed = kLoadShare * world.scene().accept.residual;
     if (!sweeps)
         for (std::size_t i = 0; i < view.x.size(); ++i)
             left.carried.push_back(last->model->pinned[i] ? glm::length(last->moved[i]) : 0.0);

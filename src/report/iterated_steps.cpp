@@ -19,6 +19,7 @@ namespace {
 
 using reference::BlockMatrix;
 using reference::Columns;
+using reference::Curvature;
 using reference::State;
 using Motion = std::vector<glm::dvec3>;
 
@@ -75,7 +76,7 @@ BlockMatrix stiffness_of(const reference::StaticEnergy& energy, std::span<const 
     at.reserve(x.size());
     for (const glm::dvec3& p : x)
         at.push_back({p.x, p.y, p.z});
-    energy.blocks(at, left.curvature(), 1 / (left.time * left.time),
+    energy.blocks(at, Curvature::projected, 1 / (left.time * left.time),
                   [&](std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d& block) {
                       if (rows.row[a] != kHeld && rows.row[b] != kHeld)
                           out.add(rows.row[a], rows.row[b], block);

@@ -4,10 +4,10 @@
 //   the distance to a minimum in the variables; the gradient does so in forces, which say little where
 //   directions differ in stiffness).
 // Departures: taken relative to the motion that the loads alone make, by mass; under methods of one sweep in
-//   many small substeps, whose leftovers add up over them, to what the loads move in a long time, and without
-//   the tension that these leftovers make (docs/decisions.md, 70). A sweep
+//   many small substeps, whose leftovers add up over them, to what the loads move in a long time. A sweep
 //   carries a load over one link: where too few are taken, what is left is small beside the springs' own
 //   forces, and yet the body hangs in the air. Roundings of stiff springs are large forces that move nothing.
+//   A body that is far from where it should be is led on by Newton's method with a line search (section 3.4).
 
 #include "taut/report/load_residual.hpp"
 
@@ -28,6 +28,7 @@
 namespace taut {
 namespace {
 
+using reference::Curvature;
 using reference::State;
 using reference::StaticEnergy;
 using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
@@ -51,7 +52,7 @@ State state_of(std::span<const glm::dvec3> x)
 std::vector<Motion> factored_steps(const StaticEnergy& energy, std::span<const glm::dvec3> x,
                                    const Leftover& left, const std::vector<Motion>& forces)
 {
-    Matrix stiffness = energy.hessian(state_of(x), left.curvature(), 1 / (left.time * left.time));
+    Matrix stiffness = energy.hessian(state_of(x), Curvature::projected, 1 / (left.time * left.time));
     Eigen::MatrixXd force =
         Eigen::MatrixXd::Zero(energy.unknowns(), static_cast<Eigen::Index>(forces.size()));
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -128,16 +129,22 @@ std::vector<Motion> forces_of(const PhysicalModel& model, const Leftover& left)
     return out;
 }
 
-Steps newton_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left)
+/// m, for each of `forces`.
+std::vector<Motion> newton_steps(const PhysicalModel& model, std::span<const glm::dvec3> x,
+                                 const Leftover& left, const std::vector<Motion>& forces)
 {
     const StaticEnergy energy(model);
-    const std::vector<Motion> forces = forces_of(model, left);
     const bool solids = !model.solids.empty() || !model.volumes.empty();
     std::vector<Motion> steps;
     if (energy.unknowns() <= (solids ? kMostFactoredOfSolids : kMostFactored))
         steps = factored_steps(energy, x, left, forces);
-    if (steps.empty())
-        steps = iterated_steps(model, energy, x, left, forces);
+    return steps.empty() ? iterated_steps(model, energy, x, left, forces) : steps;
+}
+
+Steps first_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left,
+                  const std::vector<Motion>& forces)
+{
+    std::vector<Motion> steps = newton_steps(model, x, left, forces);
     Steps out{std::move(steps[0]), {}};
     out.loads.assign(std::make_move_iterator(steps.begin() + 1), std::make_move_iterator(steps.end()));
     return out;
@@ -192,19 +199,124 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
     return {std::isfinite(share) ? share : HUGE_VAL, std::isfinite(way) ? way : HUGE_VAL};
 }
 
+/// Newton's method from x down the potential of a long step in which what is left acts on and on.
+class Descent
+{
+public:
+    /// `force`: N, what acts at x.
+    Descent(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left,
+            const Motion& force)
+        : model_(model), left_(left), x_(x.begin(), x.end()), y_(x_), push_(force)
+    {
+        model_.gases.clear(); // they act at x, as weight does
+        model_.gravity = glm::dvec3(0);
+        const Motion elastic = elastic_forces(x_);
+        for (std::size_t i = 0; i < push_.size(); ++i)
+            push_[i] -= elastic[i];
+    }
+
+    /// m: all of the way.
+    Motion run()
+    {
+        constexpr int kMost = 8;
+        constexpr double kLittle = 0.02; // of the way so far
+        for (int i = 0; i < kMost && step() > kLittle; ++i)
+            continue;
+        Motion out = y_;
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] -= x_[i];
+        return out;
+    }
+
+private:
+    Motion elastic_forces(const Motion& y) const
+    {
+        Motion out(y.size(), glm::dvec3(0));
+        add_forces(model_, y, out);
+        return out;
+    }
+
+    bool moves(std::size_t i) const { return !model_.pinned[i] && !left_.touches[i]; }
+    double stiffness(std::size_t i) const { return model_.mass[i] / (left_.time * left_.time); }
+
+    /// J.
+    double potential(const Motion& y) const
+    {
+        double out = elastic_energy(model_, y);
+        for (std::size_t i = 0; i < y.size(); ++i)
+            if (const glm::dvec3 way = y[i] - x_[i]; moves(i))
+                out += 0.5 * stiffness(i) * glm::dot(way, way) - glm::dot(push_[i], way);
+        return out;
+    }
+
+    /// N: minus its gradient.
+    Motion force() const
+    {
+        Motion out = elastic_forces(y_);
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = moves(i) ? out[i] + push_[i] - stiffness(i) * (y_[i] - x_[i]) : glm::dvec3(0);
+        return out;
+    }
+
+    /// What a step has added to the way, as a share of it; 0 where none goes down.
+    double step()
+    {
+        const Motion pull = force(), way = newton_steps(model_, y_, left_, {pull})[0];
+        double slope = 0;
+        for (std::size_t i = 0; i < way.size(); ++i)
+            slope += moves(i) ? glm::dot(pull[i], way[i]) : 0;
+        const double before = potential(y_);
+        for (double share = 1; share > 1e-3; share /= 2)
+        {
+            Motion next = y_;
+            for (std::size_t i = 0; i < next.size(); ++i)
+                next[i] += moves(i) ? share * way[i] : glm::dvec3(0);
+            if (!(potential(next) <= before - 1e-4 * share * slope))
+                continue;
+            double added = 0, all = 0;
+            for (std::size_t i = 0; i < next.size(); ++i)
+            {
+                added += model_.mass[i] * glm::distance(next[i], y_[i]);
+                all += model_.mass[i] * glm::distance(next[i], x_[i]);
+            }
+            y_ = next;
+            return all > 0 ? added / all : 0;
+        }
+        return 0;
+    }
+
+    PhysicalModel model_;
+    const Leftover& left_;
+    Motion x_, y_; ///< m
+    Motion push_;  ///< N, at every y: what acts at x but for elements
+};
+
 } // namespace
 
 LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left)
 {
-    const Steps step = newton_steps(model, x, left);
-    LoadResidual worst;
-    const auto key = [](const LoadResidual& r) { return std::pair(r.way > kSeenWay, r.share); };
+    const std::vector<Motion> forces = forces_of(model, left);
+    Steps step = first_steps(model, x, left, forces);
+    std::vector<LoadResidual> bodies;
+    const auto of_body = [&](std::size_t b) {
+        return residual_of(model, x, step, left, model.body_start[b], model.body_start[b + 1]);
+    };
     for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
+        bodies.push_back(of_body(b));
+    const auto is_followed = [&](const LoadResidual& r) {
+        return left.against_response && r.share > left.followed && r.way <= kSeenWay;
+    };
+    if (std::any_of(bodies.begin(), bodies.end(), is_followed))
     {
-        const LoadResidual next =
-            residual_of(model, x, step, left, model.body_start[b], model.body_start[b + 1]);
-        worst = key(next) > key(worst) ? next : worst;
+        step.left = Descent(model, x, left, forces[0]).run();
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            if (is_followed(bodies[b]))
+                bodies[b].way = std::max(bodies[b].way, of_body(b).way);
     }
+    const auto key = [](const LoadResidual& r) { return std::pair(r.way > kSeenWay, r.share); };
+    LoadResidual worst;
+    for (const LoadResidual& next : bodies)
+        worst = key(next) > key(worst) ? next : worst;
     return worst;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 // Whether bodies answer to their loads.
 
-#include "taut/report/curvature.hpp"
 #include "taut/report/model.hpp"
 #include "taut/scene/substeps.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -24,34 +24,38 @@ struct Leftover
     std::vector<glm::dvec3> gas = {};
     std::vector<bool> beside = {}; ///< shares an element with one that touches, whose push it has yet to
                                    ///< follow; may be empty
-    /// Of the Newton step. What sweeps leave strains springs at random, by far more than loads do; what that
-    /// tension adds would hold the step back.
-    reference::Curvature curvature() const
-    {
-        return against_response ? reference::Curvature::elastic : reference::Curvature::projected;
-    }
+    /// Bodies that leave a larger share are followed to where their elements hold them; `against_response`.
+    double followed = HUGE_VAL;
     bool is_beside(std::size_t vertex) const { return !beside.empty() && beside[vertex]; }
 };
+
+/// Of accept.residual: where nothing is done all of the loads' motion is left.
+inline constexpr double kLoadShare = 0.25;
 
 /// Of one body.
 struct LoadResidual
 {
     double share = -1; ///< of what its loads move; -1 without a free vertex
-    double way = 0;    ///< mass-weighted mean of |d| over the diagonal of the box that the body fills
+    /// Mass-weighted mean of |d| over the diagonal of the box that the body fills; of a body that is followed
+    /// the larger of that and of all of Newton's way.
+    double way = 0;
 };
 
-/// What one exact Newton step d would still move of a body's mass, over what its loads move in the time t:
-/// sum m |d| / sum (t^2 l + m c) over its free vertices, c the longest way of one of its held vertices,
-/// with (M / t^2 + K) d = -r, K made positive semidefinite element by element (Leftover::curvature). With
-/// `against_response` over sum m |e|, (M / t^2 + K) e = l along gravity, or without any along each axis, or
-/// e of the gases' forces, whichever moves most. 0 solved, 1 as if nothing pulled. That of the body with
-/// the largest share of those whose way is above kSeenWay, or of all where none is. Contacts push after the
-/// solve, and what lies on them has yet to follow: vertices that touch stay where they are, and r is 0 at
-/// those beside them; of such bodies half of d is counted. Where that is most of a body, r counts beside
-/// them, too, and of d what goes along gravity alone; without gravity nothing is said of it. Infinite where
-/// the step is not finite. Models of more than 10,000 free vertices (of solids: 2,000) are solved by
-/// conjugate gradients, to about 3 % of the share or 0.002, but where a few loose vertices alone carry what
-/// the loads move (docs/decisions.md, 51).
+/// What one exact Newton step d would still move of a body's mass, over what its loads move in the time
+/// t: sum m |d| / sum (t^2 l + m c) over its free vertices, c the longest way of one of its held
+/// vertices, with (M / t^2 + K) d = -r, K made positive semidefinite element by element. With
+/// `against_response` over sum m |e|, (M / t^2 + K) e = l along gravity, or without any along each axis,
+/// or e of the gases' forces, whichever moves most. 0 solved, 1 as if nothing pulled. That of the body
+/// with the largest share of those whose way is above kSeenWay, or of all where none is. Contacts push
+/// after the solve, and what lies on them has yet to follow: vertices that touch stay where they are, and
+/// r is 0 at those beside them; of such bodies half of d is counted. Where that is most of a body, r
+/// counts beside them, too, and of d what goes along gravity alone; without gravity nothing is said of
+/// it. Infinite where the step is not finite. A body whose share is above `followed` is led on by
+/// Newton's method, down E(y) + c (y - x) + M (y - x)^2 / (2 t^2), c of the force that is left: sweeps
+/// strain springs at random by far more than loads do, and the tension of that holds back the first step,
+/// but no later one. Models of more than 10,000 free vertices (of solids: 2,000) are solved by conjugate
+/// gradients, to about 3 % of the share or 0.002, but where a few loose vertices alone carry what the
+/// loads move (docs/decisions.md, 51).
 LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);
 
 } // namespace taut

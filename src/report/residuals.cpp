@@ -9,8 +9,6 @@
 namespace taut {
 namespace {
 
-/// Of accept.residual: where nothing is done all of the loads' motion is left.
-constexpr double kLoadShare = 0.25;
 /// Steps ahead in each of which a body has to be beyond that: what one step leaves and the next one takes
 /// back is noise of the solve, not a motion that is missing.
 constexpr int kLooksAhead = 5;

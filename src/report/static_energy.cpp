@@ -87,8 +87,7 @@ std::array<std::uint32_t, 4> vertices(const BendElement& h)
     return {h.edge0, h.edge1, h.wing0, h.wing1};
 }
 
-/// k (n n^T + (1 - L/l) (I - n n^T)); the second part is dropped in compression when projected, and always
-/// when elastic.
+/// k (n n^T + (1 - L/l) (I - n n^T)); the second part is dropped in compression when projected.
 Eigen::Matrix3d spring_block(const StretchElement& s, const Vec<double>& d, Curvature curvature)
 {
     const Eigen::Vector3d v(d.x, d.y, d.z);
@@ -97,8 +96,8 @@ Eigen::Matrix3d spring_block(const StretchElement& s, const Vec<double>& d, Curv
         return k * Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d along = v * v.transpose() / (l * l);
     double side = 1 - s.rest_length / l;
-    if (curvature != Curvature::exact)
-        side = curvature == Curvature::elastic ? 0 : std::max(side, 0.0);
+    if (curvature == Curvature::projected)
+        side = std::max(side, 0.0);
     return k * (along + side * (Eigen::Matrix3d::Identity() - along));
 }
 
@@ -149,7 +148,7 @@ Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
 Matrix12 solid_block(const SolidElement& e, const State& x, Curvature curvature)
 {
     Matrix9 k = stress_derivative(e, deformation(e, x));
-    if (curvature != Curvature::exact)
+    if (curvature == Curvature::projected)
         k = positive_part(k);
     const Eigen::Matrix3d b = inverse_rest(e).cast<double>();
     Eigen::Matrix<double, 9, 12> chain = Eigen::Matrix<double, 9, 12>::Zero(); // dF by the corners
@@ -319,11 +318,9 @@ void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, con
         at.emplace_back(p.x, p.y, p.z);
     for (const AddedElement& e : model_.added)
     {
-        Eigen::MatrixXd k = added_stiffness(e, at);
-        if (curvature == Curvature::elastic)
-            k = without_turns(e, at, k);
+        const Eigen::MatrixXd k = added_stiffness(e, at);
         visit_all(std::span(e.vertex).first(e.kind->corners),
-                  curvature == Curvature::exact ? k : positive_part(k));
+                  curvature == Curvature::projected ? positive_part(k) : k);
     }
 }
 

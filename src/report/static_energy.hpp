@@ -1,7 +1,6 @@
 #pragma once
 // The energy of a model over its moving vertices, with gradient and Hessian: what reference_static minimises.
 
-#include "taut/report/curvature.hpp"
 #include "taut/report/hinge.hpp"
 #include "taut/report/model.hpp"
 
@@ -16,6 +15,15 @@ namespace taut::reference {
 /// Long double, because at 1e6 N/m one fp64 rounding of a position is a force far above 1e-12 of the weight.
 using Real = long double;
 using State = std::vector<Vec<Real>>; ///< one a vertex, pinned ones too
+
+/// Projected: positive semidefinite; the exact Hessian of cloth that is slack or folded is not. Elastic: that
+/// without what tension adds across springs, links and triangles, which turns them and strains nothing.
+enum class Curvature
+{
+    exact,
+    projected,
+    elastic
+};
 
 class StaticEnergy
 {

@@ -5,6 +5,8 @@
 #include "taut/scene/scene.hpp"
 #include "taut/scene/tables.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <map>
 
@@ -68,6 +70,14 @@ void warn_of_idle_wind(const Scene& scene, const Checker& out)
                 "still");
 }
 
+void warn_of_odd_gravity(const Scene& scene, const Checker& out)
+{
+    constexpr double kMost = 300; // m/s^2; 981 is the Earth's in cm/s^2
+    if (const double g = glm::length(scene.gravity); g > kMost && g < 1e6)
+        out.warning("gravity", "is " + shown(g, 4) +
+                                   " m/s^2, the Earth's is 9.81; are lengths of the scene in m?");
+}
+
 } // namespace
 
 void check_scene(const Scene& scene, const Checker& out)
@@ -75,6 +85,7 @@ void check_scene(const Scene& scene, const Checker& out)
     if (scene.version != 1)
         out.error("taut", "is " + std::to_string(scene.version) + "; this library reads version 1");
     check_times(scene, out);
+    warn_of_odd_gravity(scene, out);
     warn_of_idle_wind(scene, out);
     check_groups(scene, out);
     warn_of_idle_kinematic(scene, out);

@@ -2,6 +2,7 @@
 
 #include "taut/scene/checker.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace taut::scene_file {
@@ -89,6 +90,11 @@ void check_fabric_bending(const FabricBending& bending, const Checker& out)
 
 void check_kes(const KesReadings& kes, const Checker& out)
 {
+    constexpr double kLeast = 0.5; // %; woven cloth gives by 1 to 30
+    const double least = std::min(kes.extension.x, kes.extension.y);
+    if (least > 0 && least < kLeast)
+        out.warning("extension", "is [" + shown(kes.extension.x) + ", " + shown(kes.extension.y) +
+                                     "] %; readings at 500 gf/cm are percent, 1 to 30 of most cloth");
     check_pair("shear", kes.shear, out);
     check_pair("bending", kes.bending, out);
 }

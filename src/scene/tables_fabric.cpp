@@ -21,6 +21,7 @@ void read_preset(const Field& fabric, Fabric& out)
         std::vector<std::string_view> known;
         for (const FabricPreset& one : fabric_presets())
             known.push_back(one.name);
+        out = fabric_presets().front().fabric; // so that nothing is said to lack a modulus, too
         name->refuse("it must be " + listing(known));
     }
     for (const char* readings : {"kes", "fast"})

@@ -264,8 +264,8 @@ TEST_CASE("without loads nothing is missed: bodies at rest and in flight are com
 
 namespace {
 
-/// A plate of 0.8 N m that sticks out by 0.95 m from where it is held.
-Scene overhang(std::uint32_t substeps)
+/// Cloth of 0.8 N m, by the bending model, that sticks out by 0.95 m from where it is held.
+Scene overhang(std::uint32_t substeps, const char* bending_model)
 {
     Scene scene;
     Body body;
@@ -276,7 +276,7 @@ Scene overhang(std::uint32_t substeps)
     body.material.density = 0.2;
     body.material.stretch_stiffness = 5000;
     body.material.bending_stiffness = 0.8;
-    body.material.bending_model = "plate";
+    body.material.bending_model = bending_model;
     Pin pin;
     pin.use_box = true;
     pin.box_min = {-1, -1, -1};
@@ -292,7 +292,7 @@ Scene overhang(std::uint32_t substeps)
 /// A fabric of 1 m that hangs by its upper edge.
 Scene hung_fabric(std::uint32_t substeps)
 {
-    Scene scene = overhang(substeps);
+    Scene scene = overhang(substeps, "hinge");
     Body& body = scene.bodies[0];
     body.shape.cells = {2, 20};
     body.shape.size = {0.1, 1};
@@ -312,7 +312,7 @@ Scene hung_fabric(std::uint32_t substeps)
 
 } // namespace
 
-TEST_CASE("a plate that sweeps let sag is not called completed, nor is a fabric that they let stretch [hard]")
+TEST_CASE("cloth that sweeps let sag is not called completed, nor is a fabric that they let stretch [hard]")
 {
     const auto check = [](const Scene& few, const Scene& many) {
         const End loose = end_of(few), right = end_of(many);
@@ -320,13 +320,14 @@ TEST_CASE("a plate that sweeps let sag is not called completed, nor is a fabric 
                           << " of its loads, " << loose.report.load_way << " of its size; solved "
                           << right.report.load_residual << ", " << right.report.load_way);
         CHECK(loose.lowest < right.lowest - 0.01);
-        CHECK(loose.report.load_residual > 1);
+        CHECK(loose.report.load_residual > 0.5);
         CHECK(loose.report.status == Status::unconverged);
         CHECK(right.report.load_residual < 0.1);
         CHECK(right.report.status == Status::completed);
         CHECK(right.report.warnings.count("soft") == 0);
     };
-    check(overhang(34), overhang(400));
+    check(overhang(34, "plate"), overhang(400, "plate"));
+    check(overhang(20, "hinge"), overhang(400, "hinge"));
     check(hung_fabric(4), hung_fabric(200));
 }
 

@@ -135,8 +135,9 @@ TEST_CASE("a preset gives a fabric's moduli and density, and keys beside it chan
     CHECK(changed.fabric.weft == 755);
     CHECK(changed.fabric.shear == 0);
     CHECK(changed.fabric.bias == 150);
-    CHECK(refusal(text(fabric(R"("preset": "silk")"))).find("it must be \"penava_cotton\"") !=
-          std::string::npos);
+    const std::string unknown = refusal(text(fabric(R"("preset": "silk")")));
+    CHECK(unknown.find("it must be \"penava_cotton\"") != std::string::npos);
+    CHECK(unknown.find("warp") == std::string::npos); // nor is it said to lack moduli
     for (const FabricPreset& preset : fabric_presets())
     {
         CAPTURE(preset.name);

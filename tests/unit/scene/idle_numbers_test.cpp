@@ -56,3 +56,28 @@ TEST_CASE("numbers of plasticity, gas and attachments that nothing switches on a
             CHECK(check(scene).empty());
         }
 }
+
+TEST_CASE("a gravity and readings in other units are warned of", "[scene]")
+{
+    Scene scene = with_body(ShapeKind::grid);
+    scene.gravity = {0, -98.1, 0};
+    CHECK(check(scene).empty());
+    scene.gravity = {0, -981, 0};
+    REQUIRE(check(scene).size() == 1);
+    CHECK(!check(scene)[0].error);
+    CHECK(check(scene)[0].field == "gravity");
+    CHECK_THAT(check(scene)[0].text, Contains("981 m/s^2") && Contains("in m"));
+
+    const auto warned = [](double extension) {
+        const Scene read = parse_scene(R"({"taut": 1, "duration": 1, "bodies": [{"grid": {"cells": [2, 2]},
+            "material": {"fabric": {"kes": {"extension": [)" +
+                                       std::to_string(extension) +
+                                       R"(, 4], "linearity": [0.8, 0.8], "shear": [0.8, 0.8]}}}}]})");
+        std::size_t count = 0;
+        for (const SceneIssue& issue : check(read))
+            count += !issue.error && issue.field == "bodies[0].material.fabric.kes.extension" ? 1 : 0;
+        return count;
+    };
+    CHECK(warned(4) == 0);
+    CHECK(warned(0.04) == 1);
+}
