@@ -174,3 +174,31 @@ TEST_CASE("what a gas pushes with is a load of its own, however weak gravity is"
     left.gas.clear();
     CHECK(load_residual(model, model.start, left).share > 1e3);
 }
+
+TEST_CASE("a way that a strained spring holds back is followed, one that tension holds stays short",
+          "[residuals]")
+{
+    const auto way = [](bool held_on_both_sides, double followed) {
+        Scene scene;
+        Body body;
+        body.mesh.positions = {{-1.001, 0, 0}, {0, 0, 0}, {1.001, 0, 0}};
+        body.springs = {{0, 1, 1, 1e-5}}; // 1e5 N/m, strained to 100 N where the weight is 0.1 N
+        if (held_on_both_sides)
+            body.springs.push_back({1, 2, 1, 1e-5});
+        body.vertex_masses.assign(3, 0.01);
+        body.pins.emplace_back().vertices = {0, 2};
+        scene.bodies = {body};
+        const PhysicalModel model = make_model(scene);
+        Leftover left = weight_left(model);
+        left.time = 0.3;
+        left.against_response = true;
+        left.followed = followed;
+        add_forces(model, model.start, left.force = std::vector<glm::dvec3>(3, glm::dvec3(0)));
+        for (glm::dvec3& r : left.force)
+            r = -r;
+        return load_residual(model, model.start, left).way;
+    };
+    CHECK(way(false, HUGE_VAL) < 1e-3);
+    CHECK(way(false, 0.25) > 40 * way(false, HUGE_VAL)); // a pendulum, let go, as far as eight steps go
+    CHECK(way(true, 0.25) == Approx(way(true, HUGE_VAL)).epsilon(0.05));
+}
