@@ -215,20 +215,27 @@ public:
             push_[i] -= elastic[i];
     }
 
-    /// m: all of the way.
-    Motion run()
+    /// m: the way, of kLeast steps or until they add little, and on until `decided` of it.
+    template <typename Decided>
+    Motion run(const Decided& decided)
     {
-        constexpr int kMost = 8;
-        constexpr double kLittle = 0.02; // of the way so far
-        for (int i = 0; i < kMost && step() > kLittle; ++i)
-            continue;
+        constexpr int kLeast = 8, kMost = 40; // where springs are far stiffer than bending steps are short
+        constexpr double kLittle = 0.02;      // of the way so far
+        for (int i = 1; i <= kMost && step() > kLittle; ++i)
+            if (i >= kLeast && decided(way()))
+                break;
+        return way();
+    }
+
+private:
+    Motion way() const
+    {
         Motion out = y_;
         for (std::size_t i = 0; i < out.size(); ++i)
             out[i] -= x_[i];
         return out;
     }
 
-private:
     Motion elastic_forces(const Motion& y) const
     {
         Motion out(y.size(), glm::dvec3(0));
@@ -306,13 +313,20 @@ LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec
     const auto is_followed = [&](const LoadResidual& r) {
         return left.against_response && r.share > left.followed && r.way <= kSeenWay;
     };
-    if (std::any_of(bodies.begin(), bodies.end(), is_followed))
-    {
-        step.left = Descent(model, x, left, forces[0]).run();
+    const std::vector<LoadResidual> first = bodies;
+    const auto take = [&](const Motion& way) { // whether some body is told to be far off
+        step.left = way;
+        bool seen = false;
         for (std::size_t b = 0; b < bodies.size(); ++b)
-            if (is_followed(bodies[b]))
-                bodies[b].way = std::max(bodies[b].way, of_body(b).way);
-    }
+            if (is_followed(first[b]))
+            {
+                bodies[b].way = std::max(first[b].way, of_body(b).way);
+                seen = seen || bodies[b].way > kSeenWay;
+            }
+        return seen;
+    };
+    if (std::any_of(first.begin(), first.end(), is_followed))
+        take(Descent(model, x, left, forces[0]).run(take));
     const auto key = [](const LoadResidual& r) { return std::pair(r.way > kSeenWay, r.share); };
     LoadResidual worst;
     for (const LoadResidual& next : bodies)

@@ -331,4 +331,15 @@ TEST_CASE("cloth that sweeps let sag is not called completed, nor is a fabric th
     check(hung_fabric(4), hung_fabric(200));
 }
 
+TEST_CASE("what everybody sees to sag too far, but little beside what it has to, is a warning [hard]")
+{
+    const End end = end_of(overhang(80, "hinge"));
+    INFO(end.lowest << " m, " << end.report.load_residual << " of its loads, " << end.report.load_way
+                    << " of its size: " << end.report.reason);
+    CHECK(end.report.load_residual < 0.25);
+    CHECK(end.report.load_way > 0.01);
+    CHECK(end.report.status == Status::completed);
+    CHECK(end.report.warnings.count("soft") == 1);
+}
+
 } // namespace taut::hard
