@@ -84,6 +84,15 @@ INLINE bool capsule_contains(CapsuleCollider c, real gap_kept, rvec3 x)
 
 INLINE bool capsule_apart(CapsuleCollider c, Face f) { return false; } // it may have gone through
 
+/// Across both, of length 1; 0 where they are parallel to 1e-3: what is across is rounding then, and they are
+/// nearest at an end, too.
+INLINE rvec3 across_or_zero(rvec3 u, rvec3 v)
+{
+    rvec3 across = cross(u, v);
+    real size = length(across);
+    return size > REAL(1e-3) * (length(u) * length(v)) ? across / size : rvec3(real(0));
+}
+
 /// The axis, of radius `r`, against the edge from the corner of the weights `first` to that of `second`; its
 /// ends are balls, and met on their own. If the axis went through the edge during the substep, the point
 /// where it did goes back.
@@ -93,11 +102,11 @@ INLINE Face press_axis(Face f, real half_length, real r, rvec3 first, rvec3 seco
     rvec3 pa = place_at_start(f, first), pb = place_at_start(f, second);
     rvec3 ea = place_at_end(f, first), eb = place_at_end(f, second);
     Closest near = closest_edges(up * real(2), ea + up, eb + up);
-    rvec3 across_before = unit_or_zero(cross(up, pb - pa));
-    rvec3 across_after = unit_or_zero(cross(up, eb - ea));
+    rvec3 across_before = across_or_zero(up, pb - pa);
+    rvec3 across_after = across_or_zero(up, eb - ea);
     real before = dot(across_before, pa), after = dot(across_after, ea);
     rvec3 normal = unit_or_zero(SELECT(near.squared > real(0), -near.way, across_before));
-    bool meets = near.inside;
+    bool meets = near.inside && dot(across_after, across_after) > real(0);
     rvec3 b = first * -near.weight_c + second * -near.weight_d;
     if (before * after < real(0))
     {

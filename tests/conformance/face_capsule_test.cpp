@@ -35,16 +35,24 @@ Crossing crossing_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3&
     return out;
 }
 
+/// Across both, or 0 where they are next to parallel; within a hundredth of that a rounding decides.
+glm::dvec3 across(RefFace& f, const glm::dvec3& u, const glm::dvec3& v)
+{
+    const glm::dvec3 out = glm::cross(u, v);
+    const double least = 1e-3 * glm::length(u) * glm::length(v), size = glm::length(out);
+    f.open = f.open || std::abs(size - least) < 1e-2 * least;
+    return size > least ? out / size : glm::dvec3(0);
+}
+
 /// The axis against the edge of the corners i and j.
 void ref_axis(RefFace& f, const glm::dvec3& up, double r, std::size_t i, std::size_t j)
 {
     const glm::dvec3 pa = f.p[i], pb = f.p[j], ea = f.e[i], eb = f.e[j];
     const Crossing after = crossing_of(ea, eb, up);
-    const glm::dvec3 across_before = glm::normalize(glm::cross(up, pb - pa));
-    const glm::dvec3 across_after = glm::normalize(glm::cross(up, eb - ea));
+    const glm::dvec3 across_before = across(f, up, pb - pa), across_after = across(f, up, eb - ea);
     const double height_before = glm::dot(across_before, pa), height_after = glm::dot(across_after, ea);
     double share = after.edge;
-    bool meets = after.inside;
+    bool meets = after.inside && across_after != glm::dvec3(0);
     glm::dvec3 normal = glm::normalize(ea + (eb - ea) * share - (up * (2 * after.axis - 1)));
     f.doubt(height_before);
     f.doubt(height_after);
