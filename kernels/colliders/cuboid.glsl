@@ -135,7 +135,8 @@ INLINE EdgeSide edge_side(rvec3 axis, rvec3 a, rvec3 b, rvec3 a_before, rvec3 b_
 }
 
 /// The edge from the corner of the weights `first` to that of `second` against the edges of the box: the way
-/// out across both is taken where it is the shortest of all.
+/// out across both is taken where it is the shortest of all, or as short but for rounding: of an edge that
+/// lies level over a face, whose ends are beside the box, nothing else is in the way.
 INLINE Face press_edge(Face f, rvec3 extent, rvec3 first, rvec3 second)
 {
     rvec3 pa = place_at_start(f, first), pb = place_at_start(f, second);
@@ -156,7 +157,7 @@ INLINE Face press_edge(Face f, rvec3 extent, rvec3 first, rvec3 second)
         best = along_y;
         axis = y;
     }
-    if (best.height < real(0) && -best.height < least)
+    if (best.height < real(0) && -best.height <= REAL(1.0625) * least)
     {
         rvec3 half_edge = axis * extent;
         rvec3 begin = best.corner - half_edge;

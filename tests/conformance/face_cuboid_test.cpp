@@ -83,11 +83,11 @@ void ref_edge(RefFace& f, const glm::dvec3& extent, std::size_t i, std::size_t j
             along = k;
         }
     }
-    const double least = way_out(std::array{f.e[i], f.e[j]}, extent);
+    const double least = 1.0625 * way_out(std::array{f.e[i], f.e[j]}, extent);
     f.doubt(best - second);
     f.doubt(best);
     f.doubt(best + least);
-    if (!(best < 0) || -best >= least)
+    if (!(best < 0) || -best > least)
         return;
     // a + t u = middle + s axis + best normal
     glm::dvec3 axis(0);

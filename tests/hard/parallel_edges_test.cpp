@@ -58,4 +58,45 @@ TEST_CASE("cloth that lands with its edges along a capsule makes no energy [hard
                 }
 }
 
+namespace {
+
+/// A narrow strip that falls level onto a box whose upper face lies between two of its rows of vertices.
+Scene strip_on_box(std::uint32_t substeps, double width, double half_depth, double friction)
+{
+    Scene scene = strip_on_capsule(substeps, 0, friction, 0);
+    scene.bodies[0].shape.size.y = width;
+    scene.bodies[0].mesh = {};
+    Collider box;
+    box.kind = ColliderKind::cuboid;
+    box.point = {0.05, 0.2, 0};
+    box.half_size = {0.025, 0.1, half_depth};
+    box.friction = friction;
+    scene.colliders = {box};
+    return resolve(scene);
+}
+
+} // namespace
+
+TEST_CASE("a narrow strip that lands along a box is held by it, and makes no energy [hard]")
+{
+    for (const std::uint32_t substeps : {20u, 100u, 400u})
+        for (const double width : {0.01, 0.001})
+            for (const double half_depth : {0.025, 0.1})
+                for (const double friction : {0.0, 0.3})
+                {
+                    World world(strip_on_box(substeps, width, half_depth, friction),
+                                test_device("cpu:serial"));
+                    run(world, 12);
+                    const StepReport report = measure(world);
+                    double highest = 0;
+                    for (const glm::dvec3& x : world.positions())
+                        highest = std::max(highest, x.y);
+                    INFO(substeps << " substeps, " << width << " m wide, box " << half_depth);
+                    INFO(report.kinetic_energy << " J, highest " << highest << ", " << report.reason);
+                    CHECK(rank(report.status) < rank(Status::diverged));
+                    CHECK(report.kinetic_energy < width * 9.81 * 0.2); // a fall of 0.2 s, free of the box
+                    CHECK(highest > 0.29); // of the box 0.3; free of it 0.15
+                }
+}
+
 } // namespace taut::hard
