@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <span>
+
 namespace taut::reference {
 
 /// N/m, three rows a corner of the element's kind, by central differences over 1e-4 of its size: to about

@@ -61,8 +61,8 @@ Rows rows_of(const PhysicalModel& model, const Leftover& left)
     return out;
 }
 
-BlockMatrix stiffness_of(const reference::StaticEnergy& energy, std::span<const glm::dvec3> x,
-                         const Leftover& left, const Rows& rows)
+BlockMatrix stiffness_of(const reference::StaticEnergy& energy, std::span<const glm::dvec3> x, double time,
+                         const Rows& rows)
 {
     BlockMatrix out(static_cast<std::uint32_t>(rows.vertex.size()), [&](const BlockMatrix::Pair& pair) {
         energy.elements([&](std::span<const std::uint32_t> v) {
@@ -76,7 +76,7 @@ BlockMatrix stiffness_of(const reference::StaticEnergy& energy, std::span<const 
     at.reserve(x.size());
     for (const glm::dvec3& p : x)
         at.push_back({p.x, p.y, p.z});
-    energy.blocks(at, Curvature::projected, 1 / (left.time * left.time),
+    energy.blocks(at, Curvature::projected, 1 / (time * time),
                   [&](std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d& block) {
                       if (rows.row[a] != kHeld && rows.row[b] != kHeld)
                           out.add(rows.row[a], rows.row[b], block);
@@ -146,7 +146,7 @@ std::vector<Motion> iterated_steps(const PhysicalModel& model, const reference::
     std::vector<Motion> out(forces.size(), Motion(x.size(), glm::dvec3(0)));
     if (rows.vertex.empty())
         return out;
-    const BlockMatrix stiffness = stiffness_of(energy, x, left, rows);
+    const BlockMatrix stiffness = stiffness_of(energy, x, left.time, rows);
     const bool solids = !model.solids.empty() || !model.volumes.empty();
     const std::uint32_t size = std::max(kGroup, stiffness.rows() / (solids ? kMostOfSolids : kMostGroups));
     const reference::RigidGradients gradients(stiffness, rows.columns(x), size);

@@ -16,14 +16,8 @@ namespace taut::reference {
 using Real = long double;
 using State = std::vector<Vec<Real>>; ///< one a vertex, pinned ones too
 
-/// Projected: positive semidefinite; the exact Hessian of cloth that is slack or folded is not. Elastic: that
-/// without what tension adds across springs, links and triangles, which turns them and strains nothing.
-enum class Curvature
-{
-    exact,
-    projected,
-    elastic
-};
+/// Projected: positive semidefinite; the exact Hessian of cloth that is slack or folded is not.
+enum class Curvature { exact, projected };
 
 class StaticEnergy
 {
