@@ -131,21 +131,35 @@ mutated() {
         END { exit !done }' "$2"
 }
 
+# unit_of SOURCE CHANGED RESULT: RESULT becomes what the build compiles SOURCE in, itself or its batch, with
+# CHANGED in its place; sets `object`, which it makes.
+unit_of() {
+    local batch
+    batch=$(grep -lsF "\"$1\"" "$build"/CMakeFiles/*.dir/Unity/*.cxx "$build"/generated/taut/kernels/batch_*.cpp |
+        head -1)
+    case $batch in
+    "") object=$(ninja -C "$build" -t query "$1" | sed -n 's/^ *\(.*\.o\)$/\1/p' | head -1) ;;
+    *.cxx) object=${batch#"$build"/}.o ;;
+    *) object=CMakeFiles/taut_kernels.dir/${batch#"$build"/}.o ;;
+    esac
+    if [ -z "$batch" ]; then cp "$2" "$3"; else sed "s|\"$1\"|\"$2\"|" "$batch" > "$3"; fi
+}
+
 # make_kernel KIND STEM TEXT N: objects of the mutant, with another TEXT (below kernels/); sets `pairs` and
 # `what`. Status 1: no such sum, 2: does not compile.
 make_kernel() {
-    local kind=$1 stem=$2 text=$3 object source changed
+    local kind=$1 stem=$2 text=$3 generated=$build/generated/taut/kernels/$2 object source changed
     pairs=() what=
-    local folder=CMakeFiles/taut_kernels.dir/generated/taut/kernels
-    object=$folder/$stem.native.cpp.o
     if [ "$kind" = nothing ]; then
         what='returns at once'
+        : > "$work/$stem.cpp"
+        unit_of "$generated.native.cpp" "$work/$stem.cpp" "$work/unit.cpp"
         { echo '#include <cstdint>'
           echo "namespace taut::kernels::$stem {"
-          nm -C "$build/$object" | sed -n 's/.* T taut::kernels::[a-z0-9_]*::\(native_[a-z0-9_]*\)(.*/\1/p' |
+          nm -C "$build/$object" | sed -n "s/.* T taut::kernels::$stem::\\(native_[a-z0-9_]*\\)(.*/\\1/p" |
               sed 's/.*/void &(const void*, void* const*, std::uint32_t, std::uint32_t) {}/'
           echo '}'; } > "$work/$stem.cpp"
-        compile "$object" "$work/$stem.cpp" "$work/$stem.o"
+        compile "$object" "$work/unit.cpp" "$work/$stem.o"
         pairs=("$object" "$work/$stem.o")
         return
     fi
@@ -153,11 +167,11 @@ make_kernel() {
     mutated "$kind" "$root/kernels/$text" "$4" 3> "$work/line" > "$changed" || return 1
     what=$(sed 's/\/\/.*//; s/^[ \t]*//; s/[ \t]*$//; s/,/;/g' "$work/line")
     for source in native lanes; do
-        object=$folder/$stem.$source.cpp.o
+        [ -f "$generated.$source.cpp" ] || continue
+        sed "s|\"$text\"|\"$changed\"|" "$generated.$source.cpp" > "$work/$stem.$source.cpp"
+        unit_of "$generated.$source.cpp" "$work/$stem.$source.cpp" "$work/unit.cpp"
         [ -f "$build/$object" ] || continue
-        sed "s|\"$text\"|\"$changed\"|" "$build/generated/taut/kernels/$stem.$source.cpp" \
-            > "$work/$stem.$source.cpp"
-        compile "$object" "$work/$stem.$source.cpp" "$work/$stem.$source.o" \
+        compile "$object" "$work/unit.cpp" "$work/$stem.$source.o" \
             -I "$(dirname "$root/kernels/$text")" 2> "$work/errors" || return 2
         pairs+=("$object" "$work/$stem.$source.o")
     done
@@ -170,19 +184,13 @@ texts_of() {
 
 # make_host FILE EXPRESSION: the object of a source changed by sed, alone or in its batch; sets `pairs`.
 make_host() {
-    local file=$1 object batch
+    local file=$1 object
     sed "$2" "$root/$file" > "$work/host.cpp"
     ! cmp -s "$root/$file" "$work/host.cpp" || {
         echo "$file: the expression changes nothing: $2" >&2
         exit 1
     }
-    object=$(ninja -C "$build" -t query "$root/$file" | sed -n 's/^ *\(.*\.o\)$/\1/p' | head -1)
-    cp "$work/host.cpp" "$work/host.cxx"
-    if [ -z "$object" ]; then
-        batch=$(grep -l "\"$root/$file\"" "$build"/CMakeFiles/*.dir/Unity/*.cxx | head -1)
-        object=${batch#"$build"/}.o
-        sed "s|\"$root/$file\"|\"$work/host.cpp\"|" "$batch" > "$work/host.cxx"
-    fi
+    unit_of "$root/$file" "$work/host.cpp" "$work/host.cxx"
     compile "$object" "$work/host.cxx" "$work/host.o" -I "$(dirname "$root/$file")"
     pairs=("$object" "$work/host.o")
 }
