@@ -3,6 +3,7 @@
 #include "taut/report/compare.hpp"
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
+#include "taut/cli/interrupt.hpp"
 #include "taut/cli/numbers.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/cli/run_result.hpp"
@@ -156,7 +157,8 @@ int compare_variants(const CompareCommand& command)
     const std::uint64_t frames = frames_of(command, variants.front().scene);
     if (!command.folder.empty())
         make_folder(command.folder); // before minutes of work
-    const std::vector<CompareRow> rows = compare(variants, frames);
+    const InterruptGuard guard;
+    const std::vector<CompareRow> rows = compare(variants, frames, [&] { return !guard.interrupted(); });
     Json json = {{"scene", command.scene}, {"frames", frames}, {"variants", Json::array()}};
     bool ran = false;
     for (const CompareRow& row : rows)

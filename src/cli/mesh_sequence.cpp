@@ -2,8 +2,11 @@
 
 #include "taut/cli/output.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
+#include "taut/scene/extent.hpp"
 #include "taut/scene/obj_text.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace fs = std::filesystem;
@@ -21,6 +24,22 @@ std::string object_name(const Body& body, std::size_t index)
     return name;
 }
 
+/// Of a coordinate. Far from the origin the world keeps places by more than a float has, and files show it.
+int digits_of(const Scene& resolved)
+{
+    if (resolved.method.precision == "double")
+        return scene_file::kDoubleDigits;
+    Extent all;
+    for (const Body& body : resolved.bodies)
+        for (const glm::dvec3& p : body.mesh.positions)
+            all.take(p);
+    double far = 0; // in sizes of the scene
+    for (int k = 0; k < 3 && all.size() > 0; ++k)
+        far = std::max({far, std::abs(all.low[k]) / all.size(), std::abs(all.high[k]) / all.size()});
+    const int more = far > 1 ? static_cast<int>(std::ceil(std::log10(far))) : 0;
+    return std::min(scene_file::kFloatDigits + more, scene_file::kDoubleDigits);
+}
+
 } // namespace
 
 MeshSequence::MeshSequence(fs::path folder) : folder_(std::move(folder)) {}
@@ -29,7 +48,7 @@ void MeshSequence::set_scene(const Scene& resolved)
 {
     faces_.clear();
     vertices_.clear();
-    digits_ = resolved.method.precision == "double" ? scene_file::kDoubleDigits : scene_file::kFloatDigits;
+    digits_ = digits_of(resolved);
     std::size_t first = 0;
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {

@@ -32,15 +32,47 @@ void look(const World& world, std::uint64_t frame, Looks& looks, CompareRow& row
         std::max(row.highest_energy, row.report.kinetic_energy + row.report.potential_energy);
 }
 
-void run(World& world, std::uint64_t frames, CompareRow& row)
+/// Residuals, where the run got to its end, and what they say of it.
+void judge_rest(const World& world, bool ended, CompareRow& row)
+{
+    try
+    {
+        if (ended)
+            row.residuals = residuals_ahead(world);
+        judge_residuals(world.scene(), row.residuals, row.report);
+    }
+    catch (const Error&)
+    {
+        // The copy is larger than the world: where it does not fit, the run stands without residuals.
+    }
+}
+
+/// Of where it was stopped: what is unsound there stays so.
+StepReport interrupted_report(const World& world)
+{
+    StepReport report = measure(world);
+    if (report.status == Status::completed)
+        report.status = Status::interrupted;
+    return report;
+}
+
+using Progress = std::function<bool()>;
+
+bool stopped(const Progress& progress) { return progress && !progress(); }
+
+void run(World& world, std::uint64_t frames, const Progress& progress, CompareRow& row)
 {
     Looks looks(frames);
     look(world, 0, looks, row);
     row.highest_energy = row.report.kinetic_energy + row.report.potential_energy;
     std::vector<double> times;
     const auto goes_on = [&] { return rank(row.report.status) < rank(Status::diverged); };
+    bool interrupted = false;
     for (std::uint64_t k = 1; k <= frames && goes_on(); ++k)
     {
+        interrupted = stopped(progress);
+        if (interrupted)
+            break;
         const auto start = Clockwork::now();
         world.step();
         world.device().wait();
@@ -50,31 +82,30 @@ void run(World& world, std::uint64_t frames, CompareRow& row)
     }
     row.looks = looks.list();
     row.mean_volume /= row.measured;
-    try
-    {
-        if (goes_on())
-            row.residuals = residuals_ahead(world);
-        judge_residuals(world.scene(), row.residuals, row.report);
-    }
-    catch (const Error&)
-    {
-        // The copy is larger than the world: where it does not fit, the run stands without residuals.
-    }
+    if (interrupted)
+        row.report = interrupted_report(world);
+    else
+        judge_rest(world, goes_on(), row);
     row.step_ms = median(std::move(times));
     row.positions = world.positions();
 }
 
-CompareRow row_of(const Variant& variant, std::uint64_t frames)
+CompareRow row_of(const Variant& variant, std::uint64_t frames, const Progress& progress)
 {
     CompareRow row;
     row.label = variant.label;
     row.method = variant.scene.method.type;
     row.executor = variant.device->info().executor;
+    if (stopped(progress))
+    {
+        row.refusal = "not run: interrupted";
+        return row;
+    }
     try
     {
         World world(variant.scene, variant.device);
         row.springs = measure(world).springs;
-        run(world, frames, row);
+        run(world, frames, progress, row);
     }
     catch (const Error& error)
     {
@@ -139,7 +170,8 @@ std::vector<std::string> cells(const CompareRow& row, bool volume)
 
 } // namespace
 
-std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames)
+std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames,
+                                const Progress& progress)
 {
     if (variants.empty())
         throw Error(ErrorCode::bad_input, "there is nothing to compare: give at least one variant");
@@ -148,11 +180,12 @@ std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint6
     rows.reserve(variants.size());
     for (const Variant& variant : variants)
     {
-        rows.push_back(row_of(variant, frames));
+        rows.push_back(row_of(variant, frames, progress));
         CompareRow& row = rows.back();
         if (row.refusal.empty() && first == nullptr)
             first = &row;
-        else if (row.refusal.empty() && row.positions.size() == first->positions.size())
+        else if (row.refusal.empty() && row.report.status != Status::interrupted &&
+                 row.positions.size() == first->positions.size())
             row.difference =
                 largest_error(error_weights(make_model(variant.scene)), row.positions, first->positions);
     }

@@ -5,6 +5,7 @@
 #include "taut/report/residuals.hpp"
 #include "taut/report/svg_plot.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,8 +41,11 @@ struct CompareRow
 };
 
 /// Runs each variant for so many time steps, one after another. A variant that its plan refuses is a row with
-/// the reason. Throws Error{bad_input} without variants.
-std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames);
+/// the reason. `progress` is called before each step; false stops: the run at hand is a row with the status
+/// `interrupted`, and those behind it are not run, with that for a reason. Throws Error{bad_input} without
+/// variants.
+std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames,
+                                const std::function<bool()>& progress = {});
 
 /// A table in Markdown, and the same as CSV.
 std::string compare_markdown(const std::vector<CompareRow>& rows);

@@ -349,7 +349,7 @@ LoadResidual measure_load_residual(const World& world)
         last->model = std::make_shared<PhysicalModel>(judged_part(*last->model, unjudged));
     Leftover& left = last->left;
     left.against_response = sweeps;
-    left.followed = kLoadShare * world.scene().accept.residual;
+    left.followed = kFollowedShare * world.scene().accept.residual;
     if (!sweeps)
         for (std::size_t i = 0; i < view.x.size(); ++i)
             left.carried.push_back(last->model->pinned[i] ? glm::length(last->moved[i]) : 0.0);

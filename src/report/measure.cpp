@@ -176,6 +176,14 @@ void judge_residuals(const Scene& scene, StepReport& report)
                                              shown(100 * scene.accept.stretch, 3) +
                                              " %; take more substeps or iterations"},
                    report);
+    if (report.flow_residual > kFlowShare)
+        set_status({Status::unconverged, "springs have flowed by what the solver left of them: by the "
+                                         "multipliers one is " +
+                                             shown_percent(report.flow_residual) +
+                                             " of its plastic_yield from where it should be, " +
+                                             shown_percent(kFlowShare) +
+                                             " are accepted; take more substeps or iterations"},
+                   report);
     if (report.imbalance > scene.accept.residual)
         set_status({Status::unconverged, "the solver left " + shown(100 * report.imbalance, 3) +
                                              " % of the forces, accept.residual is " +

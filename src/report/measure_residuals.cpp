@@ -20,18 +20,16 @@ using reference::BendingRecord;
 using reference::DistanceRecord;
 using reference::View;
 
-/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of the distance constraints: eq. 9, with
-/// the damper's part of eq. 26, gamma n . (moved_a - moved_b), gamma = damping time / h; over 1 + gamma, so
-/// that it is a change of length, by which the ends would have to move.
-double distance_residual(const View& view, double h, const std::vector<glm::dvec3>& moved,
-                         std::vector<glm::dvec3>& impulse)
+/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of each distance constraint over its rest
+/// length: eq. 9, with the damper's part of eq. 26, gamma n . (moved_a - moved_b), gamma = damping time / h;
+/// over 1 + gamma, so that it is a change of length, by which the ends would have to move.
+std::vector<double> distance_residuals(const View& view, double h, const std::vector<glm::dvec3>& moved,
+                                       std::vector<glm::dvec3>& impulse)
 {
     const std::vector<double> lambda = view.world.multipliers("distance");
-    if (lambda.empty())
-        return 0;
+    std::vector<double> out(lambda.size(), 0.0);
     const std::vector<double> times = view.world.damping_times("distance");
-    double worst = 0;
-    for (std::size_t k = 0; k < view.distance.size(); ++k)
+    for (std::size_t k = 0; k < lambda.size(); ++k)
     {
         const DistanceRecord& c = view.distance[k];
         const double length = view.length(c);
@@ -45,7 +43,27 @@ double distance_residual(const View& view, double h, const std::vector<glm::dvec
         const double gamma = times.empty() ? 0 : times[k] / h;
         const double damper = gamma * glm::dot(n, moved[c.a] - moved[c.b]);
         const double open = length - c.rest_length + damper + c.compliance / (h * h) * lambda[k];
-        worst = std::max(worst, std::abs(open) / ((1 + gamma) * c.rest_length));
+        out[k] = std::abs(open) / ((1 + gamma) * c.rest_length);
+    }
+    return out;
+}
+
+/// The largest of springs that have flowed, over the yield strain of their body: what is left unsolved flows
+/// like what is strained.
+double flow_residual(const View& view, const std::vector<double>& left)
+{
+    const auto& bodies = view.world.scene().bodies;
+    const std::vector<double> first = view.first_lengths();
+    double worst = 0;
+    for (std::size_t k = 0; k < left.size(); ++k)
+    {
+        const DistanceRecord& c = view.distance[k];
+        const auto& starts = view.model.body_start;
+        const auto next = std::upper_bound(starts.begin(), starts.end(), c.a);
+        const double yield =
+            bodies[static_cast<std::size_t>(next - starts.begin()) - 1].material.plastic_yield;
+        if (yield > 0 && c.rest_length != first[k])
+            worst = std::max(worst, left[k] / yield);
     }
     return worst;
 }
@@ -96,7 +114,11 @@ void measure_residuals(const View& view, StepReport& out)
         return;
     const double h = view.plan.timestep / view.plan.substeps;
     std::vector<glm::dvec3> impulse(view.x.size(), glm::dvec3(0));
-    out.stretch_residual = distance_residual(view, h, moved, impulse);
+    const std::vector<double> left = distance_residuals(view, h, moved, impulse);
+    out.stretch_residual = left.empty() ? 0 : *std::max_element(left.begin(), left.end());
+    const auto& flows = view.model.flows;
+    if (std::find(flows.begin(), flows.end(), true) != flows.end())
+        out.flow_residual = flow_residual(view, left);
     out.dual_residual = std::max(out.stretch_residual, bending_residual(view, h, impulse));
     const double gravity = glm::length(view.model.gravity);
     const std::vector<bool> touches = touching_colliders(view);

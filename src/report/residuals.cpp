@@ -46,6 +46,7 @@ Residuals residuals_ahead(const World& world)
             further.dual_residual,
             further.imbalance,
             further.stretch_residual,
+            further.flow_residual,
             load.share,
             load.way};
 }
@@ -56,6 +57,7 @@ void judge_residuals(const Scene& scene, const Residuals& left, StepReport& repo
     report.dual_residual = left.dual;
     report.imbalance = left.imbalance;
     report.stretch_residual = left.stretch;
+    report.flow_residual = left.flow;
     report.load_residual = left.load;
     report.load_way = left.load_way;
     judge_residuals(scene, report);

@@ -5,11 +5,11 @@
 
 namespace taut {
 
-/// As StepReport::primal_residual, dual_residual, imbalance, stretch_residual, load_residual and load_way; -1
-/// where there is none.
+/// As StepReport::primal_residual, dual_residual, imbalance, stretch_residual, flow_residual, load_residual
+/// and load_way; -1 where there is none.
 struct Residuals
 {
-    double primal = -1, dual = -1, imbalance = -1, stretch = -1, load = -1, load_way = 0;
+    double primal = -1, dual = -1, imbalance = -1, stretch = -1, flow = -1, load = -1, load_way = 0;
 };
 
 /// Residuals of xpbd need multipliers, which a run does not keep. So they are those of a copy that keeps them

@@ -263,8 +263,9 @@ Soundness judge_energy(double energy, double most, double bound, Status status, 
 {
     if (energy <= bound)
         return {};
-    return found(status, std::string(what) + " " + shown(energy, 3) + " J; no more than " + shown(most, 3) +
-                             " J can have been put in");
+    const std::string put_in = most > 0 ? "no more than " + shown(most, 3) + " J" : "none";
+    return found(status,
+                 std::string(what) + " " + shown(energy, 3) + " J; " + put_in + " can have been put in");
 }
 
 /// Under implicit_constraints the count is of springs whose ends passed each other further than the solve can

@@ -338,7 +338,7 @@ std::string svg(const Plot& plot)
     body += labels.svg();
     double legend_end = 0;
     body += legend(plot, legend_end);
-    double bottom = kTop + kHigh + 74;
+    double bottom = std::max(kTop + kHigh + 74, legend_end + 8);
     body += footer(plot, area, bottom);
     const std::string width = fixed(kPage), height = fixed(std::max(bottom + 6, legend_end));
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +

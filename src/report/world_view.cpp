@@ -70,22 +70,25 @@ std::vector<std::byte> contents(const World& world, std::uint32_t buffer)
     return at == kept.size() ? world.plan().buffers[buffer].initial : world.state().kept[at];
 }
 
+/// The records in a buffer of the plan; vertices scene-wide.
+template <template <typename> typename Record>
+std::vector<Record<double>> decoded(const Plan& plan, const std::vector<std::byte>& bytes)
+{
+    auto out = plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
+                                                    : decode_as<Record<float>>(bytes);
+    for (Record<double>& record : out)
+        to_scene(record, plan.original);
+    return out;
+}
+
 /// The records of a constraint kind as the device has them, else those of the model; vertices scene-wide.
 template <template <typename> typename Record, typename Element>
 std::vector<Record<double>> records(const World& world, std::string_view kind,
                                     const std::vector<Element>& of_model)
 {
-    const Plan& plan = world.plan();
-    for (const ConstraintSet& set : plan.constraints)
+    for (const ConstraintSet& set : world.plan().constraints)
         if (set.kind == kind)
-        {
-            const auto bytes = contents(world, set.buffer);
-            auto out = plan.precision == Precision::float64 ? decode_as<Record<double>>(bytes)
-                                                            : decode_as<Record<float>>(bytes);
-            for (Record<double>& record : out)
-                to_scene(record, plan.original);
-            return out;
-        }
+            return decoded<Record>(world.plan(), contents(world, set.buffer));
     return records_of(of_model);
 }
 
@@ -132,6 +135,20 @@ View::View(const World& w)
         take_rest_lengths<double>(world, distance);
     else
         take_rest_lengths<float>(world, distance);
+}
+
+std::vector<double> View::first_lengths() const
+{
+    std::vector<double> out;
+    for (const ConstraintSet& set : plan.constraints)
+        if (set.kind == "distance")
+            for (const DistanceRecord& c :
+                 decoded<layout::DistanceConstraint>(plan, plan.buffers[set.buffer].initial))
+                out.push_back(c.rest_length);
+    if (out.empty())
+        for (const StretchElement& e : model.springs)
+            out.push_back(e.rest_length);
+    return out;
 }
 
 double View::length(const DistanceRecord& c) const { return glm::length(x[c.a] - x[c.b]); }

@@ -22,6 +22,8 @@ struct View
 
     double length(const DistanceRecord& c) const;
     HingeAngle<double> angle(const BendingRecord& c) const;
+    /// m: rest lengths of `distance` as the plan made them, before plasticity changed any.
+    std::vector<double> first_lengths() const;
 
     const World& world;
     const Plan& plan;

@@ -107,6 +107,12 @@ void check_body(const Body& body, const Checker& out)
                   "is " + shown(body.material.tear_strain) +
                       ", but only cloth whose springs are its edges can tear; leave out the network and the "
                       "springs, or take a grid or a mesh");
+    const bool network = body.shape.kind == ShapeKind::grid && body.shape.network.used;
+    const double stiffness = body.material.stretch_stiffness;
+    if (network && stiffness > 0 && stiffness != Material().stretch_stiffness)
+        out.warning("material.stretch_stiffness",
+                    "is " + shown(stiffness) +
+                        " N/m, which does nothing: the springs of a network have their own");
     if (body.material.attachment_slack >= 0 && body.pins.empty() && !body.kinematic.used)
         out.warning("material.attachment_slack",
                     "is " + shown(body.material.attachment_slack) +

@@ -23,6 +23,16 @@ bool meets_another(const Scene& scene, const Body& body)
 
 } // namespace
 
+std::uint32_t automatic_sweeps(const Scene& scene)
+{
+    constexpr std::uint32_t kOfCloth = 2, kOfSolids = 8;
+    const bool solid = std::ranges::any_of(scene.bodies, [&](const Body& body) {
+        return !body.mesh.tetrahedra.empty() && !body.kinematic.used &&
+               (body.contact.self || meets_another(scene, body));
+    });
+    return solid ? kOfSolids : kOfCloth;
+}
+
 bool pass_through(const BodyContact& a, const BodyContact& b)
 {
     return has(a.passes, b.group) || has(b.passes, a.group);

@@ -387,6 +387,8 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
     throw_if_any(issues, found);
     if (resolved.method.substeps == 0)
         resolved.method.substeps = automatic_substeps(resolved);
+    if (resolved.contact.sweeps == 0)
+        resolved.contact.sweeps = automatic_sweeps(resolved);
     if (found)
         found->insert(found->end(), issues.begin(), issues.end());
     return resolved;

@@ -16,9 +16,10 @@
 //   need. Membranes, of which each corner hangs from several triangles at once, get a ninth of the strain. A
 //   gas of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
 //   one constraint (the tension of a sphere is p r / 2); one that draws in presses edges together, which
-//   buckle where they act softer by (c h / edge)^2. A sail that is held all round is spanned by the wind's
-//   push. One sweep bends cloth softer by k B h^2 / (s edge^4), k measured, whatever B is where that is
-//   large: cloth that stands out sags by k g h^2 L^4 / (8 edge^4) too far. Measured in docs/methods.md.
+//   buckle where they act softer by (c h / edge)^2. What a sweep leaves of a plastic body flows like strain.
+//   A sail that is held all round is spanned by the wind's push. One sweep bends cloth softer by
+//   k B h^2 / (s edge^4), k measured, whatever B is where that is large: cloth that stands out sags by
+//   k g h^2 L^4 / (8 edge^4) too far. Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
@@ -125,7 +126,10 @@ double wave_speed_squared(const Body& body)
         return 0;
     if (!body.mesh.tetrahedra.empty())
         return m.youngs_modulus / m.density;
-    const double along = m.fabric.used ? std::max(m.fabric.warp, m.fabric.weft) : m.stretch_stiffness;
+    const SpringNetwork& network = body.shape.network;
+    const double along = m.fabric.used   ? std::max(m.fabric.warp, m.fabric.weft)
+                         : network.used ? std::max({network.structural, network.shear, network.bend})
+                                        : m.stretch_stiffness;
     return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
 }
 
@@ -133,6 +137,15 @@ double wave_speed_squared(const Body& body)
 double longest_for_stiffness(const Body& body, const SweepLoad& load)
 {
     return load.edge * std::sqrt(kSofter / wave_speed_squared(body));
+}
+
+/// s: the longest substep in which a plastic body that its pins draw flows by its own strain: a sweep leaves
+/// 3 (c h / edge)^2 of the yield, measured. No limit for others.
+double longest_for_flow(const Body& body, const SweepLoad& load)
+{
+    const bool drawn = std::ranges::any_of(body.pins, [](const Pin& pin) { return !pin.motion.empty(); });
+    return body.material.plastic_yield > 0 && drawn ? longest_for_stiffness(body, load) / std::sqrt(3.0)
+                                                    : HUGE_VAL;
 }
 
 /// s: the longest substep in which a held solid sags by no more than is seen too far, or acts as stiff as it
@@ -283,7 +296,9 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     const double gas =
         method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
     const double carried = // whatever gravity does
-        method == "vbd" ? std::min(gas, longest_for_waves(body, load, scene.method.iterations)) : gas;
+        method == "vbd"    ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
+        : method == "xpbd" ? std::min(gas, sweeps * longest_for_flow(body, load))
+                           : gas;
     const double blown = method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_wind(scene, body, load);
     if (!(g > 0))
         return std::min(carried, blown);

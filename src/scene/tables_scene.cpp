@@ -126,7 +126,9 @@ constexpr Key kContact[] = {
         .words(kContactStarts),
     key<&SceneContact::sweeps>("sweeps", "over all pairs, after each iteration of the constraints: more for "
                                          "stacks of many layers")
-        .range(1, 100),
+        .range(1, 100)
+        .or_word("automatic", 0)
+        .usually("\"automatic\": 8 where a solid can meet something, else 2"),
     key<&SceneContact::guarantee>("guarantee", "\"no_crossing\": surfaces that meet, and do not cross at the "
                                                "start, never do ([the guarantee](contact.md#the-guarantee))")
         .words(kGuarantees),

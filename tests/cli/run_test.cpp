@@ -352,3 +352,24 @@ TEST_CASE("meshes and pictures of a solid show the surface that it carries")
     CHECK(heights[4] == Approx(-1).epsilon(0.02));
     CHECK(heights[5] == Approx(-0.9).epsilon(0.02));
 }
+
+TEST_CASE("meshes of a float run far from the origin show what the world keeps")
+{
+    const Folder folder;
+    const std::string scene = folder.file("far.json", R"({"taut": 1, "duration": 0.1, "gravity": [0, 0, 0],
+        "bodies": [{"grid": {"cells": [3, 3], "size": [0.3, 0.3]},
+                    "transform": {"translate": [1e6, 0, 0]}}]})");
+    const Result result =
+        folder.taut({"run", scene, "--device", "cpu:serial", "--out", folder / "o", "--no-picture"});
+    REQUIRE(result.status == 0);
+    std::istringstream mesh(program::read(folder / "o/mesh_00000.obj"));
+    double least = 1e9, most = 0;
+    for (std::string line; std::getline(mesh, line);)
+        if (line.starts_with("v "))
+        {
+            const double x = std::stod(line.substr(2));
+            least = std::min(least, x);
+            most = std::max(most, x);
+        }
+    CHECK(most - least == Approx(0.3).margin(1e-6));
+}

@@ -180,6 +180,7 @@ inline Scene solids_meet()
         body.material.thickness = 0.01;
     scene.contact.between = true;
     scene.contact.friction = 0.25;
+    scene.contact.sweeps = 2;
     scene.method.substeps = 8;
     return scene;
 }

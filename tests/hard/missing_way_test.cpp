@@ -169,4 +169,27 @@ TEST_CASE("bodies that xpbd leaves too soft are named, and those that it does no
     CHECK(named > scenes / 4);
 }
 
+TEST_CASE("a bar that sags by an eighth too far is said to be soft [hard]")
+{
+    Scene scene;
+    Body& bar = scene.bodies.emplace_back();
+    bar.shape.kind = ShapeKind::box;
+    bar.shape.box_cells = {8, 2, 2};
+    bar.shape.box_size = {0.5, 0.5 / 6, 0.5 / 6};
+    bar.material = solid_material();
+    bar.material.density = 1000;
+    bar.material.youngs_modulus = 3e5;
+    bar.material.poissons_ratio = 0.45;
+    bar.pins.emplace_back().faces = {"left"};
+    scene.damping = 5;
+    const auto soft = [](const End& end) { return end.report.warnings.contains("soft"); };
+    const End right = end_of(scene, 300, "double"), usual = end_of(scene, 0, "float");
+    INFO("way " << usual.report.load_way << ", share " << usual.report.load_residual);
+    CHECK(missing(usual.x, right.x) > 0.015);
+    CHECK(usual.report.load_residual < kLoadShare); // little beside what its loads move
+    CHECK(usual.report.status == Status::completed);
+    CHECK(soft(usual));
+    CHECK_FALSE(soft(right));
+}
+
 } // namespace taut::hard

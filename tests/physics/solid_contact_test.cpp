@@ -192,3 +192,29 @@ TEST_CASE("a bar that is bent onto itself meets itself")
     else
         CHECK(crossed > 0);
 }
+
+TEST_CASE("solids that hit each other do not go through each other by default")
+{
+    const std::string method = GENERATE("xpbd", "vbd", "implicit_euler");
+    CAPTURE(method);
+    Scene scene; // one of twice the mass comes from the other side
+    scene.bodies = {cube(0.1, 3, {-0.2, 0, 0}, 1e6), cube(0.1, 3, {0.2, 0.02, 0.03}, 1e6)};
+    scene.bodies[1].material.density = 2 * kDensity;
+    scene.bodies[0].velocity = {2, 0, 0};
+    scene.bodies[1].velocity = {-1, 0, 0};
+    for (Body& body : scene.bodies)
+        body.material.thickness = 0.001;
+    scene.gravity = {0, 0, 0};
+    scene.contact.between = true;
+    scene.method.type = method;
+    World world(resolve(scene), test_device("cpu:serial"));
+    CHECK(test::crossed_in(world, 30) == 0);
+    glm::dvec3 momentum[2] = {};
+    std::size_t i = 0;
+    const auto v = world.velocities();
+    for (std::size_t b = 0; b < 2; ++b)
+        for (const double mass : vertex_masses(world.scene().bodies[b]))
+            momentum[b] += mass * v[i++];
+    CHECK(momentum[0].x < -0.5); // kg m/s, 2 before: thrown back by the heavier one
+    CHECK(momentum[1].x > 0.5);
+}

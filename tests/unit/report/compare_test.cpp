@@ -205,3 +205,19 @@ TEST_CASE("the curve of a comparison is the volume error where there are volumes
     REQUIRE(strains.gaps.size() == 1);
     CHECK(strains.gaps[0].find("r: unsupported") == 0);
 }
+
+TEST_CASE("a comparison that is stopped keeps what it has", "[compare]")
+{
+    const auto device = test_device("cpu:serial");
+    const std::vector<Variant> variants = {{"first", hanging("xpbd"), device},
+                                           {"second", hanging("pbd"), device},
+                                           {"third", hanging("vbd"), device}};
+    int asked = 0; // 11 times by the first
+    const std::vector<CompareRow> rows = compare(variants, 10, [&] { return ++asked <= 16; });
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[0].report.time == Approx(10 * hanging("xpbd").timestep));
+    CHECK(rows[1].report.status == Status::interrupted);
+    CHECK(rows[1].report.time == Approx(4 * hanging("pbd").timestep));
+    CHECK_FALSE(rows[1].difference.has_value());
+    CHECK(rows[2].refusal == "not run: interrupted");
+}

@@ -81,3 +81,20 @@ TEST_CASE("a gravity and readings in other units are warned of", "[scene]")
     CHECK(warned(4) == 0);
     CHECK(warned(0.04) == 1);
 }
+
+TEST_CASE("the stiffness of edges beside a network of springs is warned of", "[scene]")
+{
+    Scene scene = with_body(ShapeKind::grid);
+    scene.bodies[0].shape.network.used = true;
+    for (const double nothing : {Material().stretch_stiffness, 0.0})
+    {
+        scene.bodies[0].material.stretch_stiffness = nothing;
+        CHECK(check(scene).empty());
+    }
+    scene.bodies[0].material.stretch_stiffness = 1000;
+    const auto issues = check(scene);
+    REQUIRE(issues.size() == 1);
+    CHECK(!issues[0].error);
+    CHECK(issues[0].field == "bodies[0].material.stretch_stiffness");
+    CHECK_THAT(issues[0].text, Contains("does nothing") && Contains("network"));
+}

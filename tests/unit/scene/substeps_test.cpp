@@ -101,6 +101,41 @@ TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[su
     CHECK(substeps("vbd", 1e5) < stiff / 4);
 }
 
+TEST_CASE("the waves of a network go by its own springs", "[substeps]")
+{
+    Scene scene = test::hanging(12);
+    scene.method.type = "vbd";
+    scene.method.substeps = 0;
+    const auto substeps = [&](double edges, double network) {
+        scene.bodies[0].material.stretch_stiffness = edges;
+        scene.bodies[0].shape.network.used = network > 0;
+        scene.bodies[0].shape.network.structural = scene.bodies[0].shape.network.shear = network;
+        return resolve(scene).method.substeps;
+    };
+    const std::uint32_t stiff = substeps(1e5, 0);
+    CHECK(substeps(1e3, 1e5) == Approx(stiff).epsilon(0.1)); // diagonals are no edges of it
+    CHECK(substeps(1e5, 1e3) < stiff / 4);
+}
+
+TEST_CASE("plastic cloth that its pins draw takes substeps by its stiffness under xpbd", "[substeps]")
+{
+    Scene scene = test::hanging(12);
+    scene.method.type = "xpbd";
+    scene.method.substeps = 0;
+    scene.bodies[0].material.stretch_stiffness = 1e4;
+    const std::uint32_t elastic = resolve(scene).method.substeps;
+    scene.bodies[0].material.plastic_yield = 0.02;
+    CHECK(resolve(scene).method.substeps == elastic); // nothing draws it
+    Keyframe start, end;
+    end.time = 1;
+    end.translate = {0, 0.1, 0};
+    scene.bodies[0].pins[0].motion = {start, end};
+    const std::uint32_t drawn = resolve(scene).method.substeps;
+    CHECK(drawn > 2 * elastic);
+    scene.bodies[0].material.stretch_stiffness = 1.6e5;
+    CHECK(resolve(scene).method.substeps == Approx(4 * drawn).margin(4)); // as the root of the stiffness
+}
+
 TEST_CASE("membranes take three times the substeps of springs under xpbd", "[substeps]")
 {
     Scene scene = test::hanging(20);
@@ -328,4 +363,25 @@ TEST_CASE("cloth that is too limp to stand out takes the substeps of its weight"
     CHECK(substeps(0.9 * limit) == substeps(0));
     CHECK(substeps(1.1 * limit) > 1.5 * substeps(0));
     CHECK(substeps(4.4 * limit) == Approx(2 * substeps(1.1 * limit)).margin(2)); // no softer than by a fifth
+}
+
+TEST_CASE("more sweeps of contact are taken where a solid can meet something", "[substeps]")
+{
+    Scene scene = test::hanging(2);
+    Body& box = scene.bodies.emplace_back();
+    box.shape.kind = ShapeKind::box;
+    box.material = solid_material();
+    scene.contact.sweeps = 0; // of hanging(), which is resolved
+    const auto sweeps = [&] { return resolve(scene).contact.sweeps; };
+    CHECK(sweeps() == 2); // nothing meets
+    scene.contact.between = true;
+    CHECK(sweeps() == 8);
+    scene.bodies[1].contact.passes = {"default"};
+    scene.bodies[1].contact.group = "box";
+    CHECK(sweeps() == 2);
+    scene.bodies[1].contact.self = true;
+    CHECK(sweeps() == 8);
+    scene.contact.sweeps = 3;
+    CHECK(sweeps() == 3);
+    CHECK(parse_scene(R"({"taut": 1, "contact": {"sweeps": "automatic"}})").contact.sweeps == 0);
 }
