@@ -135,8 +135,8 @@ mutated() {
 # CHANGED in its place; sets `object`, which it makes.
 unit_of() {
     local batch
-    batch=$(grep -lsF "\"$1\"" "$build"/CMakeFiles/*.dir/Unity/*.cxx "$build"/generated/taut/kernels/batch_*.cpp |
-        head -1)
+    batch=$(find "$build/CMakeFiles" "$build/generated/taut/kernels" \( -path '*/Unity/*.cxx' -o -name 'batch_*.cpp' \) \
+        -exec grep -lF "\"$1\"" {} + | head -1) || true # none has it
     case $batch in
     "") object=$(ninja -C "$build" -t query "$1" | sed -n 's/^ *\(.*\.o\)$/\1/p' | head -1) ;;
     *.cxx) object=${batch#"$build"/}.o ;;
@@ -152,13 +152,13 @@ make_kernel() {
     pairs=() what=
     if [ "$kind" = nothing ]; then
         what='returns at once'
-        : > "$work/$stem.cpp"
-        unit_of "$generated.native.cpp" "$work/$stem.cpp" "$work/unit.cpp"
+        unit_of "$generated.native.cpp" "$generated.native.cpp" "$work/unit.cpp" # for `object`
         { echo '#include <cstdint>'
           echo "namespace taut::kernels::$stem {"
           nm -C "$build/$object" | sed -n "s/.* T taut::kernels::$stem::\\(native_[a-z0-9_]*\\)(.*/\\1/p" |
               sed 's/.*/void &(const void*, void* const*, std::uint32_t, std::uint32_t) {}/'
           echo '}'; } > "$work/$stem.cpp"
+        unit_of "$generated.native.cpp" "$work/$stem.cpp" "$work/unit.cpp"
         compile "$object" "$work/unit.cpp" "$work/$stem.o"
         pairs=("$object" "$work/$stem.o")
         return

@@ -118,7 +118,10 @@ Json to_json(const CompareRow& row)
 {
     Json json = {{"label", row.label}, {"method", row.method}, {"executor", row.executor}};
     json["refusal"] = row.refusal;
-    json["status"] = row.refusal.empty() ? std::string(to_string(row.report.status)) : "refused";
+    json["status"] = row.refusal.empty() ? to_string(row.report.status)
+                     : row.interrupted   ? to_string(Status::interrupted)
+                                         : "refused";
+    json["interrupted"] = row.interrupted;
     json["step_ms"] = row.step_ms;
     json["worst_stretch"] = row.worst_stretch;
     json["worst_rms_stretch"] = row.worst_rms_stretch;

@@ -24,20 +24,17 @@ std::string object_name(const Body& body, std::size_t index)
     return name;
 }
 
-/// Of a coordinate. Far from the origin the world keeps places by more than a float has, and files show it.
-int digits_of(const Scene& resolved)
+/// Of a coordinate in a float run. Far from the origin the world keeps places by more digits than a float.
+int digits_of(std::span<const glm::dvec3> positions)
 {
-    if (resolved.method.precision == "double")
-        return scene_file::kDoubleDigits;
     Extent all;
-    for (const Body& body : resolved.bodies)
-        for (const glm::dvec3& p : body.mesh.positions)
-            all.take(p);
-    double far = 0; // in sizes of the scene
+    for (const glm::dvec3& p : positions)
+        all.take(p);
+    double far = 0; // in sizes of the body
     for (int k = 0; k < 3 && all.size() > 0; ++k)
         far = std::max({far, std::abs(all.low[k]) / all.size(), std::abs(all.high[k]) / all.size()});
-    const int more = far > 1 ? static_cast<int>(std::ceil(std::log10(far))) : 0;
-    return std::min(scene_file::kFloatDigits + more, scene_file::kDoubleDigits);
+    const double more = far > 1 ? std::min(std::ceil(std::log10(far)), 99.0) : 0;
+    return std::min(scene_file::kFloatDigits + static_cast<int>(more), scene_file::kDoubleDigits);
 }
 
 } // namespace
@@ -48,7 +45,7 @@ void MeshSequence::set_scene(const Scene& resolved)
 {
     faces_.clear();
     vertices_.clear();
-    digits_ = digits_of(resolved);
+    in_double_ = resolved.method.precision == "double";
     std::size_t first = 0;
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {
@@ -78,7 +75,8 @@ void MeshSequence::write(const std::vector<glm::dvec3>& positions, std::uint64_t
     {
         const std::size_t name_end = faces_[body].find('\n') + 1;
         text.append(faces_[body], 0, name_end);
-        scene_file::append_vertices(text, std::span(positions).subspan(vertex, vertices_[body]), digits_);
+        const auto own = std::span(positions).subspan(vertex, vertices_[body]);
+        scene_file::append_vertices(text, own, in_double_ ? scene_file::kDoubleDigits : digits_of(own));
         vertex += vertices_[body];
         text.append(faces_[body], name_end);
     }

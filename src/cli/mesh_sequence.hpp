@@ -35,7 +35,7 @@ private:
     std::filesystem::path folder_;
     std::vector<std::string> faces_;    ///< per body: its name, faces and links, ready to write
     std::vector<std::size_t> vertices_; ///< per body
-    int digits_ = 0;                    ///< of a coordinate
+    bool in_double_ = false;
     std::size_t count_ = 0;
 };
 

@@ -47,15 +47,6 @@ void judge_rest(const World& world, bool ended, CompareRow& row)
     }
 }
 
-/// Of where it was stopped: what is unsound there stays so.
-StepReport interrupted_report(const World& world)
-{
-    StepReport report = measure(world);
-    if (report.status == Status::completed)
-        report.status = Status::interrupted;
-    return report;
-}
-
 using Progress = std::function<bool()>;
 
 bool stopped(const Progress& progress) { return progress && !progress(); }
@@ -67,12 +58,14 @@ void run(World& world, std::uint64_t frames, const Progress& progress, CompareRo
     row.highest_energy = row.report.kinetic_energy + row.report.potential_energy;
     std::vector<double> times;
     const auto goes_on = [&] { return rank(row.report.status) < rank(Status::diverged); };
-    bool interrupted = false;
     for (std::uint64_t k = 1; k <= frames && goes_on(); ++k)
     {
-        interrupted = stopped(progress);
-        if (interrupted)
+        row.interrupted = stopped(progress);
+        if (row.interrupted)
+        {
+            look(world, k - 1, looks, row);
             break;
+        }
         const auto start = Clockwork::now();
         world.step();
         world.device().wait();
@@ -82,10 +75,10 @@ void run(World& world, std::uint64_t frames, const Progress& progress, CompareRo
     }
     row.looks = looks.list();
     row.mean_volume /= row.measured;
-    if (interrupted)
-        row.report = interrupted_report(world);
-    else
+    if (!row.interrupted)
         judge_rest(world, goes_on(), row);
+    else if (row.report.status == Status::completed)
+        row.report.status = Status::interrupted;
     row.step_ms = median(std::move(times));
     row.positions = world.positions();
 }
@@ -96,9 +89,10 @@ CompareRow row_of(const Variant& variant, std::uint64_t frames, const Progress& 
     row.label = variant.label;
     row.method = variant.scene.method.type;
     row.executor = variant.device->info().executor;
-    if (stopped(progress))
+    row.interrupted = stopped(progress);
+    if (row.interrupted)
     {
-        row.refusal = "not run: interrupted";
+        row.refusal = "interrupted: not run";
         return row;
     }
     try
@@ -149,7 +143,7 @@ std::vector<std::string> cells(const CompareRow& row, bool volume)
     std::vector<std::string> out = {row.label, row.method, row.executor};
     if (!row.refusal.empty())
     {
-        out.push_back("refused");
+        out.push_back(row.interrupted ? "not run" : "refused");
         out.resize(head(volume).size() - 1);
         out.push_back(row.refusal);
         return out;
@@ -184,8 +178,7 @@ std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint6
         CompareRow& row = rows.back();
         if (row.refusal.empty() && first == nullptr)
             first = &row;
-        else if (row.refusal.empty() && row.report.status != Status::interrupted &&
-                 row.positions.size() == first->positions.size())
+        else if (row.refusal.empty() && !row.interrupted && row.positions.size() == first->positions.size())
             row.difference =
                 largest_error(error_weights(make_model(variant.scene)), row.positions, first->positions);
     }

@@ -24,6 +24,7 @@ struct CompareRow
 {
     std::string label, method, executor;
     std::string refusal;          ///< why the plan refuses it; the rest is then empty
+    bool interrupted = false;     ///< `progress` stopped it, or before it began: then the rest is empty
     StepReport report;            ///< at the end
     double worst_stretch = 0;     ///< (l - L)/L, largest over all frames looked at
     double worst_rms_stretch = 0; ///< the same of the root mean square of tension
@@ -41,9 +42,8 @@ struct CompareRow
 };
 
 /// Runs each variant for so many time steps, one after another. A variant that its plan refuses is a row with
-/// the reason. `progress` is called before each step; false stops: the run at hand is a row with the status
-/// `interrupted`, and those behind it are not run, with that for a reason. Throws Error{bad_input} without
-/// variants.
+/// the reason. `progress` is called before each step; false stops: the run at hand ends there, `interrupted`
+/// where it is sound, and the remaining ones do not begin. Throws Error{bad_input} without variants.
 std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint64_t frames,
                                 const std::function<bool()>& progress = {});
 

@@ -340,7 +340,7 @@ std::string svg(const Plot& plot)
     body += legend(plot, legend_end);
     double bottom = std::max(kTop + kHigh + 74, legend_end + 8);
     body += footer(plot, area, bottom);
-    const std::string width = fixed(kPage), height = fixed(std::max(bottom + 6, legend_end));
+    const std::string width = fixed(kPage), height = fixed(bottom + 6);
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
            width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
            "\" font-family=\"Helvetica, Arial, sans-serif\">\n" +

@@ -141,13 +141,10 @@ std::vector<double> View::first_lengths() const
 {
     std::vector<double> out;
     for (const ConstraintSet& set : plan.constraints)
-        if (set.kind == "distance")
+        if (set.kind == "distance" && out.empty())
             for (const DistanceRecord& c :
                  decoded<layout::DistanceConstraint>(plan, plan.buffers[set.buffer].initial))
                 out.push_back(c.rest_length);
-    if (out.empty())
-        for (const StretchElement& e : model.springs)
-            out.push_back(e.rest_length);
     return out;
 }
 

@@ -22,7 +22,8 @@ struct View
 
     double length(const DistanceRecord& c) const;
     HingeAngle<double> angle(const BendingRecord& c) const;
-    /// m: rest lengths of `distance` as the plan made them, before plasticity changed any.
+    /// m: rest lengths of `distance` as the plan made them, before plasticity changed any; empty where the
+    /// method has no such constraints.
     std::vector<double> first_lengths() const;
 
     const World& world;

@@ -1,4 +1,5 @@
-// What the bodies of a scene say of each other: which of them pass through which.
+// What the bodies of a scene say of each other: which of them pass through which, and what contact takes by
+// itself where they meet.
 
 #include "taut/scene/checker.hpp"
 #include "taut/scene/scene.hpp"

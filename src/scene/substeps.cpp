@@ -42,6 +42,7 @@ constexpr double kShortArm = 0.05;         ///< of a body's size: nearer to its 
 constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is within 41 degrees of the plumb
 constexpr double kPressed = 1e-4; ///< strain of edges that are pressed together: less buckles nothing
 constexpr double kLimp = 2;       ///< of its length: cloth that a beam's formula lets sag further hangs
+constexpr double kFlowSweep = 3;  ///< of (c h / edge)^2 of the yield: what a sweep leaves, measured
 constexpr double kHingeSweep = 8; ///< of B h^2 / (s edge^4): by how much softer one sweep bends
 
 glm::dvec3 centre_of_mass(const Body& body)
@@ -118,6 +119,12 @@ double mass_of(const Body& body)
 
 constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
 
+/// N/m of a network along its rows: springs over two edges overlap, and are twice as long.
+double network_stiffness(const SpringNetwork& network)
+{
+    return network.structural + network.shear + 4 * network.bend;
+}
+
 /// (m/s)^2 of waves along a body: of a fabric along its stiffer yarns.
 double wave_speed_squared(const Body& body)
 {
@@ -128,7 +135,7 @@ double wave_speed_squared(const Body& body)
         return m.youngs_modulus / m.density;
     const SpringNetwork& network = body.shape.network;
     const double along = m.fabric.used   ? std::max(m.fabric.warp, m.fabric.weft)
-                         : network.used ? std::max({network.structural, network.shear, network.bend})
+                         : network.used ? network_stiffness(network)
                                         : m.stretch_stiffness;
     return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
 }
@@ -139,13 +146,15 @@ double longest_for_stiffness(const Body& body, const SweepLoad& load)
     return load.edge * std::sqrt(kSofter / wave_speed_squared(body));
 }
 
-/// s: the longest substep in which a plastic body that its pins draw flows by its own strain: a sweep leaves
-/// 3 (c h / edge)^2 of the yield, measured. No limit for others.
+/// s: the longest substep in which a plastic body that its pins draw flows by the strain of its material:
+/// what a sweep leaves of it, kFlowSweep (c h / edge)^2 of the yield, is kSofter. No limit for others.
 double longest_for_flow(const Body& body, const SweepLoad& load)
 {
-    const bool drawn = std::ranges::any_of(body.pins, [](const Pin& pin) { return !pin.motion.empty(); });
-    return body.material.plastic_yield > 0 && drawn ? longest_for_stiffness(body, load) / std::sqrt(3.0)
-                                                    : HUGE_VAL;
+    const bool drawn = std::ranges::any_of(
+        body.pins, [](const Pin& pin) { return !pin.motion.empty() || pin.moved_by_program; });
+    return body.material.plastic_yield > 0 && drawn
+               ? longest_for_stiffness(body, load) / std::sqrt(kFlowSweep)
+               : HUGE_VAL;
 }
 
 /// s: the longest substep in which a held solid sags by no more than is seen too far, or acts as stiff as it

@@ -128,7 +128,7 @@ constexpr Key kContact[] = {
                                          "stacks of many layers")
         .range(1, 100)
         .or_word("automatic", 0)
-        .usually("\"automatic\": 8 where a solid can meet something, else 2"),
+        .usually("\"automatic\": 8 where a solid that is not led can meet another body or itself, else 2"),
     key<&SceneContact::guarantee>("guarantee", "\"no_crossing\": surfaces that meet, and do not cross at the "
                                                "start, never do ([the guarantee](contact.md#the-guarantee))")
         .words(kGuarantees),

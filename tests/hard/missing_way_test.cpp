@@ -169,7 +169,7 @@ TEST_CASE("bodies that xpbd leaves too soft are named, and those that it does no
     CHECK(named > scenes / 4);
 }
 
-TEST_CASE("a bar that sags by an eighth too far is said to be soft [hard]")
+TEST_CASE("a bar that sags too far by little beside its sag is said to be soft [hard]")
 {
     Scene scene;
     Body& bar = scene.bodies.emplace_back();

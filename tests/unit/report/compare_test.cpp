@@ -218,6 +218,8 @@ TEST_CASE("a comparison that is stopped keeps what it has", "[compare]")
     CHECK(rows[0].report.time == Approx(10 * hanging("xpbd").timestep));
     CHECK(rows[1].report.status == Status::interrupted);
     CHECK(rows[1].report.time == Approx(4 * hanging("pbd").timestep));
+    CHECK(rows[1].looks.back().time == rows[1].report.time);
     CHECK_FALSE(rows[1].difference.has_value());
-    CHECK(rows[2].refusal == "not run: interrupted");
+    CHECK(rows[2].refusal == "interrupted: not run");
+    CHECK_THAT(compare_markdown(rows), Contains("not run") && !Contains("refused"));
 }

@@ -106,15 +106,18 @@ TEST_CASE("the waves of a network go by its own springs", "[substeps]")
     Scene scene = test::hanging(12);
     scene.method.type = "vbd";
     scene.method.substeps = 0;
-    const auto substeps = [&](double edges, double network) {
+    const auto substeps = [&](double edges, const SpringNetwork& network) {
         scene.bodies[0].material.stretch_stiffness = edges;
-        scene.bodies[0].shape.network.used = network > 0;
-        scene.bodies[0].shape.network.structural = scene.bodies[0].shape.network.shear = network;
+        scene.bodies[0].shape.network = network;
         return resolve(scene).method.substeps;
     };
-    const std::uint32_t stiff = substeps(1e5, 0);
-    CHECK(substeps(1e3, 1e5) == Approx(stiff).epsilon(0.1)); // diagonals are no edges of it
-    CHECK(substeps(1e5, 1e3) < stiff / 4);
+    const double stiff = substeps(1e5, {});
+    const double along = substeps(1e3, {.used = true, .structural = 1e5, .shear = 0});
+    CHECK(along == Approx(stiff).epsilon(0.1)); // whose mean edge has diagonals in it
+    CHECK(substeps(1e3, {.used = true, .structural = 5e4, .shear = 5e4}) == Approx(stiff).epsilon(0.1));
+    const double bends = substeps(1e3, {.used = true, .structural = 0, .shear = 0, .bend = 2.5e4});
+    CHECK(bends == Approx(along).epsilon(0.1));
+    CHECK(substeps(1e5, {.used = true, .structural = 1e3, .shear = 0}) < stiff / 4);
 }
 
 TEST_CASE("plastic cloth that its pins draw takes substeps by its stiffness under xpbd", "[substeps]")
