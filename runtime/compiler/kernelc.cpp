@@ -123,14 +123,14 @@ void table_text(std::ostringstream& out, const taut::CompiledKernel& k, const st
         << "const std::uint32_t opengl_" << id << "[] = {" << words(k.spirv_opengl) << "};\n"
         << "const char glsl_" << id << "[] =\n"
         << literal(k.glsl) << ";\n";
-    out << "const BindingInfo bindings_" << id << "[] = {\n";
+    out << "constinit const BindingInfo bindings_" << id << "[] = {\n";
     for (const auto& b : k.bindings)
         out << "    {\"" << b.name << "\", " << b.slot << ", static_cast<Access>("
             << static_cast<int>(b.access) << "), " << b.stride << "},\n";
     out << "};\n";
     if (!k.params.empty())
     {
-        out << "const ParamInfo params_" << id << "[] = {\n";
+        out << "constinit const ParamInfo params_" << id << "[] = {\n";
         for (const auto& p : k.params)
             out << "    {\"" << p.name << "\", \"" << p.type << "\", " << p.offset << "},\n";
         out << "};\n";
@@ -156,7 +156,9 @@ std::string source_text(const std::string& stem, const Kernels& kernels, const s
     out << "namespace {\n";
     for (const auto& k : kernels)
         table_text(out, *k, own);
-    out << "const KernelInfo table[] = {\n";
+    // Constants, said with their lengths: a table that is made when the program starts, or whose texts the
+    // compiler counts letter by letter, takes most of what these files take to compile.
+    out << "constinit const KernelInfo table[] = {\n";
     for (const auto& k : kernels)
     {
         const std::string id = identifier(*k);
@@ -165,7 +167,7 @@ std::string source_text(const std::string& stem, const Kernels& kernels, const s
             << (k->info.group_kernel ? "true" : "false") << ", " << k->info.group_size << ", "
             << k->info.shared_bytes << ", " << k->info.param_bytes << ",\n     bindings_" << id << ", "
             << (k->params.empty() ? "{}" : "params_" + id) << ", vulkan_" << id << ", opengl_" << id
-            << ", glsl_" << id << ", native_" << id << "},\n";
+            << ", {glsl_" << id << ", sizeof glsl_" << id << " - 1}, native_" << id << "},\n";
     }
     out << "};\n} // namespace\n\nconst KernelInfo& info(std::string_view variant, Precision precision)\n{\n"
         << "    for (const KernelInfo& kernel : table)\n"

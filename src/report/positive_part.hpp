@@ -1,21 +1,11 @@
 #pragma once
 // The part of a symmetric matrix that is positive semidefinite: eigenvalues below zero are set to zero.
-//
-// Based on: Teran, Sifakis, Irving, Fedkiw. Robust Quasistatic Finite Elements and Flesh Simulation. SCA
-//   2005.
-// Departures: none.
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 namespace taut::reference {
 
-/// Of (k + k^T) / 2. Any size; values of any unit.
-template <typename Matrix>
-Matrix positive_part(const Matrix& k)
-{
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(0.5 * (k + k.transpose()));
-    const auto kept = solver.eigenvalues().cwiseMax(0).eval();
-    return solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
-}
+/// Of (k + k^T) / 2; square, values of any unit. Threads may call it at once.
+Eigen::MatrixXd positive_part(const Eigen::MatrixXd& k);
 
 } // namespace taut::reference

@@ -72,7 +72,7 @@ void measure_row(const char* name, Scene scene, const char* method, const std::s
     scene.method.type = method;
     scene.method.stability = "substep";
     World world(scene, device);
-    const EnergyBudget budget(world.scene());
+    const SceneBudget budget(world.scene());
     CrossingWatch watch(world.scene());
     watch.look(0, 0, world.drive().substep, world.positions(), world.velocities());
     std::vector<double> step, motion, state, crossing = {0};

@@ -4,6 +4,7 @@
 // begins there.
 
 #include "linear_hard/cases.hpp"
+#include "support/symmetric.hpp"
 
 #include <Eigen/Dense>
 
@@ -254,7 +255,7 @@ double lowest_eigenvalue(const SparseMatrix& a)
         m.row(i) *= s;
         m.col(i) *= s;
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues()[0];
+    return symmetric_eigenvalues(m)[0];
 }
 
 struct Tally

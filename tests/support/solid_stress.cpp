@@ -1,6 +1,7 @@
 #include "support/solid_stress.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "support/symmetric.hpp"
+
 #include <glm/geometric.hpp>
 
 namespace taut::conformance {
@@ -46,9 +47,8 @@ Matrix9 stress_derivative(const Elastic& m, const glm::dmat3& f)
 
 Matrix9 without_negative(const Matrix9& a)
 {
-    const Eigen::SelfAdjointEigenSolver<Matrix9> solver(0.5 * (a + a.transpose()));
-    const Eigen::Matrix<double, 9, 1> kept = solver.eigenvalues().cwiseMax(0);
-    return solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
+    const Spectrum all = symmetric_spectrum(0.5 * (a + a.transpose()));
+    return all.vectors * all.values.cwiseMax(0).asDiagonal() * all.vectors.transpose();
 }
 
 std::vector<double> state_of(const glm::dmat3& stress, const Matrix9& k)

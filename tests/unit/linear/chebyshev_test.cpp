@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 #include "support/random.hpp"
+#include "support/symmetric.hpp"
 
 #include <Eigen/Dense>
 
@@ -309,13 +310,13 @@ TEST_CASE("the polynomial is symmetric positive definite, and as near to the inv
         s.col(row).setZero();
         s(row, row) = 1;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(s);
+    const Spectrum spectrum = symmetric_spectrum(s);
     const double sigma = (interval.highest + interval.lowest) / (interval.highest - interval.lowest);
     const double bound = 1 / std::cosh(degree * std::acosh(sigma));
     for (Eigen::Index k = 0; k < s.rows(); ++k)
     {
-        const Eigen::VectorXd v = spectrum.eigenvectors().col(k);
-        const double lambda = spectrum.eigenvalues()[k], q = v.dot(scaled * v);
+        const Eigen::VectorXd v = spectrum.vectors.col(k);
+        const double lambda = spectrum.values[k], q = v.dot(scaled * v);
         bool is_held = false;
         for (const std::uint32_t row : held)
             is_held = is_held || std::abs(v[row]) > 0.5;

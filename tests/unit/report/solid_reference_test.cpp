@@ -1,6 +1,7 @@
 // References of solids: the bound on their fastest motion, and what explicit small steps say beside Newton's
 // equilibrium and a refined method.
 #include "support/catch.hpp"
+#include "support/symmetric.hpp"
 
 #include "taut/plan/stability.hpp"
 #include "taut/report/cost.hpp"
@@ -8,8 +9,6 @@
 #include "taut/report/reference_static.hpp"
 #include "taut/report/static_energy.hpp"
 #include "taut/world/world.hpp"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +82,7 @@ double fastest(const PhysicalModel& model, const std::vector<glm::dvec3>& x)
                              std::sqrt(model.mass[v] * model.mass[w]);
         }
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (k + k.transpose())).eigenvalues()[n - 1];
+    return symmetric_eigenvalues(0.5 * (k + k.transpose()))[n - 1];
 }
 
 double square(double a) { return a * a; }
