@@ -4,8 +4,25 @@
 #include "cli/scenes.hpp"
 #include "support/catch.hpp"
 
+#include <csignal>
+#include <fstream>
+
 using program::Folder;
 using program::Result;
+
+namespace {
+
+/// Whether the process has a handler of its own for it.
+bool catches(int process, int signal)
+{
+    std::ifstream file("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("SigCgt:"))
+            return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+    return false;
+}
+
+} // namespace
 
 TEST_CASE("variants of a scene are compared, and one that is refused is a row with its reason")
 {
@@ -50,4 +67,34 @@ TEST_CASE("wrong variants end with 2 and say what would be right")
     CHECK(twice.status == 2);
     CHECK_THAT(twice.err, Contains("two --variant are called \"a\""));
     CHECK(folder.taut({"run", scene, "--set", "method.sub=2", "--no-picture"}).status == 2);
+}
+
+TEST_CASE("an interrupted comparison ends with the variants that were begun, and says which were not")
+{
+    const Folder folder;
+    const std::string scene = folder.file("cloth.json", scenes::cloth());
+    int looks = 0; // since the program catches the signal: the first variant runs by then, and has long to go
+    const auto interrupt = [&](int process) {
+        if (catches(process, SIGINT) && ++looks == 20)
+            kill(process, SIGINT);
+    };
+    const Result result =
+        folder.taut({"compare", scene, "--device", "cpu:serial", "--frames", "10000000", "--no-picture",
+                     "--out", folder / "o", "--set", "accept.stretch=10", "--variant",
+                     "one: method.substeps=20", "--variant", "two: method.substeps=30", "--json"},
+                    interrupt);
+    INFO(result.err);
+    REQUIRE(looks >= 20);
+    CHECK(result.status == 0);
+    const auto variants = program::parse(result.out)["variants"];
+    REQUIRE(variants.size() == 2);
+    for (const auto& variant : variants)
+    {
+        CHECK(variant["interrupted"] == true);
+        CHECK(variant["status"] == "interrupted");
+    }
+    CHECK(variants[0]["refusal"] == "");
+    CHECK(variants[0]["series"].size() >= 2); // the start, and where it stopped
+    CHECK(variants[1]["refusal"] == "interrupted: not run");
+    CHECK(program::parse(program::read(folder / "o/compare.json"))["variants"] == variants);
 }

@@ -130,3 +130,16 @@ TEST_CASE("a refused scene does not touch what an earlier run wrote")
     CHECK(folder.taut(arguments).status == 2);
     CHECK(program::read(folder / "o/report.json") == before);
 }
+
+TEST_CASE("bodies that no memory holds are refused before they are made, and nothing is written")
+{
+    const Folder folder;
+    std::string bodies; // 2.6e9 vertices: about a terabyte
+    for (int k = 0; k < 40; ++k)
+        bodies += std::string(k == 0 ? "" : ", ") + R"({"grid": {"cells": [8000, 8000], "size": [1, 1]}})";
+    const std::string scene = folder.file("huge.json", R"({"taut": 1, "bodies": [)" + bodies + "]}");
+    const Result result = folder.taut({"run", scene, "--device", "cpu:serial", "--out", folder / "o"});
+    check_refused(result, 1, "take fewer cells, of bodies[0] first");
+    CHECK_THAT(result.err, Contains("huge.json"));
+    CHECK(folder.list("o").empty());
+}
