@@ -4,8 +4,8 @@
 # release: tests/run.sh, and the benches are built. headers: each file, and each installed header, alone and without precompiled
 # headers, so that it includes what it uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
 # installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
-# tests/run.sh in a chroot of that Debian (tests/chroot.sh). executors: physics, golden scenes and linear
-# systems on every executor, of which ctest runs some. hard: the hard cases and the whole map in full on every
+# tests/run.sh in a chroot of that Debian (tests/chroot.sh). executors: conformance, physics, golden scenes and
+# linear systems on every executor, of which ctest runs some. hard: the hard cases and the whole map in full on every
 # executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer, for half an hour. A part
 # that cannot run here is "skipped", with the reason. Logs: build/matrix/PART.log. Exit status 1 if any failed.
 # shellcheck disable=SC2317 # parts are called by name
@@ -67,7 +67,7 @@ part_odr() {
 # What ctest runs on cpu:serial and cpu alone (TAUT_TEST_SHORT), or in part on software drivers.
 part_executors() {
     local program status worst=0
-    for program in physics golden linear linear_hard; do # 77: some of it was left out, and nothing failed
+    for program in conformance physics golden linear linear_hard; do # 77: some of it was left out, and nothing failed
         status=0
         TAUT_REQUIRE_DEVICE=${TAUT_REQUIRE_DEVICE:-1} "$root/build/release/tests/test_$program" || status=$?
         [ $status -eq 0 ] || [ $worst -eq 1 ] || worst=$([ $status -eq 77 ] && echo 77 || echo 1)

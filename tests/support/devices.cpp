@@ -72,7 +72,10 @@ std::vector<std::string> find_devices()
     if (environment_has("TAUT_TEST_SHORT"))
         return selectors;
     selectors.emplace_back("cpu:shuffled");
-    for (const char* selector : {"vulkan", "opengl", "opengl:spirv"})
+    std::vector<const char*> drivers = {"vulkan", "opengl"};
+    if (!environment_has("TAUT_TEST_WITHOUT_SPIRV"))
+        drivers.push_back("opengl:spirv");
+    for (const char* selector : drivers)
         if (opens(selector))
             selectors.push_back(selector);
     return selectors;

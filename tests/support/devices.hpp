@@ -8,6 +8,8 @@
 // TAUT_TEST_SHORT=1               takes cpu:serial and cpu alone, as ctest does where other suites hold the
 //                                 others to the same bits (conformance, golden): a dispatch of a software
 //                                 driver takes a hundred times as long.
+// TAUT_TEST_WITHOUT_SPIRV=1       leaves opengl:spirv out, as ctest does of conformance: most of that is the
+//                                 driver's compiling every variant of every kernel a third time.
 // TAUT_REQUIRE_DEVICE=1           makes a missing executor an error; without it, the program says what
 //                                 is left out, and why, and ends as skipped (skip.hpp).
 
