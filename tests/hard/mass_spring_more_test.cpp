@@ -1,6 +1,7 @@
 // Mass-spring: geometry, topology, contact, long runs (methods 2.B to 2.G).
 
 #include "hard/mass_spring_cases.hpp"
+#include "hard/shared_cases.hpp"
 
 using namespace taut;
 using namespace taut::hard;
@@ -17,24 +18,7 @@ TEST_CASE("B01 to B03: springs without length pull with k d; coincident ends are
         run(world, 600);
         CHECK(glm::length(world.positions()[1]) < 1e-6);
         check_sound(world);
-        for (const double apart : {0.0, 1e-15, 1e-20, 1e-30, 1e-45})
-        {
-            INFO(apart);
-            Scene two = by_springs(test::hanging(4));
-            Body pair = particles({{0, 0, 0}, {apart, 0, 0}}, 0.1);
-            pair.springs = {{0, 1, 0.1, 1e-2}};
-            two.bodies.push_back(pair);
-            World both(two, device), solo(by_springs(test::hanging(4)), device);
-            run(both, 30);
-            run(solo, 30);
-            const auto x = both.positions(), y = solo.positions();
-            const double gap = glm::distance(x[25], x[26]);
-            check_sound(both, gap < 1e-10 ? Words{"degenerate"} : Words{});
-            if (apart == 0)
-                CHECK(measure(both).warnings.at("degenerate") == 30);
-            CHECK(gap < 0.3);
-            CHECK(std::equal(y.begin(), y.end(), x.begin())); // nobody else is harmed
-        }
+        check_pair_beside_cloth([](const Scene& one) { return by_springs(one); }, 1e-2, device);
     });
 }
 
@@ -91,69 +75,24 @@ TEST_CASE("B18, B19: 10 km from the origin and in other units springs move cloth
 {
     Scene near = by_springs(test::hanging(6));
     near.bodies[0].material.bending_stiffness = 1e-4;
-    Scene exact = near;
-    exact.method.precision = "double";
-    World truth(exact, test_device("cpu:serial"));
-    run(truth, 60);
-    Scene far = near, large = near;
-    for (glm::dvec3& x : far.bodies[0].mesh.positions)
-        x += glm::dvec3(1e4, -1e4, 1e4);
-    large.gravity *= 1024.0; // lengths in units of 1/1024 m
-    large.bodies[0].material.density /= 1024.0 * 1024;
-    large.bodies[0].material.bending_stiffness *= 1024.0 * 1024;
-    for (glm::dvec3& x : large.bodies[0].mesh.positions)
-        x *= 1024.0;
-    on_every_device([&](const auto& device) {
-        World at_origin(near, device), at_distance(far, device), in_units(large, device);
-        for (World* world : {&at_origin, &at_distance, &in_units})
-            run(*world, 60);
-        auto moved = at_distance.positions(), scaled = in_units.positions();
-        for (std::size_t v = 0; v < moved.size(); ++v)
-        {
-            moved[v] -= glm::dvec3(1e4, -1e4, 1e4);
-            scaled[v] /= 1024.0;
-        }
-        const double origin = largest_distance(at_origin.positions(), truth.positions());
-        const double distance = largest_distance(moved, truth.positions());
-        note("B18", *device, "error at the origin, m", origin);
-        note("B18", *device, "error at 1e4 m, m", distance);
-        CHECK(distance < 10 * origin + 1e-7);
-        CHECK(scaled == at_origin.positions());
-    });
+    check_far_and_in_units(near);
 }
 
 TEST_CASE("C02, C03, C05, C06, C08: fans, stars, loners, twins and nothing, by springs [hard]")
 {
     on_every_device([](const auto& device) {
-        std::vector<glm::dvec3> places = {{0, 0, 0}};
-        for (int k = 0; k < 10000; ++k)
-            places.emplace_back(std::cos(k * 0.1), std::sin(k * 0.1), 1e-4 * k);
-        Body star = particles(places, 1e-3);
-        star.vertex_masses[0] = 100;
-        for (std::uint32_t k = 1; k <= 10000; ++k)
-            star.springs.push_back({0, k, 1, 1e-1});
         for (const char* scheme : {"node_centric", "spring_centric"})
         {
-            Scene scene = by_springs(alone(star), 10);
+            Scene scene = by_springs(alone(star(1e-1)), 10);
             scene.method.scheme = scheme;
             World world(scene, device);
             CHECK(world.plan().passes.size() == 10u * (scheme[0] == 'n' ? 4 : 5));
             run(world, 5);
             check_sound(world);
         }
-        Body loner = particles({{0, 3, 0}}), twins = particles({{0, 0, 0}, {1.5, 0, 0}});
-        twins.springs = {{0, 1, 1, 1e-2}, {0, 1, 1, 1e-2}};
-        Body one = particles({{0, 0, 0}, {1.5, 0, 0}});
-        one.springs = {{0, 1, 1, 0.5e-2}};
-        Scene scene = by_springs(alone(loner), 10);
-        scene.gravity = {0, -9.81, 0};
-        scene.bodies = {loner, twins, one};
-        World world(scene, device);
-        run(world, 60);
-        const auto x = world.positions();
-        CHECK(3 - x[0].y == Approx(9.81 / 2).epsilon(1e-5));
-        CHECK(glm::distance(x[1], x[2]) == Approx(glm::distance(x[3], x[4])).epsilon(1e-5));
-        check_sound(world);
+        World several(loner_and_twins(by_springs(Scene{}, 10)), device);
+        run(several, 60);
+        check_loner_and_twins(several);
         Scene empty = by_springs(Scene{}, 10);
         World nothing(empty, device);
         nothing.step();

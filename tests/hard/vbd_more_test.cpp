@@ -1,5 +1,6 @@
 // Vertex block descent: rest, units, topology, contact, extremes (methods 2.B to 2.G).
 
+#include "hard/shared_cases.hpp"
 #include "hard/vbd_cases.hpp"
 
 using namespace taut;
@@ -30,67 +31,22 @@ TEST_CASE("B18, B19: far away and in other units vertex block descent moves clot
     Scene near = by_vbd(test::hanging(6));
     near.bodies[0].material.bending_stiffness = 1e-4;
     near.bodies[0].material.stretch_damping = 1e-3;
-    Scene exact = near;
-    exact.method.precision = "double";
-    World truth(exact, test_device("cpu:serial"));
-    run(truth, 60);
-    Scene far = near, large = near;
-    for (glm::dvec3& x : far.bodies[0].mesh.positions)
-        x += glm::dvec3(1e4, -1e4, 1e4);
-    large.gravity *= 1024.0;
-    large.bodies[0].material.density /= 1024.0 * 1024;
-    large.bodies[0].material.bending_stiffness *= 1024.0 * 1024;
-    for (glm::dvec3& x : large.bodies[0].mesh.positions)
-        x *= 1024.0;
-    on_every_device([&](const auto& device) {
-        World at_origin(near, device), at_distance(far, device), in_units(large, device);
-        for (World* world : {&at_origin, &at_distance, &in_units})
-            run(*world, 60);
-        auto moved = at_distance.positions(), scaled = in_units.positions();
-        for (std::size_t v = 0; v < moved.size(); ++v)
-        {
-            moved[v] -= glm::dvec3(1e4, -1e4, 1e4);
-            scaled[v] /= 1024.0;
-        }
-        const double origin = largest_distance(at_origin.positions(), truth.positions());
-        const double distance = largest_distance(moved, truth.positions());
-        note("B18", *device, "error at the origin, m", origin);
-        note("B18", *device, "error at 1e4 m, m", distance);
-        CHECK(distance < 10 * origin + 1e-7);
-        CHECK(scaled == at_origin.positions());
-    });
+    check_far_and_in_units(near);
 }
 
 TEST_CASE("C01 to C08: fans, stars, loners and twins under vertex block descent [hard]")
 {
     on_every_device([](const auto& device) {
-        std::vector<glm::dvec3> places = {{0, 0, 0}};
-        for (int k = 0; k < 10000; ++k)
-            places.emplace_back(std::cos(k * 0.1), std::sin(k * 0.1), 1e-4 * k);
-        Body star = particles(places, 1e-3);
-        star.vertex_masses[0] = 100;
-        for (std::uint32_t k = 1; k <= 10000; ++k)
-            star.springs.push_back({0, k, 1, 1e-3});
-        World world(by_vbd(alone(star), 2, 1), device);
+        World world(by_vbd(alone(star(1e-3)), 2, 1), device);
         const auto sweeps = std::count_if(world.plan().passes.begin(), world.plan().passes.end(),
                                           [](const Dispatch& d) { return d.kernel->name == "vbd_solve"; });
         CHECK(sweeps == 2 * 2); // substeps, colours
         run(world, 5);
         check_sound(world);
 
-        Body loner = particles({{0, 3, 0}}), twins = particles({{0, 0, 0}, {1.5, 0, 0}});
-        twins.springs = {{0, 1, 1, 1e-2}, {0, 1, 1, 1e-2}};
-        Body one = particles({{0, 0, 0}, {1.5, 0, 0}});
-        one.springs = {{0, 1, 1, 0.5e-2}};
-        Scene scene = by_vbd(alone(loner), 10, 2);
-        scene.gravity = {0, -9.81, 0};
-        scene.bodies = {loner, twins, one};
-        World several(scene, device);
+        World several(loner_and_twins(by_vbd(Scene{}, 10, 2)), device);
         run(several, 60);
-        const auto x = several.positions();
-        CHECK(3 - x[0].y == Approx(9.81 / 2).epsilon(1e-5));
-        CHECK(glm::distance(x[1], x[2]) == Approx(glm::distance(x[3], x[4])).epsilon(1e-5));
-        check_sound(several);
+        check_loner_and_twins(several);
         World nothing(by_vbd(Scene{}), device);
         nothing.step();
         CHECK(nothing.plan().passes.empty());
