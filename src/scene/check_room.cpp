@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -38,6 +39,13 @@ double bytes_of(const Body& body)
     return 0;
 }
 
+/// Of two digits, or whole: "1.4 GB", "1054 GB".
+std::string gigabytes(double bytes)
+{
+    const double out = bytes / 1e9;
+    return (out < 100 ? shown(out, 2) : shown(std::round(out), 15)) + " GB";
+}
+
 } // namespace
 
 std::uint64_t host_memory()
@@ -64,9 +72,9 @@ void check_room(const Scene& scene, std::uint64_t memory)
     }
     if (memory > 0 && bytes > static_cast<double>(memory))
         throw Error(ErrorCode::out_of_memory,
-                    "the bodies take about " + shown(bytes / 1e9, 2) + " GB, and there are " +
-                        shown(static_cast<double>(memory) / 1e9, 2) +
-                        " GB here; take fewer cells, of bodies[" + std::to_string(at) + "] first");
+                    "the bodies take about " + gigabytes(bytes) + ", and there are " +
+                        gigabytes(static_cast<double>(memory)) +
+                        " here; take fewer cells, of bodies[" + std::to_string(at) + "] first");
 }
 
 } // namespace taut::scene_file

@@ -44,6 +44,8 @@ TEST_CASE("bodies that no memory holds are refused before they are made, and the
     CHECK(refusal(sheets({2000}), 4 * gib).empty());
     CHECK(refusal(sheets({3000, 3000, 3000}), 8 * gib).find("GB") != std::string::npos); // one would fit
     CHECK(refusal(sheets({8000}), 0).empty());
+    CHECK(refusal(sheets(std::vector<unsigned>(40, 8000)), 16 * gib).starts_with(
+        "the bodies take about 1024 GB, and there are 17 GB here"));
     Scene led = sheets({8000});
     led.bodies[0].kinematic.used = true; // has no constraints
     CHECK(refusal(led, 16 * gib).empty());
