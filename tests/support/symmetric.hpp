@@ -1,5 +1,5 @@
 #pragma once
-// Eigenvalues of small symmetric matrices, compiled once: the solver takes each of its users ten seconds.
+// Eigenvalues of small symmetric matrices, compiled once: of each user the solver would take 8 to 10 s.
 
 #include <Eigen/Core>
 
