@@ -21,9 +21,9 @@
 //   Triangles. I3D 2008 (every vertex and edge belongs to one triangle); Smits. Efficiency Issues for Ray
 //   Tracing. Journal of Graphics Tools 3(2), 1998 (a tree walked without a stack); Volino, Magnenat-Thalmann.
 //   Computer Graphics Forum 13(3), 1994 (patches that face one way).
-// Departures: in the full binary tree the next node to visit is in the number of the last one. FILL walks no
-//   further than the pairs that were counted: not at all where there are none.
-// Bytes per triangle: 20 + 32 a node visited, 20 + 96 a triangle compared; FILL 20 a pair written (float).
+// Departures: in the full binary tree the next node to visit is in the number of the last one. What was
+//   counted is kept for FILL; of a triangle with more pairs than are kept FILL walks again, to the last.
+// Bytes per triangle: 116 + 32 a node visited, 116 a triangle compared, 4 a pair; FILL 24 a pair (float).
 //! variant fill FILL=1
 //! variant guarded GUARD=1
 //! variant guarded_fill GUARD=1 FILL=1
@@ -34,6 +34,7 @@
 #if GUARD
 #include "shared/guarantee.glsl"
 #endif
+#include "shared/contact_near.glsl"
 
 PARAMS
 {
@@ -53,182 +54,193 @@ READ(4, ContactBody, body);
 #if FILL
 READ(5, uint, start); // pairs found before those of each triangle, and of all
 WRITE(6, ContactPair, pair);
+READ(7, uint, found);
 #else
-WRITE(5, uint, found);    // pairs of each triangle
+WRITE(5, uint, found);    // pairs of each triangle, then the first TAUT_CONTACT_KEPT of each, see put()
 WRITE(6, uint, compared); // triangles whose boxes meet its own
 COUNTERS(7, lost);
 #endif
+
+uint next_of(uint k)
+{
+    return k == 2u ? 0u : k + 1u;
+}
 
 uint corner_of(ContactTriangle t, uint k)
 {
     return k == 0u ? t.a : (k == 1u ? t.b : t.c);
 }
 
-#if GUARD
-rvec3 way_of(uint v)
+Corner corner_at(uint v)
 {
-    return sound_way(rvec3(position[v]), rvec3(delta[v]));
-}
-
-/// How far a corner may stray in a substep from the mean way.
-real stray(rvec3 d, rvec3 mean)
-{
-    return length(d - mean) + sway() * length(d);
-}
-
-rvec3 across(rvec3 x, rvec3 direction)
-{
-    return x - direction * dot(x, direction);
-}
-
-/// Whether the four, places relative to the first, could meet until the next search.
-bool could_meet(uint kind, uint a, uint b, uint c, uint d, rvec3 eb, rvec3 ec, rvec3 ed, real gap)
-{
-    rvec3 p = way_of(a);
-    rvec3 q = way_of(b);
-    rvec3 r = way_of(c);
-    rvec3 s = way_of(d);
-    rvec3 mean = ((p + q) + (r + s)) * real(0.25);
-    real first = stray(p, mean);
-    real second = max(stray(r, mean), stray(s, mean));
-    if (kind == TAUT_CONTACT_EDGES)
-        first = max(first, stray(q, mean));
-    else
-        second = max(second, stray(q, mean));
-    real reached = (gap + real(skin)) + (first + second) * real(substeps);
-    real speed = length(mean);
-    real all = reached + speed * real(substeps);
-    Closest near = closest_vertex_triangle(eb, ec, ed);
-    if (kind == TAUT_CONTACT_EDGES)
-        near = closest_edges(eb, ec, ed);
-    bool comes = near.squared < all * all;
-    if (comes && speed > real(0))
-    {
-        rvec3 u = mean / speed;
-        if (kind == TAUT_CONTACT_EDGES)
-            near = closest_edges(across(eb, u), across(ec, u), across(ed, u));
-        else
-            near = closest_vertex_triangle(across(eb, u), across(ec, u), across(ed, u));
-        comes = near.squared < reached * reached;
-    }
-    return comes;
-}
-#else
-/// The greatest square of the differences of how two corners and two others are displaced.
-real apart(uint a, uint b, uint c, uint d)
-{
-    rvec3 ac = rvec3(delta[a]) - rvec3(delta[c]);
-    rvec3 ad = rvec3(delta[a]) - rvec3(delta[d]);
-    rvec3 bc = rvec3(delta[b]) - rvec3(delta[c]);
-    rvec3 bd = rvec3(delta[b]) - rvec3(delta[d]);
-    return max(max(dot(ac, ac), dot(ad, ad)), max(dot(bc, bc), dot(bd, bd)));
-}
-
-bool is_near(real squared, real motion, real gap)
-{
-    real reached = (gap + real(skin)) + sqrt(motion) * real(substeps);
-    return squared < reached * reached;
-}
-#endif
-
-/// Whether the way of a corner, or of a side with two, comes within reach of a box.
-bool reaches(uint a, uint b, rvec4 least, rvec4 most)
-{
-    rvec3 p = rvec3(position[a]);
-    rvec3 q = rvec3(position[b]);
-#if GUARD
-    rvec3 d = way_of(a) * real(substeps);
-    rvec3 e = way_of(b) * real(substeps);
-    rvec3 m = rvec3(max(length(d), length(e)) * sway() + real(reach));
-    rvec3 l = min(min(p, q), min(p + d, q + e)) - m;
-    rvec3 h = max(max(p, q), max(p + d, q + e)) + m;
-#else
-    rvec3 r = p + rvec3(delta[a]) * real(substeps);
-    rvec3 s = q + rvec3(delta[b]) * real(substeps);
-    rvec3 l = min(min(p, q), min(r, s)) - rvec3(real(reach));
-    rvec3 h = max(max(p, q), max(r, s)) + rvec3(real(reach));
-#endif
-    return l.x <= most.x && l.y <= most.y && l.z <= most.z && h.x >= least.x && h.y >= least.y &&
-           h.z >= least.z;
-}
-
-bool vertex_meets(uint v, ContactTriangle t, real gap)
-{
-    if (v == t.a || v == t.b || v == t.c)
-        return false;
     rvec4 x = position[v];
-    rvec4 a = position[t.a];
-    rvec4 b = position[t.b];
-    rvec4 c = position[t.c];
-    bool moves = x.w + ((a.w + b.w) + c.w) > real(0);
-    rvec3 o = rvec3(x);
+    Corner here;
+    here.x = rvec3(x);
+    here.w = x.w;
+    here.way = rvec3(delta[v]);
+    here.size = real(0);
 #if GUARD
-    return moves && could_meet(TAUT_CONTACT_VERTEX, v, t.a, t.b, t.c, rvec3(a) - o, rvec3(b) - o,
-                               rvec3(c) - o, gap);
-#else
-    Closest near = closest_vertex_triangle(rvec3(a) - o, rvec3(b) - o, rvec3(c) - o);
-    return moves && is_near(near.squared, max(apart(v, v, t.a, t.b), apart(v, v, t.c, t.c)), gap);
+    here.way = sound_way(here.x, here.way);
+    here.size = length(here.way);
 #endif
+    return here;
 }
 
-bool edges_meet(uint p, uint q, uint r, uint s, real gap)
+/// The corners of a triangle.
+struct Corners
 {
-    if (p == r || p == s || q == r || q == s)
-        return false;
-    rvec4 a = position[p];
-    rvec4 b = position[q];
-    rvec4 c = position[r];
-    rvec4 d = position[s];
-    bool moves = (a.w + b.w) + (c.w + d.w) > real(0);
-    rvec3 o = rvec3(a);
-#if GUARD
-    return moves &&
-           could_meet(TAUT_CONTACT_EDGES, p, q, r, s, rvec3(b) - o, rvec3(c) - o, rvec3(d) - o, gap);
-#else
-    Closest near = closest_edges(rvec3(b) - o, rvec3(c) - o, rvec3(d) - o);
-    return moves && is_near(near.squared, apart(p, q, r, s), gap);
-#endif
+    Corner a, b, c;
+};
+
+Corners corners_of(ContactTriangle t)
+{
+    Corners all;
+    all.a = corner_at(t.a);
+    all.b = corner_at(t.b);
+    all.c = corner_at(t.c);
+    return all;
 }
 
-/// Puts the pair down if there is a place for it, and gives the next place.
-uint put(uint at, uint a, uint b, uint c, uint d, uint kind)
+INLINE Corner corner_in(Corners all, uint k)
+{
+    if (k == 0u)
+        return all.a;
+    if (k == 1u)
+        return all.b;
+    return all.c;
+}
+
+/// Where two corners, or what is between them, may be until the next search, and `beside` that.
+struct Box
+{
+    rvec3 least, most; // m
+};
+
+INLINE Box box_of(Corner a, Corner b, real beside)
+{
+    rvec3 p = a.x + a.way * real(substeps);
+    rvec3 q = b.x + b.way * real(substeps);
+    rvec3 about = rvec3((max(a.size, b.size) * real(substeps)) * sway() + beside);
+    Box box;
+    box.least = min(min(a.x, b.x), min(p, q)) - about;
+    box.most = max(max(a.x, b.x), max(p, q)) + about;
+    return box;
+}
+
+INLINE bool overlap(Box a, Box b)
+{
+    return a.least.x <= b.most.x && a.least.y <= b.most.y && a.least.z <= b.most.z &&
+           a.most.x >= b.least.x && a.most.y >= b.least.y && a.most.z >= b.least.z;
+}
+
+INLINE Box joined(bool wanted, Box box, Box other)
+{
+    Box both;
+    both.least = wanted ? min(box.least, other.least) : box.least;
+    both.most = wanted ? max(box.most, other.most) : box.most;
+    return both;
+}
+
+/// Around what comes within reach of the vertices and sides that are a triangle's own.
+Box around_own(uint owns, Corners all)
+{
+    Box box;
+    box.least = rvec3(REAL(1e30));
+    box.most = rvec3(REAL(-1e30));
+    for (uint k = 0u; k < 3u; ++k)
+    {
+        Corner a = corner_in(all, k);
+        uint side = 1u << (TAUT_CONTACT_OWNS_SIDE + k);
+        box = joined((owns & (1u << k)) != 0u, box, box_of(a, a, real(reach)));
+        box = joined((owns & side) != 0u, box, box_of(a, corner_in(all, next_of(k)), real(reach)));
+    }
+    return box;
+}
+
+/// Bits, as in `owns`, of those vertices and sides of a triangle that come within reach of a box.
+INLINE uint reaching(uint owns, Corners all, Box box)
+{
+    uint bits = 0u;
+    for (uint k = 0u; k < 3u; ++k)
+    {
+        Corner a = corner_in(all, k);
+        uint vertex = 1u << k;
+        uint side = vertex << TAUT_CONTACT_OWNS_SIDE;
+        if ((owns & vertex) != 0u && overlap(box_of(a, a, real(reach)), box))
+            bits |= vertex;
+        if ((owns & side) != 0u && overlap(box_of(a, corner_in(all, next_of(k)), real(reach)), box))
+            bits |= side;
+    }
+    return bits;
+}
+
+/// Puts a pair down if there is a place for it, and gives the next place. The pair is said by the leaf of the
+/// other triangle, and which of this one's vertices it is of, k, or which sides of both, 3 + 3 k + l.
+uint put(uint at, uint i, uint leaf, uint which)
 {
 #if FILL
     if (at < capacity)
     {
+        ContactTriangle t = triangle[i];
+        ContactTriangle u = triangle[leaf];
+        bool edges = which > 2u;
+        uint k = edges ? (which - 3u) / 3u : which;
+        uint l = edges ? (which - 3u) % 3u : 0u;
         ContactPair entry;
-        entry.a = a;
-        entry.b = b;
-        entry.c = c;
-        entry.d = d;
-        entry.kind = kind;
+        entry.a = corner_of(t, k);
+        entry.b = edges ? corner_of(t, next_of(k)) : u.a;
+        entry.c = edges ? corner_of(u, l) : u.b;
+        entry.d = edges ? corner_of(u, next_of(l)) : u.c;
+        entry.kind = edges ? TAUT_CONTACT_EDGES : TAUT_CONTACT_VERTEX;
         pair[at] = entry;
     }
+#else
+    if (at < TAUT_CONTACT_KEPT)
+        found[count + i * TAUT_CONTACT_KEPT + at] = (leaf << 4u) | which;
 #endif
     return at + 1u;
 }
 
-/// The pairs of one triangle's own vertices and sides with another, in the box `least` to `most`; edges once
-/// for both.
-uint compare(uint at, ContactTriangle t, ContactTriangle u, rvec4 least, rvec4 most, bool edges, real gap)
+bool share_a_corner(uint p, uint q, uint r, uint s)
 {
+    return p == r || p == s || q == r || q == s;
+}
+
+/// The pairs of one triangle's own vertices and sides, those in `bits`, with another; sides once for both.
+uint compare(uint at, uint i, uint leaf, uint bits, Corners own, real near)
+{
+    ContactTriangle t = triangle[i];
+    ContactTriangle u = triangle[leaf];
+    Corners other = corners_of(u);
+    Meeting m;
+    m.edges = false;
+    m.b = other.a;
+    m.c = other.b;
+    m.d = other.c;
     for (uint k = 0u; k < 3u; ++k)
     {
         uint v = corner_of(t, k);
-        if ((t.owns & (1u << k)) != 0u && reaches(v, v, least, most) && vertex_meets(v, u, gap))
-            at = put(at, v, u.a, u.b, u.c, TAUT_CONTACT_VERTEX);
+        m.a = corner_in(own, k);
+        if ((bits & (1u << k)) != 0u && !share_a_corner(v, v, u.a, u.b) && v != u.c &&
+            could_meet(m, near, real(substeps)))
+            at = put(at, i, leaf, k);
     }
-    for (uint k = 0u; k < 3u && edges; ++k)
+    m.edges = true;
+    for (uint k = 0u; k < 3u; ++k)
     {
-        uint a = corner_of(t, k);
-        uint b = corner_of(t, k == 2u ? 0u : k + 1u);
-        bool comes = (t.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + k))) != 0u && reaches(a, b, least, most);
+        m.a = corner_in(own, k);
+        m.b = corner_in(own, next_of(k));
+        Box box = box_of(m.a, m.b, real(reach));
+        bool comes = (bits & (1u << (TAUT_CONTACT_OWNS_SIDE + k))) != 0u;
         for (uint l = 0u; l < 3u && comes; ++l)
         {
-            uint c = corner_of(u, l);
-            uint d = corner_of(u, l == 2u ? 0u : l + 1u);
-            if ((u.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + l))) != 0u && edges_meet(a, b, c, d, gap))
-                at = put(at, a, b, c, d, TAUT_CONTACT_EDGES);
+            m.c = corner_in(other, l);
+            m.d = corner_in(other, next_of(l));
+            if ((u.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + l))) != 0u &&
+                !share_a_corner(corner_of(t, k), corner_of(t, next_of(k)), corner_of(u, l),
+                                corner_of(u, next_of(l))) &&
+                overlap(box, box_of(m.c, m.d, real(0))) && could_meet(m, near, real(substeps)))
+                at = put(at, i, leaf, 3u + 3u * k + l);
         }
     }
     return at;
@@ -252,47 +264,52 @@ uint patch_of(uint leaf, uint owns)
 }
 #endif
 
-KERNEL(count)
+struct Walk
+{
+    uint at;    // the place behind the last pair
+    uint tests; // triangles compared
+    bool more;  // it was cut short
+};
+
+/// Puts down the pairs of triangle i, from the place `first` to the one before `last`.
+Walk walk(uint i, uint first, uint last)
 {
     ContactTriangle t = triangle[i];
     ContactBody own = body[t.body];
-    rvec4 margin = rvec4(rvec3(real(reach)), real(0));
-    rvec4 least = node[2u * (leaves + i)] - margin;
-    rvec4 most = node[2u * (leaves + i) + 1u] + margin;
-#if FILL
-    uint first = start[i];
-    uint last = start[i + 1u];
-#else
-    uint first = 0u;
-    uint last = 0xffffffffu; // as many as there are
-#endif
+    Corners corners = corners_of(t);
+    Box around = around_own(t.owns, corners);
 #if GUARD
     uint spared = 0u;
 #else
     uint spared = patch_of(i, t.owns);
 #endif
-    uint at = first;
-    uint tests = 0u;
+    // Sides look for those behind their own leaf only, so that a triangle without vertices begins there.
+    uint k = (t.owns & TAUT_CONTACT_OWNS_VERTICES) != 0u ? 1u : (spared > 0u ? spared : leaves + i);
     uint trips = 0u;
-    uint k = 1u;
-    bool more = true;
-    while (more && at < last && trips < TAUT_CONTACT_TRIPS)
+    Walk w;
+    w.at = first;
+    w.tests = 0u;
+    w.more = (t.owns & TAUT_CONTACT_OWNS_ANY) != 0u;
+    while (w.more && w.at < last && trips < TAUT_CONTACT_TRIPS)
     {
-        rvec4 l = node[2u * k];
-        rvec4 h = node[2u * k + 1u];
-        bool meets = k != spared && l.x <= most.x && l.y <= most.y && l.z <= most.z && h.x >= least.x &&
-                     h.y >= least.y && h.z >= least.z;
+        Box box;
+        box.least = rvec3(node[2u * k]);
+        box.most = rvec3(node[2u * k + 1u]);
+        bool meets = k != spared && overlap(around, box);
         trips += 1u;
         if (meets && k >= leaves && k != leaves + i)
         {
-            ContactTriangle u = triangle[k - leaves];
-            bool same = u.body == t.body;
-            ContactBody other = body[u.body];
+            uint leaf = k - leaves;
+            ContactBody other = body[triangle[leaf].body];
+            bool same = triangle[leaf].body == t.body;
             bool passes = (own.meets & other.group) == 0u || (other.meets & own.group) == 0u;
             if (same ? own.self != 0u : !passes)
             {
-                at = compare(at, t, u, l, h, k - leaves > i, own.radius + other.radius);
-                tests += 1u;
+                uint asked = leaf > i ? TAUT_CONTACT_OWNS_ANY : TAUT_CONTACT_OWNS_VERTICES;
+                uint bits = reaching(t.owns & asked, corners, box);
+                if (bits != 0u)
+                    w.at = compare(w.at, i, leaf, bits, corners, (own.radius + other.radius) + real(skin));
+                w.tests += 1u;
                 trips += 12u;
             }
         }
@@ -306,12 +323,29 @@ KERNEL(count)
                 k >>= 1u;
                 trips += 1u;
             }
-            more = k > 1u;
+            w.more = k > 1u;
         }
     }
-#if !FILL
-    found[i] = at - first;
-    compared[i] = tests;
-    COUNT_EVENT_IF(more, lost, TAUT_CONTACT_CUT);
+    return w;
+}
+
+KERNEL(count)
+{
+#if FILL
+    uint first = start[i];
+    uint last = start[i + 1u];
+    bool kept = last - first <= TAUT_CONTACT_KEPT;
+    for (uint k = first; k < last && kept; ++k)
+    {
+        uint code = found[count + i * TAUT_CONTACT_KEPT + (k - first)];
+        put(k, i, code >> 4u, code & 15u);
+    }
+    if (!kept)
+        walk(i, first, last);
+#else
+    Walk w = walk(i, 0u, 0xffffffffu);
+    found[i] = w.at;
+    compared[i] = w.tests;
+    COUNT_EVENT_IF(w.more, lost, TAUT_CONTACT_CUT);
 #endif
 }

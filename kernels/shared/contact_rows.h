@@ -5,6 +5,8 @@
 /// ContactTriangle::owns: bit k, the corner k is this triangle's to look after; bit 3 + k, the side from
 /// corner k to the next one is. Every vertex and side of a surface belongs to one triangle.
 #define TAUT_CONTACT_OWNS_SIDE 3u
+#define TAUT_CONTACT_OWNS_VERTICES 7u
+#define TAUT_CONTACT_OWNS_ANY 63u
 /// From this bit on: how many levels above the leaves the largest patch of the triangle begins that cannot
 /// meet itself while it faces one way, 0 where there is none; patches begin TAUT_CONTACT_PATCH levels above.
 #define TAUT_CONTACT_OWNS_PATCH 8u
@@ -13,6 +15,9 @@
 /// Bits of directions that a node faces (contact_refit): to faces and corners of a cube, to its edges.
 #define TAUT_CONTACT_CORNER_BITS 0x3fffu
 #define TAUT_CONTACT_EDGE_BITS 0xfffu
+
+/// Pairs of a triangle that a search keeps while it counts, so that it need not look for them again.
+#define TAUT_CONTACT_KEPT 16u
 
 /// ContactPair::kind.
 #define TAUT_CONTACT_VERTEX 0u // a against the triangle b, c, d

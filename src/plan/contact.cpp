@@ -118,7 +118,8 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
     constexpr std::uint64_t word = sizeof(std::uint32_t);
     const std::uint64_t real = b.real_size(), pairs = c.capacity, vertices = b.plan.vertex_count;
     c.node = b.add_buffer(kContactEffect, "tree", 2 * std::uint64_t(c.leaves) * 8 * real);
-    c.found = b.add_buffer(kContactEffect, "pairs of triangles", c.triangles * word);
+    c.found = b.add_buffer(kContactEffect, "pairs of triangles",
+                           (1 + TAUT_CONTACT_KEPT) * std::uint64_t(c.triangles) * word);
     c.compared = b.add_buffer(kContactEffect, "triangles compared", c.triangles * word);
     c.start =
         b.add_buffer(kContactEffect, "pairs of triangles, start", (c.triangles + std::uint64_t(1)) * word);
@@ -258,10 +259,11 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                     .node = {c.node, 2},
                                                     .body = {c.body}};
     kernels::contact_search::Bindings<Use> fill = count;
-    count.found = {c.found};
+    count.found = {c.found, 1 + TAUT_CONTACT_KEPT};
     count.compared = {c.compared};
     count.lost = {c.lost, 0};
     fill.start = {c.start, 2};
+    fill.found = {c.found, 1 + TAUT_CONTACT_KEPT};
     fill.pair = {c.pair};
     const kernels::contact_search::Bindings<Use>::Params how = {n,      c.leaves, c.every,
                                                                 c.skin, c.reach,  c.capacity};

@@ -1,0 +1,102 @@
+// Whether a vertex and a triangle, or two edges, may come within their gap before the next search
+// (contact_search says by which rule; GUARD: by that of the guarantee).
+#ifndef TAUT_SHARED_CONTACT_NEAR_GLSL
+#define TAUT_SHARED_CONTACT_NEAR_GLSL
+
+/// A corner and its displacement in the first substep.
+struct Corner
+{
+    rvec3 x;   // m
+    rvec3 way; // m
+    real size; // GUARD: of the way, m
+    real w;    // inverse mass, 1/kg; 0 is held
+};
+
+/// Whether the first, or the first two, are an edge against the last two.
+struct Meeting
+{
+    Corner a, b, c, d;
+    bool edges;
+};
+
+INLINE Closest nearest_of(bool edges, rvec3 eb, rvec3 ec, rvec3 ed)
+{
+    if (edges)
+        return closest_edges(eb, ec, ed);
+    return closest_vertex_triangle(eb, ec, ed);
+}
+
+/// Whether any of the four is free to move.
+INLINE bool moves(Meeting m)
+{
+    return m.a.w + ((m.b.w + m.c.w) + m.d.w) > real(0);
+}
+
+#if GUARD
+/// How far a corner may stray in a substep from the mean way.
+INLINE real stray(Corner c, rvec3 mean)
+{
+    return length(c.way - mean) + sway() * c.size;
+}
+
+INLINE rvec3 across(rvec3 x, rvec3 direction)
+{
+    return x - direction * dot(x, direction);
+}
+
+INLINE bool could_meet(Meeting m, real reach, real substeps)
+{
+    if (!moves(m))
+        return false;
+    rvec3 mean = ((m.a.way + m.b.way) + (m.c.way + m.d.way)) * real(0.25);
+    real first = stray(m.a, mean);
+    real other = stray(m.b, mean);
+    real second = max(stray(m.c, mean), stray(m.d, mean));
+    if (m.edges)
+        first = max(first, other);
+    else
+        second = max(second, other);
+    real reached = reach + (first + second) * substeps;
+    real speed = length(mean);
+    real all = reached + speed * substeps;
+    rvec3 eb = m.b.x - m.a.x; // relative to the first corner: nothing depends on where the scene lies
+    rvec3 ec = m.c.x - m.a.x;
+    rvec3 ed = m.d.x - m.a.x;
+    real near = nearest_of(m.edges, eb, ec, ed).squared;
+    bool comes = near < all * all;
+    // Across the way they are no further apart than they are.
+    if (comes && near >= reached * reached && speed > real(0))
+    {
+        rvec3 u = mean / speed;
+        comes = nearest_of(m.edges, across(eb, u), across(ec, u), across(ed, u)).squared < reached * reached;
+    }
+    return comes;
+}
+#else
+/// Without the guarantee nothing goes beside its way.
+real sway()
+{
+    return real(0);
+}
+
+INLINE real apart_squared(Corner a, Corner b)
+{
+    rvec3 d = a.way - b.way;
+    return dot(d, d);
+}
+
+INLINE bool could_meet(Meeting m, real reach, real substeps)
+{
+    if (!moves(m))
+        return false;
+    real motion = max(apart_squared(m.a, m.c), apart_squared(m.a, m.d));
+    if (m.edges)
+        motion = max(motion, max(apart_squared(m.b, m.c), apart_squared(m.b, m.d)));
+    else
+        motion = max(motion, apart_squared(m.a, m.b));
+    real reached = reach + sqrt(motion) * substeps;
+    return nearest_of(m.edges, m.b.x - m.a.x, m.c.x - m.a.x, m.d.x - m.a.x).squared < reached * reached;
+}
+#endif
+
+#endif
