@@ -63,7 +63,7 @@ COUNTERS(7, lost);
 
 uint next_of(uint k)
 {
-    return k == 2u ? 0u : k + 1u;
+    return k == 0u ? 1u : (k == 1u ? 2u : 0u);
 }
 
 uint corner_of(ContactTriangle t, uint k)
@@ -73,10 +73,8 @@ uint corner_of(ContactTriangle t, uint k)
 
 Corner corner_at(uint v)
 {
-    rvec4 x = position[v];
     Corner here;
-    here.x = rvec3(x);
-    here.w = x.w;
+    here.x = rvec3(position[v]);
     here.way = rvec3(delta[v]);
     here.size = real(0);
 #if GUARD
@@ -86,28 +84,11 @@ Corner corner_at(uint v)
     return here;
 }
 
-/// The corners of a triangle.
-struct Corners
+/// Whether neither a nor b is c or d, and any of the four is free to move.
+bool can_meet(uint a, uint b, uint c, uint d)
 {
-    Corner a, b, c;
-};
-
-Corners corners_of(ContactTriangle t)
-{
-    Corners all;
-    all.a = corner_at(t.a);
-    all.b = corner_at(t.b);
-    all.c = corner_at(t.c);
-    return all;
-}
-
-INLINE Corner corner_in(Corners all, uint k)
-{
-    if (k == 0u)
-        return all.a;
-    if (k == 1u)
-        return all.b;
-    return all.c;
+    real free = position[a].w + ((position[b].w + position[c].w) + position[d].w);
+    return a != c && a != d && b != c && b != d && free > real(0);
 }
 
 /// Where two corners, or what is between them, may be until the next search, and `beside` that.
@@ -142,36 +123,20 @@ INLINE Box joined(bool wanted, Box box, Box other)
 }
 
 /// Around what comes within reach of the vertices and sides that are a triangle's own.
-Box around_own(uint owns, Corners all)
+Box around_own(ContactTriangle t)
 {
     Box box;
     box.least = rvec3(REAL(1e30));
     box.most = rvec3(REAL(-1e30));
     for (uint k = 0u; k < 3u; ++k)
     {
-        Corner a = corner_in(all, k);
+        Corner a = corner_at(corner_of(t, k));
+        Corner b = corner_at(corner_of(t, next_of(k)));
         uint side = 1u << (TAUT_CONTACT_OWNS_SIDE + k);
-        box = joined((owns & (1u << k)) != 0u, box, box_of(a, a, real(reach)));
-        box = joined((owns & side) != 0u, box, box_of(a, corner_in(all, next_of(k)), real(reach)));
+        box = joined((t.owns & (1u << k)) != 0u, box, box_of(a, a, real(reach)));
+        box = joined((t.owns & side) != 0u, box, box_of(a, b, real(reach)));
     }
     return box;
-}
-
-/// Bits, as in `owns`, of those vertices and sides of a triangle that come within reach of a box.
-INLINE uint reaching(uint owns, Corners all, Box box)
-{
-    uint bits = 0u;
-    for (uint k = 0u; k < 3u; ++k)
-    {
-        Corner a = corner_in(all, k);
-        uint vertex = 1u << k;
-        uint side = vertex << TAUT_CONTACT_OWNS_SIDE;
-        if ((owns & vertex) != 0u && overlap(box_of(a, a, real(reach)), box))
-            bits |= vertex;
-        if ((owns & side) != 0u && overlap(box_of(a, corner_in(all, next_of(k)), real(reach)), box))
-            bits |= side;
-    }
-    return bits;
 }
 
 /// Puts a pair down if there is a place for it, and gives the next place. The pair is said by the leaf of the
@@ -201,45 +166,48 @@ uint put(uint at, uint i, uint leaf, uint which)
     return at + 1u;
 }
 
-bool share_a_corner(uint p, uint q, uint r, uint s)
-{
-    return p == r || p == s || q == r || q == s;
-}
-
-/// The pairs of one triangle's own vertices and sides, those in `bits`, with another; sides once for both.
-uint compare(uint at, uint i, uint leaf, uint bits, Corners own, real near)
+/// The pairs of one triangle's own vertices and sides, those in `bits`, with another, in the box of its leaf;
+/// sides once for both.
+uint compare(uint at, uint i, uint leaf, uint bits, Box box, real near)
 {
     ContactTriangle t = triangle[i];
     ContactTriangle u = triangle[leaf];
-    Corners other = corners_of(u);
     Meeting m;
     m.edges = false;
-    m.b = other.a;
-    m.c = other.b;
-    m.d = other.c;
     for (uint k = 0u; k < 3u; ++k)
     {
         uint v = corner_of(t, k);
-        m.a = corner_in(own, k);
-        if ((bits & (1u << k)) != 0u && !share_a_corner(v, v, u.a, u.b) && v != u.c &&
-            could_meet(m, near, real(substeps)))
+        if ((bits & (1u << k)) == 0u || v == u.a || !can_meet(v, u.a, u.b, u.c))
+            continue;
+        m.a = corner_at(v);
+        if (!overlap(box_of(m.a, m.a, real(reach)), box))
+            continue;
+        m.b = corner_at(u.a);
+        m.c = corner_at(u.b);
+        m.d = corner_at(u.c);
+        if (could_meet(m, near, real(substeps)))
             at = put(at, i, leaf, k);
     }
     m.edges = true;
     for (uint k = 0u; k < 3u; ++k)
     {
-        m.a = corner_in(own, k);
-        m.b = corner_in(own, next_of(k));
-        Box box = box_of(m.a, m.b, real(reach));
-        bool comes = (bits & (1u << (TAUT_CONTACT_OWNS_SIDE + k))) != 0u;
+        if ((bits & (1u << (TAUT_CONTACT_OWNS_SIDE + k))) == 0u)
+            continue;
+        uint a = corner_of(t, k);
+        uint b = corner_of(t, next_of(k));
+        m.a = corner_at(a);
+        m.b = corner_at(b);
+        Box way = box_of(m.a, m.b, real(reach));
+        bool comes = overlap(way, box);
         for (uint l = 0u; l < 3u && comes; ++l)
         {
-            m.c = corner_in(other, l);
-            m.d = corner_in(other, next_of(l));
-            if ((u.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + l))) != 0u &&
-                !share_a_corner(corner_of(t, k), corner_of(t, next_of(k)), corner_of(u, l),
-                                corner_of(u, next_of(l))) &&
-                overlap(box, box_of(m.c, m.d, real(0))) && could_meet(m, near, real(substeps)))
+            uint c = corner_of(u, l);
+            uint d = corner_of(u, next_of(l));
+            if ((u.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + l))) == 0u || !can_meet(a, b, c, d))
+                continue;
+            m.c = corner_at(c);
+            m.d = corner_at(d);
+            if (overlap(way, box_of(m.c, m.d, real(0))) && could_meet(m, near, real(substeps)))
                 at = put(at, i, leaf, 3u + 3u * k + l);
         }
     }
@@ -276,8 +244,7 @@ Walk walk(uint i, uint first, uint last)
 {
     ContactTriangle t = triangle[i];
     ContactBody own = body[t.body];
-    Corners corners = corners_of(t);
-    Box around = around_own(t.owns, corners);
+    Box around = around_own(t);
 #if GUARD
     uint spared = 0u;
 #else
@@ -306,9 +273,8 @@ Walk walk(uint i, uint first, uint last)
             if (same ? own.self != 0u : !passes)
             {
                 uint asked = leaf > i ? TAUT_CONTACT_OWNS_ANY : TAUT_CONTACT_OWNS_VERTICES;
-                uint bits = reaching(t.owns & asked, corners, box);
-                if (bits != 0u)
-                    w.at = compare(w.at, i, leaf, bits, corners, (own.radius + other.radius) + real(skin));
+                real near = (own.radius + other.radius) + real(skin);
+                w.at = compare(w.at, i, leaf, t.owns & asked, box, near);
                 w.tests += 1u;
                 trips += 12u;
             }

@@ -9,7 +9,6 @@ struct Corner
     rvec3 x;   // m
     rvec3 way; // m
     real size; // GUARD: of the way, m
-    real w;    // inverse mass, 1/kg; 0 is held
 };
 
 /// Whether the first, or the first two, are an edge against the last two.
@@ -26,12 +25,6 @@ INLINE Closest nearest_of(bool edges, rvec3 eb, rvec3 ec, rvec3 ed)
     return closest_vertex_triangle(eb, ec, ed);
 }
 
-/// Whether any of the four is free to move.
-INLINE bool moves(Meeting m)
-{
-    return m.a.w + ((m.b.w + m.c.w) + m.d.w) > real(0);
-}
-
 #if GUARD
 /// How far a corner may stray in a substep from the mean way.
 INLINE real stray(Corner c, rvec3 mean)
@@ -46,8 +39,6 @@ INLINE rvec3 across(rvec3 x, rvec3 direction)
 
 INLINE bool could_meet(Meeting m, real reach, real substeps)
 {
-    if (!moves(m))
-        return false;
     rvec3 mean = ((m.a.way + m.b.way) + (m.c.way + m.d.way)) * real(0.25);
     real first = stray(m.a, mean);
     real other = stray(m.b, mean);
@@ -87,8 +78,6 @@ INLINE real apart_squared(Corner a, Corner b)
 
 INLINE bool could_meet(Meeting m, real reach, real substeps)
 {
-    if (!moves(m))
-        return false;
     real motion = max(apart_squared(m.a, m.c), apart_squared(m.a, m.d));
     if (m.edges)
         motion = max(motion, max(apart_squared(m.b, m.c), apart_squared(m.b, m.d)));

@@ -28,12 +28,20 @@ double read_number(const Field& value, const Key& key)
     return number;
 }
 
+/// What a count must be; empty for a key without a range: what a uint32 can be.
+std::string whole_number_text(const Key& key)
+{
+    const auto text = [](double limit) { return std::to_string(static_cast<std::uint32_t>(limit)); };
+    if (!key.limits.has_low())
+        return "";
+    if (!key.limits.has_high() || key.limits.high == kMaxCount)
+        return "it must be a whole number, " + text(key.limits.low) + " or more";
+    return "it must be a whole number from " + text(key.limits.low) + " to " + text(key.limits.high);
+}
+
 std::uint32_t read_count(const Field& value, const Key& key)
 {
-    std::string right; // of a key without a range, what a uint32 can be
-    if (key.limits.has_low() && key.limits.has_high())
-        right = "it must be a whole number from " + std::to_string(std::uint32_t(key.limits.low)) + " to " +
-                std::to_string(std::uint32_t(key.limits.high));
+    std::string right = whole_number_text(key);
     if (key.word.empty())
         return value.count(right);
     right += ", or \"" + std::string(key.word) + '"';
@@ -61,7 +69,7 @@ void read_counts(const Field& value, const Key& key, Vector& out)
 {
     const auto parts = read_parts(value, key, std::size_t(Vector::length()), "whole numbers");
     for (std::size_t i = 0; i < parts.size(); ++i)
-        out[int(i)] = parts[i].count();
+        out[int(i)] = parts[i].count(whole_number_text(key));
 }
 
 void read_texts(const Field& value, const Key& key, std::vector<std::string>& out)

@@ -158,6 +158,8 @@ TEST_CASE("a wrong type is refused by file, field, what is there and what would 
           "my.json: method.linear_iterations is -1; it must be a whole number from 1 to 100000");
     CHECK_THAT(refusal_of("\"method\": {\"substeps\": -1}"), Contains("is -1; it must be a whole number"));
     CHECK_THAT(refusal_of("\"method\": {\"substeps\": 4294967296}"), Contains("whole number"));
+    CHECK_THAT(refusal_of_body("\"grid\": {\"cells\": [4.5, 4]}"),
+               Contains("cells[0] is 4.5; it must be a whole number, 1 or more"));
     CHECK_THAT(refusal_of("\"external_forces\": 1"), Contains("must be true or false"));
     CHECK(refusal_of("\"method\": {\"compress\": 1}") ==
           "my.json: method.compress is 1; it must be true or false");
