@@ -23,14 +23,13 @@
 //   Computer Graphics Forum 13(3), 1994 (patches that face one way).
 // Departures: in the full binary tree the next node to visit is in the number of the last one. What was
 //   counted is kept for FILL; of a triangle with more pairs than are kept FILL walks again, to the last.
-// Bytes per triangle: 116 + 32 a node visited, 116 a triangle compared, 4 a pair; FILL 24 a pair (float).
+// Bytes per triangle: 116 + 32 a node visited, 116 a triangle compared, 4 a pair; FILL 28 + 44 a pair.
 //! variant fill FILL=1
 //! variant guarded GUARD=1
 //! variant guarded_fill GUARD=1 FILL=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/contact_rows.h"
-#include "shared/closest.glsl"
 #if GUARD
 #include "shared/guarantee.glsl"
 #endif
@@ -84,24 +83,25 @@ Corner corner_at(uint v)
     return here;
 }
 
-/// Whether neither a nor b is c or d, and any of the four is free to move.
-bool can_meet(uint a, uint b, uint c, uint d)
+/// Whether four corners make a pair: neither a nor b is c or d, and any of the four is free to move.
+bool makes_pair(uint a, uint b, uint c, uint d)
 {
     real free = position[a].w + ((position[b].w + position[c].w) + position[d].w);
     return a != c && a != d && b != c && b != d && free > real(0);
 }
 
-/// Where two corners, or what is between them, may be until the next search, and `beside` that.
+/// Aligned with the axes.
 struct Box
 {
     rvec3 least, most; // m
 };
 
-INLINE Box box_of(Corner a, Corner b, real beside)
+/// Around the ways of two corners, and of the side between them, until the next search, and a margin.
+INLINE Box box_of(Corner a, Corner b, real margin)
 {
     rvec3 p = a.x + a.way * real(substeps);
     rvec3 q = b.x + b.way * real(substeps);
-    rvec3 about = rvec3((max(a.size, b.size) * real(substeps)) * sway() + beside);
+    rvec3 about = rvec3((max(a.size, b.size) * real(substeps)) * sway() + margin);
     Box box;
     box.least = min(min(a.x, b.x), min(p, q)) - about;
     box.most = max(max(a.x, b.x), max(p, q)) + about;
@@ -114,6 +114,7 @@ INLINE bool overlap(Box a, Box b)
            a.most.x >= b.least.x && a.most.y >= b.least.y && a.most.z >= b.least.z;
 }
 
+/// Around both boxes if the other one is wanted, else the first.
 INLINE Box joined(bool wanted, Box box, Box other)
 {
     Box both;
@@ -140,7 +141,8 @@ Box around_own(ContactTriangle t)
 }
 
 /// Puts a pair down if there is a place for it, and gives the next place. The pair is said by the leaf of the
-/// other triangle, and which of this one's vertices it is of, k, or which sides of both, 3 + 3 k + l.
+/// other triangle, and `which`: vertex k of this one, or 3 + 3 k + l: side k of this one and l of the other.
+/// Both are kept as one word, 16 leaf + which.
 uint put(uint at, uint i, uint leaf, uint which)
 {
 #if FILL
@@ -168,7 +170,7 @@ uint put(uint at, uint i, uint leaf, uint which)
 
 /// The pairs of one triangle's own vertices and sides, those in `bits`, with another, in the box of its leaf;
 /// sides once for both.
-uint compare(uint at, uint i, uint leaf, uint bits, Box box, real near)
+uint compare(uint at, uint i, uint leaf, uint bits, Box box, real pair_reach)
 {
     ContactTriangle t = triangle[i];
     ContactTriangle u = triangle[leaf];
@@ -177,7 +179,7 @@ uint compare(uint at, uint i, uint leaf, uint bits, Box box, real near)
     for (uint k = 0u; k < 3u; ++k)
     {
         uint v = corner_of(t, k);
-        if ((bits & (1u << k)) == 0u || v == u.a || !can_meet(v, u.a, u.b, u.c))
+        if ((bits & (1u << k)) == 0u || v == u.a || !makes_pair(v, u.a, u.b, u.c))
             continue;
         m.a = corner_at(v);
         if (!overlap(box_of(m.a, m.a, real(reach)), box))
@@ -185,7 +187,7 @@ uint compare(uint at, uint i, uint leaf, uint bits, Box box, real near)
         m.b = corner_at(u.a);
         m.c = corner_at(u.b);
         m.d = corner_at(u.c);
-        if (could_meet(m, near, real(substeps)))
+        if (could_meet(m, pair_reach, real(substeps)))
             at = put(at, i, leaf, k);
     }
     m.edges = true;
@@ -203,11 +205,11 @@ uint compare(uint at, uint i, uint leaf, uint bits, Box box, real near)
         {
             uint c = corner_of(u, l);
             uint d = corner_of(u, next_of(l));
-            if ((u.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + l))) == 0u || !can_meet(a, b, c, d))
+            if ((u.owns & (1u << (TAUT_CONTACT_OWNS_SIDE + l))) == 0u || !makes_pair(a, b, c, d))
                 continue;
             m.c = corner_at(c);
             m.d = corner_at(d);
-            if (overlap(way, box_of(m.c, m.d, real(0))) && could_meet(m, near, real(substeps)))
+            if (overlap(way, box_of(m.c, m.d, real(0))) && could_meet(m, pair_reach, real(substeps)))
                 at = put(at, i, leaf, 3u + 3u * k + l);
         }
     }
@@ -232,11 +234,12 @@ uint patch_of(uint leaf, uint owns)
 }
 #endif
 
+/// What a walk through the tree has found.
 struct Walk
 {
     uint at;    // the place behind the last pair
     uint tests; // triangles compared
-    bool more;  // it was cut short
+    bool more;  // nodes are left: it has all that it may put down, or was cut short
 };
 
 /// Puts down the pairs of triangle i, from the place `first` to the one before `last`.
@@ -273,8 +276,8 @@ Walk walk(uint i, uint first, uint last)
             if (same ? own.self != 0u : !passes)
             {
                 uint asked = leaf > i ? TAUT_CONTACT_OWNS_ANY : TAUT_CONTACT_OWNS_VERTICES;
-                real near = (own.radius + other.radius) + real(skin);
-                w.at = compare(w.at, i, leaf, t.owns & asked, box, near);
+                real pair_reach = (own.radius + other.radius) + real(skin);
+                w.at = compare(w.at, i, leaf, t.owns & asked, box, pair_reach);
                 w.tests += 1u;
                 trips += 12u;
             }

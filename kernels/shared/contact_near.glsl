@@ -3,6 +3,8 @@
 #ifndef TAUT_SHARED_CONTACT_NEAR_GLSL
 #define TAUT_SHARED_CONTACT_NEAR_GLSL
 
+#include "shared/closest.glsl"
+
 /// A corner and its displacement in the first substep.
 struct Corner
 {
@@ -11,7 +13,7 @@ struct Corner
     real size; // GUARD: of the way, m
 };
 
-/// Whether the first, or the first two, are an edge against the last two.
+/// A vertex a and a triangle b, c, d, or two edges, a-b and c-d.
 struct Meeting
 {
     Corner a, b, c, d;
@@ -37,7 +39,8 @@ INLINE rvec3 across(rvec3 x, rvec3 direction)
     return x - direction * dot(x, direction);
 }
 
-INLINE bool could_meet(Meeting m, real reach, real substeps)
+/// `pair_reach`: both radii and the skin, m. `substeps`: until the next search.
+INLINE bool could_meet(Meeting m, real pair_reach, real substeps)
 {
     rvec3 mean = ((m.a.way + m.b.way) + (m.c.way + m.d.way)) * real(0.25);
     real first = stray(m.a, mean);
@@ -47,16 +50,16 @@ INLINE bool could_meet(Meeting m, real reach, real substeps)
         first = max(first, other);
     else
         second = max(second, other);
-    real reached = reach + (first + second) * substeps;
+    real reached = pair_reach + (first + second) * substeps;
     real speed = length(mean);
     real all = reached + speed * substeps;
     rvec3 eb = m.b.x - m.a.x; // relative to the first corner: nothing depends on where the scene lies
     rvec3 ec = m.c.x - m.a.x;
     rvec3 ed = m.d.x - m.a.x;
-    real near = nearest_of(m.edges, eb, ec, ed).squared;
-    bool comes = near < all * all;
-    // Across the way they are no further apart than they are.
-    if (comes && near >= reached * reached && speed > real(0))
+    real squared = nearest_of(m.edges, eb, ec, ed).squared;
+    bool comes = squared < all * all;
+    // No projection is longer than the distance: what is within `reached` need not be projected.
+    if (comes && squared >= reached * reached && speed > real(0))
     {
         rvec3 u = mean / speed;
         comes = nearest_of(m.edges, across(eb, u), across(ec, u), across(ed, u)).squared < reached * reached;
@@ -76,14 +79,15 @@ INLINE real apart_squared(Corner a, Corner b)
     return dot(d, d);
 }
 
-INLINE bool could_meet(Meeting m, real reach, real substeps)
+/// `pair_reach`: both radii and the skin, m. `substeps`: until the next search.
+INLINE bool could_meet(Meeting m, real pair_reach, real substeps)
 {
     real motion = max(apart_squared(m.a, m.c), apart_squared(m.a, m.d));
     if (m.edges)
         motion = max(motion, max(apart_squared(m.b, m.c), apart_squared(m.b, m.d)));
     else
         motion = max(motion, apart_squared(m.a, m.b));
-    real reached = reach + sqrt(motion) * substeps;
+    real reached = pair_reach + sqrt(motion) * substeps;
     return nearest_of(m.edges, m.b.x - m.a.x, m.c.x - m.a.x, m.d.x - m.a.x).squared < reached * reached;
 }
 #endif
