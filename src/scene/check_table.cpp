@@ -30,10 +30,7 @@ void check_count(const Key& key, std::uint32_t value, const Checker& out)
 {
     if (stands_for_something(key, value) || key.limits.contains(value))
         return;
-    const bool open = key.limits.high == kMaxCount;
-    out.error(key.name, "is " + std::to_string(value) + "; it must be " +
-                            (open ? shown(key.limits.low) + " or more"
-                                  : "from " + shown(key.limits.low) + " to " + shown(key.limits.high, 10)));
+    out.error(key.name, "is " + std::to_string(value) + "; it must be " + count_text(key));
 }
 
 /// Numbers of one key: each within its limits.

@@ -120,6 +120,13 @@ std::string limits_text(const Key& key)
     return out + (key.reason.empty() ? "" : " (" + std::string(key.reason) + ')');
 }
 
+std::string count_text(const Key& key)
+{
+    const std::string low = shown(key.limits.low);
+    return key.limits.high == kMaxCount ? low + " or more"
+                                        : "from " + low + " to " + shown(key.limits.high, 10);
+}
+
 nlohmann::ordered_json value_of(const Key& key, const void* object)
 {
     if (!key.at)

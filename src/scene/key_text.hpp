@@ -26,6 +26,9 @@ std::string with_unit(double value, const Key& key);
 std::string low_text(const Key& key);
 std::string limits_text(const Key& key);
 
+/// What a count must be: "1 or more", "from 1 to 1000".
+std::string count_text(const Key& key);
+
 /// Columns of the pages' tables.
 std::string default_text(const Key& key, const void* defaults);
 std::string range_text(const Key& key);

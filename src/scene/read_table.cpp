@@ -31,12 +31,10 @@ double read_number(const Field& value, const Key& key)
 /// What a count must be; empty for a key without a range: what a uint32 can be.
 std::string whole_number_text(const Key& key)
 {
-    const auto text = [](double limit) { return std::to_string(static_cast<std::uint32_t>(limit)); };
-    if (!key.limits.has_low())
+    if (!key.limits.has_low() || !key.limits.has_high())
         return "";
-    if (!key.limits.has_high() || key.limits.high == kMaxCount)
-        return "it must be a whole number, " + text(key.limits.low) + " or more";
-    return "it must be a whole number from " + text(key.limits.low) + " to " + text(key.limits.high);
+    const std::string_view before = key.limits.high == kMaxCount ? ", " : " ";
+    return "it must be a whole number" + std::string(before) + count_text(key);
 }
 
 std::uint32_t read_count(const Field& value, const Key& key)
