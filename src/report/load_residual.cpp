@@ -33,9 +33,17 @@ using reference::State;
 using reference::StaticEnergy;
 using Matrix = Eigen::SparseMatrix<double>; // the lower triangle
 
-constexpr int kMostFactored = 30000, kMostFactoredOfSolids = 6000; // unknowns; solids fill more
-constexpr double kHeldWeight = 1e9;                                // times the diagonal
-constexpr double kTouching = 0.5; // right runs leave more where vertices are held that a contact may let go
+/// Unknowns; solids fill more.
+struct FactoredSize
+{
+    int cloth, solids;
+};
+constexpr FactoredSize kMostFactored{30000, 6000};
+/// Of a step that is one of many, which need not be exact: conjugate gradients take about a third of the time
+/// for those of a falling cloth of 64².
+constexpr FactoredSize kMostFactoredOnTheWay{3000, 1500};
+constexpr double kHeldWeight = 1e9; // times the diagonal
+constexpr double kTouching = 0.5;   // right runs leave more where vertices are held that a contact may let go
 
 using Motion = std::vector<glm::dvec3>; ///< a vertex: N, or m
 
@@ -131,12 +139,13 @@ std::vector<Motion> forces_of(const PhysicalModel& model, const Leftover& left)
 
 /// m, for each of `forces`.
 std::vector<Motion> newton_steps(const PhysicalModel& model, std::span<const glm::dvec3> x,
-                                 const Leftover& left, const std::vector<Motion>& forces)
+                                 const Leftover& left, const std::vector<Motion>& forces,
+                                 const FactoredSize& most)
 {
     const StaticEnergy energy(model);
     const bool solids = !model.solids.empty() || !model.volumes.empty();
     std::vector<Motion> steps;
-    if (energy.unknowns() <= (solids ? kMostFactoredOfSolids : kMostFactored))
+    if (energy.unknowns() <= (solids ? most.solids : most.cloth))
         steps = factored_steps(energy, x, left, forces);
     return steps.empty() ? iterated_steps(model, energy, x, left, forces) : steps;
 }
@@ -144,7 +153,7 @@ std::vector<Motion> newton_steps(const PhysicalModel& model, std::span<const glm
 Steps first_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left,
                   const std::vector<Motion>& forces)
 {
-    std::vector<Motion> steps = newton_steps(model, x, left, forces);
+    std::vector<Motion> steps = newton_steps(model, x, left, forces, kMostFactored);
     Steps out{std::move(steps[0]), {}};
     out.loads.assign(std::make_move_iterator(steps.begin() + 1), std::make_move_iterator(steps.end()));
     return out;
@@ -208,6 +217,7 @@ public:
             const Motion& force)
         : model_(model), left_(left), x_(x.begin(), x.end()), y_(x_), push_(force)
     {
+        left_.load.assign(x.size(), 0); // nothing to compare a step with but itself
         model_.gases.clear(); // they act at x, as weight does
         model_.gravity = glm::dvec3(0);
         const Motion elastic = elastic_forces(x_);
@@ -268,7 +278,8 @@ private:
     /// What a step has added to the way, as a share of it; 0 where none goes down.
     double step()
     {
-        const Motion pull = force(), way = newton_steps(model_, y_, left_, {pull})[0];
+        const Motion pull = force(),
+                     way = newton_steps(model_, y_, left_, {pull}, kMostFactoredOnTheWay)[0];
         double slope = 0;
         for (std::size_t i = 0; i < way.size(); ++i)
             slope += moves(i) ? glm::dot(pull[i], way[i]) : 0;
@@ -293,7 +304,7 @@ private:
     }
 
     PhysicalModel model_;
-    const Leftover& left_;
+    Leftover left_;
     Motion x_, y_; ///< m
     Motion push_;  ///< N, at every y: what acts at x but for elements
 };

@@ -8,6 +8,9 @@
 #include "taut/report/added_stiffness.hpp"
 #include "taut/report/positive_part.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 

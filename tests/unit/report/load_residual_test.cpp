@@ -147,6 +147,34 @@ TEST_CASE("models too large to factor say the same", "[residuals]")
     CHECK(load_residual(model, model.start, left).share == Approx(1).epsilon(1e-2));
 }
 
+TEST_CASE("a body is followed as far where steps are too large to factor", "[residuals]")
+{
+    const auto way = [](std::size_t copies, double followed) { // 1,875 unknowns each
+        Scene scene = test::hanging(24);
+        scene.gravity = {0, 0, 0.02}; // across the cloth, which has to sag before its springs hold it
+        scene.bodies.resize(copies, scene.bodies[0]);
+        const PhysicalModel model = make_model(scene);
+        Leftover left = weight_left(model);
+        left.time = 0.5;
+        left.against_response = true;
+        left.followed = followed;
+        std::vector<glm::dvec3> x = model.start, force(x.size(), glm::dvec3(0));
+        for (std::size_t i = 0; i < x.size(); ++i) // strained at random, as sweeps leave it
+        {
+            const std::size_t k = i % (x.size() / copies);
+            x[i] += 2e-4 * glm::sin(glm::dvec3(12.9898, 78.233, 37.719) * static_cast<double>(k * k % 1009));
+        }
+        add_forces(model, x, force);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            left.force[i] = -force[i];
+        return load_residual(model, x, left).way;
+    };
+    const double factored = way(1, 0.1), iterated = way(2, 0.1), one_step = way(1, HUGE_VAL);
+    INFO(one_step << " in one step, " << factored << " by factors, " << iterated << " without");
+    CHECK(factored > 1.1 * one_step);
+    CHECK(iterated == Approx(factored).epsilon(0.01));
+}
+
 TEST_CASE("what a gas pushes with is a load of its own, however weak gravity is", "[residuals]")
 {
     Scene scene;
