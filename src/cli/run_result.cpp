@@ -1,5 +1,6 @@
 #include "taut/cli/run_result.hpp"
 
+#include "taut/cli/output.hpp"
 #include "taut/cli/tunnelling.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/version.hpp"
@@ -191,6 +192,8 @@ std::string summary(const RunResult& result)
     text += "step    " + number(percentile(result.step_ms, 0.5), 3) + " ms median, " +
             number(percentile(result.step_ms, 0.95), 3) + " ms at the 95th percentile, " +
             std::to_string(result.vertices) + " vertices\n";
+    text += "memory  " + bytes_text(result.counters.bytes_allocated) + " in buffers, " +
+            bytes_text(result.counters.bytes_reserved) + " taken for them\n";
     if (!report.reason.empty())
         text += "why     " + report.reason + "\n";
     text += errors_line(report);

@@ -4,9 +4,12 @@
 #include "taut/runtime/base/error.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -68,6 +71,33 @@ TEST_CASE("a file that cannot be put in its place is an io error that names it a
             CHECK(std::string(error.what()).find(file.string()) != std::string::npos);
         }
     CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("a file that grows beyond what the system allows is an io error and leaves nothing behind")
+{
+    const Folder folder;
+    const pid_t child = fork(); // the limit is of a whole process
+    REQUIRE(child >= 0);
+    if (child == 0)
+    {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{4096, 4096};
+        int end = setrlimit(RLIMIT_FSIZE, &limit) == 0 ? 1 : 2;
+        try
+        {
+            taut::write_file(folder / "long", std::string(100'000, 'x'));
+        }
+        catch (const taut::Error& error)
+        {
+            end = end == 1 && error.code() == taut::ErrorCode::io ? 0 : 3;
+        }
+        _exit(end);
+    }
+    int status = -1;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(folder.entries() == 0);
 }
 
 TEST_CASE("writers of one file at one time leave one of their texts whole")

@@ -43,6 +43,7 @@ TEST_CASE("steps that wait or run together move the world as steps one by one do
         const std::shared_ptr<Device> device = adopt(host->context());
         World own(test::everything(), device), recorded(test::everything(), device);
         vulkan_test::Flights flights(*host, in_flight);
+        const std::size_t vertices = own.positions().size();
         for (int i = 0; i < 12; ++i)
         {
             if (i == 6) // between frames that may still run
@@ -50,6 +51,9 @@ TEST_CASE("steps that wait or run together move the world as steps one by one do
                 own.set_gravity({3, -5, 0});
                 recorded.set_gravity({3, -5, 0});
             }
+            const std::vector<glm::dvec3> forces(vertices, {0.02 * i, 0, -0.01 * i});
+            own.set_forces(forces); // others in each frame, while those before may still run
+            recorded.set_forces(forces);
             own.step();
             recorded.record_into(flights.begin());
             flights.submit();
