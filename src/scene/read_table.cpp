@@ -111,7 +111,7 @@ void read_value(const Field& value, const Key& key, void* member)
     case Kind::vectors:
         return value.each([&](const Field& v) { as<std::vector<glm::dvec3>>(member).push_back(v.vector()); });
     case Kind::texts: return read_texts(value, key, as<std::vector<std::string>>(member));
-    case Kind::object: return read_table(value, *key.table, member);
+    case Kind::object: read_table(value, *key.table, member); return;
     case Kind::objects: return read_objects(value, key, member);
     case Kind::ignored: value.text(); return;
     }
@@ -161,7 +161,7 @@ void read_key(const Field& field, const Key& key, const std::vector<const Key*>&
 
 } // namespace
 
-void read_table(Field field, const Table& table, void* object)
+Field read_table(Field field, const Table& table, void* object)
 {
     field.object(table);
     if (table.begin)
@@ -169,6 +169,7 @@ void read_table(Field field, const Table& table, void* object)
     const auto chosen = choose(field, table);
     for (const Key& key : table.keys)
         Field::attempt([&] { read_key(field, key, chosen, object); });
+    return field;
 }
 
 } // namespace taut::scene_file

@@ -64,8 +64,8 @@ void read_fabric(const Field& material, Material& out)
     if (!fabric)
         return;
     begin_fabric(out);
-    read_table(*fabric, kFabricTable, &out.fabric);
-    if (const auto name = fabric->find("preset"); name && !material.find("density"))
+    const Field keys = read_table(*fabric, kFabricTable, &out.fabric);
+    if (const auto name = keys.find("preset"); name && !material.find("density"))
         if (const FabricPreset* preset = find_fabric_preset(name->text()))
             out.density = preset->density;
     apply_readings(out.fabric, out.density);
