@@ -1,4 +1,4 @@
-# For the update.sh of the pages, and for check.sh: check_tables.
+# For the update.sh of the pages, and for check.sh: check_tables and check_bench.
 #
 # put PAGE PART FILE: what stands between "<!-- PART -->" and "<!-- end -->" of a page becomes the
 # text of a file. `scratch` is the caller's folder.
@@ -51,4 +51,13 @@ check_tables()
     done
     [ $compared -gt 0 ] || { echo "$1 has no table of $2" >&2; return 1; }
     return $differing
+}
+
+# check_bench PAGE PART FILE [COLUMN]: the first table of a part is FILE of tests/bench/results, row by row, to the digits
+# of the page (bench/rows.awk); COLUMN, a number, is in per cent on the page. Status 1 with what differs.
+check_bench()
+{
+    sed -n "/^<!-- $2 -->\$/,/^<!-- end -->\$/p" "$1" | awk '/^\|/ { ++n; if (n > 2) print; next } n { exit }' > "$scratch/of_page"
+    awk -v percent="${4:-0}" -f bench/rows.awk -f claims.awk "$scratch/of_page" "../tests/bench/results/$3" ||
+        { echo "$1: the table \"$2\" is not $3" >&2; return 1; }
 }

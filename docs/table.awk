@@ -1,4 +1,5 @@
 # A CSV file as the lines of a Markdown table, for check_tables of put.sh: awk -f table.awk -f claims.awk TABLE.csv
+/^#/ { next }
 {
     n = cells($0)
     line = "|"
