@@ -66,7 +66,9 @@ TEST_CASE("costs of a device are measured once and kept: the plan is the same in
     const auto third = plan();
     CHECK(third["costs_ns"] ==
           nlohmann::json{{"dispatch", 1e6}, {"group_barrier", 1}, {"element", 0.5}, {"lane_element", 0.25}});
-    CHECK(third["dispatches_per_step"] < first["dispatches_per_step"]); // grouped more
+    const auto cheap = // what was measured may be dear, too, in a build that checks memory
+        program::parse(folder.taut({"plan", scene, "--device-costs", "1,1000000,0.5,0.25", "--json"}).out);
+    CHECK(third["dispatches_per_step"] < cheap["dispatches_per_step"]); // grouped more
     const auto fixed =
         program::parse(folder.taut({"plan", scene, "--device-costs", "1000000,1,0.5,0.25", "--json"}).out);
     CHECK(fixed["costs_ns"] == third["costs_ns"]);

@@ -70,7 +70,7 @@ bool is_run(const std::string& selector, std::size_t scene)
 /// In a short run a third on software drivers for what solves linear systems: hundreds of dispatches a step.
 int steps_on(const Device& device, const std::string& name)
 {
-    const std::string& method = golden::scenes().at(name).method.type;
+    const std::string method = golden::scenes().at(name).method.type; // of a map that goes with the line
     const bool solves = method == "implicit_euler" || method == "implicit_constraints" || method == "acad";
     const bool software = !device.info().executor.starts_with("cpu") && !device.info().hardware_gpu;
     return short_run() && solves && software ? kSteps / 3 : kSteps;

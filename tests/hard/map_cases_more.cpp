@@ -141,11 +141,12 @@ void add_steps_and_input(std::vector<MapCase>& out)
     Scene tiny = alone(particles({{100, 0, 0}}));
     tiny.gravity = {0, -9.81, 0};
     tiny.timestep = 1e-6;
-    out.push_back(
-        {"A11", "5,000 steps of a microsecond, 100 m from the origin", tiny, 5000, [](const Journey& j) {
-             const double t = j.world.time(), fall = -j.world.positions()[0].y;
-             return above("error of the fall", std::abs(fall / (9.81 * t * t / 2) - 1), 0.01);
-         }});
+    out.push_back({"A11", "5,000 steps of a microsecond, 100 m from the origin, in full 100,000", tiny,
+                   100000, [](const Journey& j) {
+                       const double t = j.world.time(), fall = -j.world.positions()[0].y;
+                       return above("error of the fall", std::abs(fall / (9.81 * t * t / 2) - 1), 0.01);
+                   }});
+    out.back().short_steps = 5000;
 }
 
 void add_uneven(std::vector<MapCase>& out)
