@@ -3,6 +3,7 @@
 
 #include "hard/cases.hpp"
 
+#include "taut/report/residuals.hpp"
 #include "taut/report/scene_budget.hpp"
 #include "taut/scene/mesh.hpp"
 
@@ -226,10 +227,39 @@ bool finds_its_shape(const Setting& s)
     return !(may_collapse && (s.start == "flat" || s.start == "falling"));
 }
 
+/// Two halvings of a Newton step do not lower the potential there, so that the body stays in the air at 1.2
+/// of its volume (docs/statuses.md); at 1e10 Pa and 0.499 it blows up.
+bool hangs(const Setting& s)
+{
+    return s.method == "implicit_euler" && s.start == "squeezed" &&
+           ((s.ratio >= 0.45 && s.modulus >= 1e8) || (s.ratio > 0.49 && s.modulus >= 1e6));
+}
+
+void check_that_it_is_said(const Scene& scene)
+{
+    World world(scene, test_device("cpu:serial"));
+    const SceneBudget budget(world.scene());
+    StepReport report = measure(world);
+    for (int k = 0; k < 60 && rank(report.status) < rank(Status::diverged); ++k)
+    {
+        world.step();
+        report = measure(world);
+        set_status(taut::judge(budget, world, Judged::motion), report);
+    }
+    if (rank(report.status) < rank(Status::diverged))
+        judge_residuals(world.scene(), residuals_ahead(world), report);
+    CHECK(report.status != Status::completed);
+}
+
 Outcome judge(const Setting& s)
 {
     INFO(s.name());
     const Scene scene = scene_of(s);
+    if (hangs(s))
+    {
+        check_that_it_is_said(scene);
+        return {};
+    }
     const Outcome out = follow(scene, 60);
     char numbers[200];
     std::snprintf(numbers, sizeof numbers, " | %.2g | %.3g | %.3g | %.3g | %.2g | %d | %.4f\n",
@@ -286,4 +316,19 @@ TEST_CASE("neo-Hookean bodies make no energy, at rest and far from it, soft and 
                 else if (s.model == "neo_hookean" && s.precision == "float")
                     judge_all(s, gentle);
             }
+}
+
+TEST_CASE("neo-Hookean bodies near their shape make no energy under vbd and implicit_euler [hard]", "[solid]")
+{
+    Setting s;
+    const char* near[] = {"rest", "free", "perturbed", "squeezed"};
+    const char* furthest[] = {"squeezed"};
+    for (const char* method : {"vbd", "implicit_euler"})
+    {
+        s.method = method;
+        if (short_run())
+            judge_all(s, furthest);
+        else
+            judge_all(s, near);
+    }
 }
