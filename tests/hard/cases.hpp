@@ -11,6 +11,8 @@
 
 #include "taut/report/model.hpp"
 #include "taut/report/report.hpp"
+#include "taut/report/residuals.hpp"
+#include "taut/report/soundness_watch.hpp"
 #include "taut/world/world.hpp"
 
 #include <glm/geometric.hpp>
@@ -178,6 +180,23 @@ std::string refusal_of(F&& f, std::string* text = nullptr)
         return std::string(to_string(error.code()));
     }
     return "nothing";
+}
+
+/// As `taut run` judges it, but for what passes through colliders: on the way, at the end, and by residuals.
+inline StepReport judged_run(const Scene& scene, std::uint64_t frames, const std::shared_ptr<Device>& device)
+{
+    World world(scene, device);
+    SoundnessWatch watch(frames);
+    for (std::uint64_t k = 1; k <= frames && watch.found().sound(); ++k)
+    {
+        world.step();
+        watch.after(k, world);
+    }
+    StepReport report = measure(world);
+    set_status(watch.found(), report);
+    if (rank(report.status) < rank(Status::diverged))
+        judge_residuals(world.scene(), residuals_ahead(world), report);
+    return report;
 }
 
 inline const double kNaN = std::numeric_limits<double>::quiet_NaN();

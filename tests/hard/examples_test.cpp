@@ -2,9 +2,6 @@
 
 #include "hard/cases.hpp"
 
-#include "taut/report/residuals.hpp"
-#include "taut/report/soundness_watch.hpp"
-
 #include <filesystem>
 
 namespace taut::hard {
@@ -42,23 +39,6 @@ std::uint64_t frames_of(const Scene& scene, const std::string& name)
     return short_run() ? std::min(all_frames(scene), paid) : all_frames(scene);
 }
 
-/// As `taut run` judges it: on the way, at the end, and by residuals.
-StepReport run_of(const Scene& scene, std::uint64_t frames, const std::shared_ptr<Device>& device)
-{
-    World world(scene, device);
-    SoundnessWatch watch(frames);
-    for (std::uint64_t k = 1; k <= frames && watch.found().sound(); ++k)
-    {
-        world.step();
-        watch.after(k, world);
-    }
-    StepReport report = measure(world);
-    set_status(watch.found(), report);
-    if (rank(report.status) < rank(Status::diverged))
-        judge_residuals(world.scene(), residuals_ahead(world), report);
-    return report;
-}
-
 std::vector<std::string> examples()
 {
     std::vector<std::string> out;
@@ -79,7 +59,7 @@ TEST_CASE("every example ends sound, or is named as one that shows a failure [ha
         INFO(name);
         const Scene scene = resolve(load_scene(kExamples / name));
         const std::uint64_t frames = frames_of(scene, name);
-        const StepReport report = run_of(scene, frames, device);
+        const StepReport report = judged_run(scene, frames, device);
         INFO(report.reason);
         if (frames == all_frames(scene))
             CHECK(to_string(report.status) == (kShowFailure.contains(name) ? "unconverged" : "completed"));
