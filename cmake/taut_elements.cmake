@@ -23,8 +23,9 @@ set(taut_kernel_options "$<$<CONFIG:Release,RelWithDebInfo>:${taut_kernel_level}
 # the order in which GCC leaves instructions matters more than elsewhere (docs/lanes.md).
 set(taut_lanes_options "${taut_kernel_options};-mavx2;$<$<CXX_COMPILER_ID:GNU>:-fschedule-insns>")
 if(TAUT_SANITIZE)
-    # Optimised, since what lanes are made of is all inline: at -O0 a collider takes two minutes, so 3 s. Places in
-    # memory are checked; values on the stack and overflow are in the form of one at a time, the same text.
+    # Optimised, since what lanes are made of is all inline: the file of a collider takes the compiler over two
+    # minutes at -O0, and 3 s so. Reads and writes of buffers are checked here; arrays on the stack and undefined
+    # arithmetic in the scalar form, which is made of the same text.
     list(APPEND taut_lanes_options -O1 -fno-sanitize=undefined $<$<CXX_COMPILER_ID:GNU>:--param=asan-stack=0>)
 endif()
 set(taut_lanes 0)

@@ -39,8 +39,7 @@ struct FactoredSize
     int cloth, solids;
 };
 constexpr FactoredSize kMostFactored{30000, 6000};
-/// Of a step that is one of many, which need not be exact: conjugate gradients take about a third of the time
-/// for those of a falling cloth of 64².
+/// Of the steps that follow a body, which need not be exact (docs/decisions.md, 72).
 constexpr FactoredSize kMostFactoredOnTheWay{3000, 1500};
 constexpr double kHeldWeight = 1e9; // times the diagonal
 constexpr double kTouching = 0.5;   // right runs leave more where vertices are held that a contact may let go
@@ -217,7 +216,7 @@ public:
             const Motion& force)
         : model_(model), left_(left), x_(x.begin(), x.end()), y_(x_), push_(force)
     {
-        left_.load.assign(x.size(), 0); // nothing to compare a step with but itself
+        left_.load.assign(x.size(), 0); // iterated_steps() then ends by what a step itself moves
         model_.gases.clear(); // they act at x, as weight does
         model_.gravity = glm::dvec3(0);
         const Motion elastic = elastic_forces(x_);

@@ -58,7 +58,8 @@ struct LoadResidual
 /// strain springs at random by far more than loads do, and the tension of that holds back the first step,
 /// but no later one. Models of more than 10,000 free vertices (of solids: 2,000) are solved by conjugate
 /// gradients, to about 3 % of the share or 0.002, but where a few loose vertices alone carry what the
-/// loads move (docs/decisions.md, 51).
+/// loads move (docs/decisions.md, 51); the steps that follow a body, from 1,000 free vertices on (of solids:
+/// 500), each to 1 % of what it moves.
 LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);
 
 } // namespace taut
