@@ -12,6 +12,7 @@
 #include "taut/report/load_residual.hpp"
 
 #include "taut/report/iterated_steps.hpp"
+#include "taut/report/rolling.hpp"
 #include "taut/report/static_energy.hpp"
 #include "taut/scene/extent.hpp"
 
@@ -117,7 +118,7 @@ std::vector<Motion> forces_of(const PhysicalModel& model, const Leftover& left)
     std::vector<Motion> out{left.force};
     for (glm::dvec3& f : out[0])
         f = -f;
-    for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
+    for (std::size_t b = 0; b + 1 < model.body_start.size() && !left.against_response; ++b)
     {
         const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
         const bool mostly = mostly_touches(model, left, first, last);
@@ -173,6 +174,18 @@ double largest_response(const PhysicalModel& model, const Steps& step, std::uint
     return most;
 }
 
+/// m: of the vertices from `first` to before `last`, without rolling about what holds them.
+Motion own_motion(const PhysicalModel& model, std::span<const glm::dvec3> x, const Motion& way,
+                  const Leftover& left, std::uint32_t first, std::uint32_t last)
+{
+    const std::uint32_t count = last - first;
+    std::vector<bool> held(left.touches.begin() + first, left.touches.begin() + last);
+    for (std::uint32_t i = 0; i < count; ++i)
+        held[i] = held[i] || model.pinned[first + i];
+    return without_rolling({x.subspan(first, count), std::span(way).subspan(first, count),
+                            std::span(model.mass).subspan(first, count), std::move(held)});
+}
+
 /// Of the vertices from `first` to before `last`.
 LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3> x, const Steps& step,
                          const Leftover& left, std::uint32_t first, std::uint32_t last)
@@ -184,6 +197,8 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
         return {}; // no way on which contacts have no part
     const glm::dvec3 down = mostly ? glm::normalize(model.gravity) : glm::dvec3(0);
     const double counted = touches ? kTouching : 1;
+    const Motion own = touches ? own_motion(model, x, step.left, left, first, last)
+                               : Motion(step.left.begin() + first, step.left.begin() + last);
     double moved = 0, loads = 0, mass = 0, carried = 0;
     for (std::uint32_t i = first; i < last && !left.carried.empty(); ++i)
         carried = std::max(carried, left.carried[i]);
@@ -194,7 +209,7 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
         if (!model.pinned[i])
         {
             moved += counted * model.mass[i] *
-                     (mostly ? std::max(0.0, glm::dot(step.left[i], down)) : glm::length(step.left[i]));
+                     (mostly ? std::max(0.0, glm::dot(own[i - first], down)) : glm::length(own[i - first]));
             mass += model.mass[i];
             loads += left.load[i] * left.time * left.time + model.mass[i] * carried;
         }

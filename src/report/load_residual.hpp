@@ -51,9 +51,10 @@ struct LoadResidual
 /// or e of the gases' forces, whichever moves most. 0 solved, 1 as if nothing pulled. That of the body
 /// with the largest share of those whose way is above kSeenWay, or of all where none is. Contacts push
 /// after the solve, and what lies on them has yet to follow: vertices that touch stay where they are, and
-/// r is 0 at those beside them; of such bodies half of d is counted. Where that is most of a body, r
-/// counts beside them, too, and of d what goes along gravity alone; without gravity nothing is said of
-/// it. Infinite where the step is not finite. A body whose share is above `followed` is led on by
+/// r is 0 at those beside them, but with `against_response`; of such bodies half of d is counted, without
+/// rolling about what holds them, where that is narrow (docs/decisions.md, 73). Where that is most of a
+/// body, r counts beside them, too, and of d what goes along gravity alone; without gravity nothing is said
+/// of it. Infinite where the step is not finite. A body whose share is above `followed` is led on by
 /// Newton's method, down E(y) + c (y - x) + M (y - x)^2 / (2 t^2), c of the force that is left: sweeps
 /// strain springs at random by far more than loads do, and the tension of that holds back the first step,
 /// but no later one. Models of more than 10,000 free vertices (of solids: 2,000) are solved by conjugate
