@@ -20,9 +20,10 @@ using reference::BendingRecord;
 using reference::DistanceRecord;
 using reference::View;
 
-/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of each distance constraint over its rest
-/// length: eq. 9, with the damper's part of eq. 26, gamma n . (moved_a - moved_b), gamma = damping time / h;
-/// over 1 + gamma, so that it is a change of length, by which the ends would have to move.
+/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of each distance constraint over the
+/// length that the spring should have, or that at rest where this is longer: eq. 9, with the damper's part of
+/// eq. 26, gamma n . (moved_a - moved_b), gamma = damping time / h; over 1 + gamma, so that it is a change of
+/// length, by which the ends would have to move.
 std::vector<double> distance_residuals(const View& view, double h, const std::vector<glm::dvec3>& moved,
                                        std::vector<glm::dvec3>& impulse)
 {
@@ -43,7 +44,8 @@ std::vector<double> distance_residuals(const View& view, double h, const std::ve
         const double gamma = times.empty() ? 0 : times[k] / h;
         const double damper = gamma * glm::dot(n, moved[c.a] - moved[c.b]);
         const double open = length - c.rest_length + damper + c.compliance / (h * h) * lambda[k];
-        out[k] = std::abs(open) / ((1 + gamma) * c.rest_length);
+        const double missed = std::abs(open) / (1 + gamma);
+        out[k] = missed / std::max<double>(c.rest_length, length - missed);
     }
     return out;
 }

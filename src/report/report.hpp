@@ -52,7 +52,9 @@ struct StepReport
     double momentum_error = 0;
     /// methods: ||M(x - x~) - J^T lambda|| / (m g h^2), -1 without multipliers; implicit_euler: r_acc
     double primal_residual = 0;
-    double dual_residual = 0;    ///< max |C + alpha/h^2 lambda| / L; -1 without multipliers
+    /// max |C + alpha/h^2 lambda| / L, L at rest or as the spring should be now, whichever is longer; -1
+    /// without multipliers
+    double dual_residual = 0;
     double stretch_residual = -1; ///< that of the distance constraints alone
     double flow_residual = -1; ///< that of those whose plastic rest length has changed, over their yield
     /// What the last substep left of all forces, added up by size, over those at hand (inertia, weight, those

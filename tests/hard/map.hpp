@@ -108,6 +108,9 @@ struct Outcome
     std::optional<Measured> far;   ///< what is missed besides moved by ten times its size in a substep
     double energy = 0, volume = 0; ///< see MapCase::most_energy
     double inverted = 0;           ///< tetrahedra
+    /// Empty where `taut run` would call the run completed, else the status and why. Of what changes on the
+    /// way from outside (before_step), which no budget knows of, by the residuals at the end alone.
+    std::string called = {};
     std::map<int, std::uint64_t> hashes = {};
     bool refused() const { return verdict.rfind("refuses", 0) == 0; }
     /// The criterion that the verdict is about; of a refusal none.

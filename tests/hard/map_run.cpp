@@ -84,6 +84,16 @@ Scene scene_for(const MapCase& c, MethodKind method)
     return scene;
 }
 
+/// See Outcome::called.
+std::string called(const World& world, const SoundnessWatch& watch, StepReport report)
+{
+    set_status(watch.found(), report);
+    if (rank(report.status) < rank(Status::diverged))
+        judge_residuals(world.scene(), residuals_ahead(world), report);
+    return report.status == Status::completed ? ""
+                                              : std::string(to_string(report.status)) + ": " + report.reason;
+}
+
 /// Runs the case's scene and fills in what it came to, but for the word of the verdict.
 void run_scene(const MapCase& c, const Scene& scene, const std::shared_ptr<Device>& device, int steps,
                bool judge, Outcome& out)
@@ -93,11 +103,14 @@ void run_scene(const MapCase& c, const Scene& scene, const std::shared_ptr<Devic
     journey.scale = energy_scale(world, journey.first);
     journey.highest_energy = energy(journey.first);
     const int every = steps > 5000 ? 1000 : 10;
+    SoundnessWatch watch(static_cast<std::uint64_t>(steps));
     for (int k = 0; k < steps; ++k)
     {
         if (c.before_step)
             c.before_step(world, k);
         world.step();
+        if (judge && !c.before_step && watch.found().sound())
+            watch.after(static_cast<std::uint64_t>(k) + 1, world);
         const bool often = judge && (k < 5 || k % every == every - 1);
         if (often || is_hashed(k + 1) || k + 1 == steps)
             look(world, journey);
@@ -109,6 +122,7 @@ void run_scene(const MapCase& c, const Scene& scene, const std::shared_ptr<Devic
         out.verdict = "stops " + std::string(to_string(journey.last.status));
     if (!judge || out.verdict == "FAIL")
         return;
+    out.called = called(world, watch, journey.last);
     if (c.judge)
     {
         const Findings found = c.judge(journey);
@@ -161,6 +175,8 @@ Outcome judged(const MapCase& c, MethodKind method, const std::shared_ptr<Device
         const bool may = (c.may_report & only(method)) != 0 && !out.far;
         if (out.verdict.empty())
             out.verdict = !enough ? "runs" : !missed ? "pass" : may ? "reports" : "FAIL";
+        if (out.verdict == "pass" && !out.called.empty())
+            out.verdict = "stops " + out.called.substr(0, out.called.find(':'));
     }
     catch (const Error& error)
     {
