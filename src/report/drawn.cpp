@@ -3,6 +3,7 @@
 #include "taut/plan/contact_scene.hpp"
 #include "taut/plan/material.hpp"
 #include "taut/plan/solid.hpp"
+#include "taut/report/model.hpp"
 #include "taut/scene/extent.hpp"
 #include "taut/scene/pose.hpp"
 
@@ -67,10 +68,34 @@ double touched_length(const Body& body)
     return std::min({size.x, size.y, size.z});
 }
 
+/// J at a strain of 1: what added elements, of which nothing is known but their energy, have of a body twice
+/// as large and of the worst of its shears by 1.
+double added_stiffness(const Body& body)
+{
+    const std::vector<AddedElement> elements = body_elements(body, 0);
+    const auto energy_of = [&](const auto& placed) {
+        std::vector<glm::dvec3> x;
+        for (const glm::dvec3& p : body.mesh.positions)
+            x.push_back(placed(p));
+        double sum = 0;
+        for (const AddedElement& e : elements)
+            sum += e.energy(x);
+        return sum;
+    };
+    double worst = 0;
+    for (int along = 0; along < 3 && !elements.empty(); ++along)
+        for (int across = 0; across < 3; ++across)
+            worst = std::max(worst, energy_of([&](glm::dvec3 p) {
+                                 p[along] += along == across ? 0 : p[across];
+                                 return p;
+                             }));
+    return elements.empty() ? 0 : worst + energy_of([](const glm::dvec3& p) { return 2.0 * p; });
+}
+
 /// J/m^2: elastic energy of a body drawn evenly over `length` [m], over the square of how far.
 double drawn_stiffness(const Body& body, double length)
 {
-    double stiff = 0; // J at a strain of 1
+    double stiff = added_stiffness(body); // J at a strain of 1
     for (const StretchElement& e : stretch_elements(body))
         if (e.compliance > 0)
             stiff += 0.5 * e.rest_length * e.rest_length / e.compliance;

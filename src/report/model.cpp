@@ -20,10 +20,7 @@ namespace {
 
 using reference::Vec;
 
-Vec<double> vec(const glm::dvec3& a)
-{
-    return {a.x, a.y, a.z};
-}
+Vec<double> vec(const glm::dvec3& a) { return {a.x, a.y, a.z}; }
 
 std::array<Vec<double>, 4> corners(const BendElement& h, std::span<const glm::dvec3> x)
 {
@@ -164,8 +161,11 @@ double energy_of(const AddedElement& e, const Corners& corner)
     return e.kind->energy(std::span(corner).first(e.kind->corners), e.values);
 }
 
-void append_added(std::vector<AddedElement>& out, const Body& body, std::uint32_t first)
+} // namespace
+
+std::vector<AddedElement> body_elements(const Body& body, std::uint32_t first)
 {
+    std::vector<AddedElement> out;
     for (const Body::Elements& list : body.elements)
     {
         const ElementKind* kind = find_element(list.kind);
@@ -181,9 +181,8 @@ void append_added(std::vector<AddedElement>& out, const Body& body, std::uint32_
             out.push_back(std::move(e));
         }
     }
+    return out;
 }
-
-} // namespace
 
 std::vector<AddedElement> scene_elements(const Scene& resolved)
 {
@@ -191,7 +190,7 @@ std::vector<AddedElement> scene_elements(const Scene& resolved)
     std::uint32_t first = 0;
     for (const Body& body : resolved.bodies)
     {
-        append_added(out, body, first);
+        std::ranges::move(body_elements(body, first), std::back_inserter(out));
         first += static_cast<std::uint32_t>(body.mesh.positions.size());
     }
     return out;

@@ -75,8 +75,11 @@ PhysicalModel make_model(const Scene& resolved);
 /// PhysicalModel::diameter.
 double rest_diameter(const Scene& resolved);
 
-/// Those of Body::elements of all bodies, vertices scene-wide. All kinds must be known: make_plan() refuses
+/// Those of Body::elements, its first vertex being `first`. All kinds must be known: make_plan() refuses
 /// others.
+std::vector<AddedElement> body_elements(const Body& resolved, std::uint32_t first);
+
+/// Those of all bodies, vertices scene-wide.
 std::vector<AddedElement> scene_elements(const Scene& resolved);
 
 /// rad, from the rest angle; 0 where a wing has no area.

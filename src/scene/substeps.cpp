@@ -19,10 +19,12 @@
 //   buckle where they act softer by (c h / edge)^2. What a sweep leaves of a plastic body flows like strain.
 //   A sail that is held all round is spanned by the wind's push. One sweep bends cloth softer by
 //   k B h^2 / (s edge^4), k measured, whatever B is where that is large: cloth that stands out sags by
-//   k g h^2 L^4 / (8 edge^4) too far. Measured in docs/methods.md.
+//   k g h^2 L^4 / (8 edge^4) too far. Of a strain by which pins draw springs apart one sweep leaves
+//   2.2 a / (1 + 0.82 a), a = (c h / edge)^2, measured. Measured in docs/methods.md.
 
 #include "taut/scene/substeps.hpp"
 
+#include "taut/scene/drawn_strain.hpp"
 #include "taut/scene/extent.hpp"
 #include "taut/scene/held.hpp"
 #include "taut/scene/membrane.hpp"
@@ -40,10 +42,12 @@ constexpr double kSofter = 0.2;
 constexpr double kMembraneShare = 1.0 / 9; ///< of kSweepStrain
 constexpr double kShortArm = 0.05;         ///< of a body's size: nearer to its pins it does not swing
 constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is within 41 degrees of the plumb
-constexpr double kPressed = 1e-4; ///< strain of edges that are pressed together: less buckles nothing
-constexpr double kLimp = 2;       ///< of its length: cloth that a beam's formula lets sag further hangs
-constexpr double kFlowSweep = 3;  ///< of (c h / edge)^2 of the yield: what a sweep leaves, measured
-constexpr double kHingeSweep = 8; ///< of B h^2 / (s edge^4): by how much softer one sweep bends
+constexpr double kPressed = 1e-4;   ///< strain of edges that are pressed together: less buckles nothing
+constexpr double kLimp = 2;         ///< of its length: cloth that a beam's formula lets sag further hangs
+constexpr double kFlowSweep = 3;    ///< of (c h / edge)^2 of the yield: what a sweep leaves, measured
+constexpr double kDrawnLeft = 0.05; ///< strain of springs that pins draw apart, half of accept.stretch
+constexpr double kMostDrawn = 0.5;  ///< more strain asks for no more substeps
+constexpr double kHingeSweep = 8;   ///< of B h^2 / (s edge^4): by how much softer one sweep bends
 
 glm::dvec3 centre_of_mass(const Body& body)
 {
@@ -134,7 +138,7 @@ double wave_speed_squared(const Body& body)
     if (!body.mesh.tetrahedra.empty())
         return m.youngs_modulus / m.density;
     const SpringNetwork& network = body.shape.network;
-    const double along = m.fabric.used   ? std::max(m.fabric.warp, m.fabric.weft)
+    const double along = m.fabric.used  ? std::max(m.fabric.warp, m.fabric.weft)
                          : network.used ? network_stiffness(network)
                                         : m.stretch_stiffness;
     return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
@@ -155,6 +159,17 @@ double longest_for_flow(const Body& body, const SweepLoad& load)
     return body.material.plastic_yield > 0 && drawn
                ? longest_for_stiffness(body, load) / std::sqrt(kFlowSweep)
                : HUGE_VAL;
+}
+
+/// s: the longest substep in which sweeps leave no more than kDrawnLeft of the strain by which pins draw the
+/// springs of cloth apart; no limit for others.
+double longest_for_drawn(const Body& body, const SweepLoad& load)
+{
+    const double square = body.mesh.tetrahedra.empty() ? wave_speed_squared(body) : 0;
+    const double tears = body.material.tear_strain > 0 ? body.material.tear_strain : kMostDrawn;
+    const double strain = square > 0 ? std::min({drawn_strain(body), tears, kMostDrawn}) : 0;
+    const double left = strain > 0 ? kDrawnLeft / strain : HUGE_VAL, rest = 2.2 - 0.82 * left;
+    return rest > 0 ? load.edge * std::sqrt(left / rest / square) : HUGE_VAL;
 }
 
 /// s: the longest substep in which a held solid sags by no more than is seen too far, or acts as stiff as it
@@ -305,9 +320,10 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     const double gas =
         method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
     const double carried = // whatever gravity does
-        method == "vbd"    ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
-        : method == "xpbd" ? std::min(gas, sweeps * longest_for_flow(body, load))
-                           : gas;
+        method == "vbd" ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
+        : method == "xpbd"
+            ? std::min({gas, sweeps * longest_for_flow(body, load), sweeps * longest_for_drawn(body, load)})
+            : gas;
     const double blown = method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_wind(scene, body, load);
     if (!(g > 0))
         return std::min(carried, blown);
