@@ -75,11 +75,14 @@ double added_stiffness(const Body& body)
     const std::vector<AddedElement> elements = body_elements(body, 0);
     const auto energy_of = [&](const auto& placed) {
         std::vector<glm::dvec3> x;
+        x.reserve(body.mesh.positions.size());
         for (const glm::dvec3& p : body.mesh.positions)
             x.push_back(placed(p));
         double sum = 0;
         for (const AddedElement& e : elements)
-            sum += e.energy(x);
+            if (const double energy = e.energy(x);
+                std::isfinite(energy)) // it may be without bound so far out
+                sum += energy;
         return sum;
     };
     double worst = 0;
@@ -180,8 +183,9 @@ DrawnBodies::DrawnBodies(const Scene& scene)
         }
         else if (!followed(scene, body))
         {
-            met_stiffness_ += pins_stiffness(scene, body);
-            stiffness_ += pins_stiffness(scene, body);
+            const double stiffness = pins_stiffness(scene, body);
+            met_stiffness_ += stiffness;
+            stiffness_ += stiffness;
         }
         else
             follow(body);
@@ -190,6 +194,8 @@ DrawnBodies::DrawnBodies(const Scene& scene)
 
 void DrawnBodies::follow(const Body& body)
 {
+    if (std::none_of(body.pins.begin(), body.pins.end(), is_led))
+        return;
     const double stiffness = drawn_stiffness(body, drawn_length(body));
     for (std::size_t a = 0; a < body.pins.size(); ++a)
         for (std::size_t b = a + 1; b < body.pins.size(); ++b)

@@ -118,13 +118,14 @@ std::vector<Motion> forces_of(const PhysicalModel& model, const Leftover& left)
     std::vector<Motion> out{left.force};
     for (glm::dvec3& f : out[0])
         f = -f;
-    for (std::size_t b = 0; b + 1 < model.body_start.size() && !left.against_response; ++b)
-    {
-        const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
-        const bool mostly = mostly_touches(model, left, first, last);
-        for (std::uint32_t i = first; i < last && !mostly; ++i)
-            out[0][i] = left.is_beside(i) ? glm::dvec3(0) : out[0][i];
-    }
+    if (!left.against_response) // in whose long time a push is followed
+        for (std::size_t b = 0; b + 1 < model.body_start.size(); ++b)
+        {
+            const std::uint32_t first = model.body_start[b], last = model.body_start[b + 1];
+            const bool mostly = mostly_touches(model, left, first, last);
+            for (std::uint32_t i = first; i < last && !mostly; ++i)
+                out[0][i] = left.is_beside(i) ? glm::dvec3(0) : out[0][i];
+        }
     if (left.against_response)
         for (const glm::dvec3& pull : pulls_of(model))
         {
@@ -159,31 +160,36 @@ Steps first_steps(const PhysicalModel& model, std::span<const glm::dvec3> x, con
     return out;
 }
 
-/// kg m: what the loads move of the vertices from `first` to before `last`, the way on which that is most.
-double largest_response(const PhysicalModel& model, const Steps& step, std::uint32_t first,
-                        std::uint32_t last)
-{
-    double most = 0;
-    for (const Motion& moved : step.loads)
-    {
-        double sum = 0;
-        for (std::uint32_t i = first; i < last; ++i)
-            sum += model.pinned[i] ? 0 : model.mass[i] * glm::length(moved[i]);
-        most = std::max(most, sum);
-    }
-    return most;
-}
-
-/// m: of the vertices from `first` to before `last`, without rolling about what holds them.
+/// m: of the vertices from `first` to before `last`, under `against_response` without rolling about what
+/// touches, which a body that a pin holds does not.
 Motion own_motion(const PhysicalModel& model, std::span<const glm::dvec3> x, const Motion& way,
                   const Leftover& left, std::uint32_t first, std::uint32_t last)
 {
     const std::uint32_t count = last - first;
-    std::vector<bool> held(left.touches.begin() + first, left.touches.begin() + last);
-    for (std::uint32_t i = 0; i < count; ++i)
-        held[i] = held[i] || model.pinned[first + i];
-    return without_rolling({x.subspan(first, count), std::span(way).subspan(first, count),
-                            std::span(model.mass).subspan(first, count), std::move(held)});
+    const std::span<const glm::dvec3> all = std::span(way).subspan(first, count);
+    const auto pinned = model.pinned.begin();
+    if (!left.against_response || std::find(pinned + first, pinned + last, true) != pinned + last)
+        return {all.begin(), all.end()};
+    return without_rolling({x.subspan(first, count),
+                            all,
+                            std::span(model.mass).subspan(first, count),
+                            {left.touches.begin() + first, left.touches.begin() + last}});
+}
+
+/// kg m: what the loads move of the vertices from `first` to before `last`, the way on which that is most.
+double largest_response(const PhysicalModel& model, std::span<const glm::dvec3> x, const Steps& step,
+                        const Leftover& left, std::uint32_t first, std::uint32_t last)
+{
+    double most = 0;
+    for (const Motion& moved : step.loads)
+    {
+        const Motion own = own_motion(model, x, moved, left, first, last);
+        double sum = 0;
+        for (std::uint32_t i = first; i < last; ++i)
+            sum += model.pinned[i] ? 0 : model.mass[i] * glm::length(own[i - first]);
+        most = std::max(most, sum);
+    }
+    return most;
 }
 
 /// Of the vertices from `first` to before `last`.
@@ -197,8 +203,7 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
         return {}; // no way on which contacts have no part
     const glm::dvec3 down = mostly ? glm::normalize(model.gravity) : glm::dvec3(0);
     const double counted = touches ? kTouching : 1;
-    const Motion own = touches ? own_motion(model, x, step.left, left, first, last)
-                               : Motion(step.left.begin() + first, step.left.begin() + last);
+    const Motion own = own_motion(model, x, step.left, left, first, last);
     double moved = 0, loads = 0, mass = 0, carried = 0;
     for (std::uint32_t i = first; i < last && !left.carried.empty(); ++i)
         carried = std::max(carried, left.carried[i]);
@@ -214,7 +219,7 @@ LoadResidual residual_of(const PhysicalModel& model, std::span<const glm::dvec3>
             loads += left.load[i] * left.time * left.time + model.mass[i] * carried;
         }
     if (left.against_response)
-        loads = largest_response(model, step, first, last);
+        loads = largest_response(model, x, step, left, first, last);
     if (!(loads > 0))
         return {};
     // A body of one vertex has no size by which somebody could see that it is elsewhere.

@@ -50,17 +50,17 @@ struct LoadResidual
 /// `against_response` over sum m |e|, (M / t^2 + K) e = l along gravity, or without any along each axis,
 /// or e of the gases' forces, whichever moves most. 0 solved, 1 as if nothing pulled. That of the body
 /// with the largest share of those whose way is above kSeenWay, or of all where none is. Contacts push
-/// after the solve, and what lies on them has yet to follow: vertices that touch stay where they are, and
-/// r is 0 at those beside them, but with `against_response`; of such bodies half of d is counted, without
-/// rolling about what holds them, where that is narrow (docs/decisions.md, 73). Where that is most of a
-/// body, r counts beside them, too, and of d what goes along gravity alone; without gravity nothing is said
-/// of it. Infinite where the step is not finite. A body whose share is above `followed` is led on by
-/// Newton's method, down E(y) + c (y - x) + M (y - x)^2 / (2 t^2), c of the force that is left: sweeps
-/// strain springs at random by far more than loads do, and the tension of that holds back the first step,
-/// but no later one. Models of more than 10,000 free vertices (of solids: 2,000) are solved by conjugate
-/// gradients, to about 3 % of the share or 0.002, but where a few loose vertices alone carry what the
-/// loads move (docs/decisions.md, 51); the steps that follow a body, from 1,000 free vertices on (of solids:
-/// 500), each to 1 % of what it moves.
+/// after the solve, and what lies on them has yet to follow: vertices that touch stay where they are, and,
+/// unless `against_response`, r is 0 at those beside them; of such bodies half of d is counted, with
+/// `against_response` without rolling about what touches, where that is narrow and no pin holds the body
+/// (docs/decisions.md, 73). Where that is most of a body, r counts beside them, too, and of d what goes along
+/// gravity alone; without gravity nothing is said of it. Infinite where the step is not finite. A body
+/// whose share is above `followed` is led on by Newton's method, down E(y) + c (y - x) + M (y - x)^2 / (2
+/// t^2), c of the force that is left: sweeps strain springs at random by far more than loads do, and the
+/// tension of that holds back the first step, but no later one. Models of more than 10,000 free vertices
+/// (of solids: 2,000) are solved by conjugate gradients, to about 3 % of the share or 0.002, but where a
+/// few loose vertices alone carry what the loads move (docs/decisions.md, 51); the steps that follow a
+/// body, from 1,000 free vertices on (of solids: 500), each to 1 % of what it moves.
 LoadResidual load_residual(const PhysicalModel& model, std::span<const glm::dvec3> x, const Leftover& left);
 
 } // namespace taut

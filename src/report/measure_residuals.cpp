@@ -20,15 +20,21 @@ using reference::BendingRecord;
 using reference::DistanceRecord;
 using reference::View;
 
-/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of each distance constraint over the
-/// length that the spring should have, or that at rest where this is longer: eq. 9, with the damper's part of
-/// eq. 26, gamma n . (moved_a - moved_b), gamma = damping time / h; over 1 + gamma, so that it is a change of
-/// length, by which the ends would have to move.
-std::vector<double> distance_residuals(const View& view, double h, const std::vector<glm::dvec3>& moved,
-                                       std::vector<glm::dvec3>& impulse)
+/// By how much of its length a spring is off.
+struct SpringMiss
+{
+    double of_rest = 0;
+    double of_length = 0; ///< that at rest or as the spring should be now, whichever is longer
+};
+
+/// Adds J^T lambda to `impulse` (kg m) and gives the dual residual of each distance constraint: eq. 9, with
+/// the damper's part of eq. 26, gamma n . (moved_a - moved_b), gamma = damping time / h; over 1 + gamma, so
+/// that it is a change of length, by which the ends would have to move.
+std::vector<SpringMiss> distance_residuals(const View& view, double h, const std::vector<glm::dvec3>& moved,
+                                           std::vector<glm::dvec3>& impulse)
 {
     const std::vector<double> lambda = view.world.multipliers("distance");
-    std::vector<double> out(lambda.size(), 0.0);
+    std::vector<SpringMiss> out(lambda.size());
     const std::vector<double> times = view.world.damping_times("distance");
     for (std::size_t k = 0; k < lambda.size(); ++k)
     {
@@ -44,15 +50,16 @@ std::vector<double> distance_residuals(const View& view, double h, const std::ve
         const double gamma = times.empty() ? 0 : times[k] / h;
         const double damper = gamma * glm::dot(n, moved[c.a] - moved[c.b]);
         const double open = length - c.rest_length + damper + c.compliance / (h * h) * lambda[k];
-        const double missed = std::abs(open) / (1 + gamma);
-        out[k] = missed / std::max<double>(c.rest_length, length - missed);
+        const double missed = open / (1 + gamma);
+        out[k] = {std::abs(missed) / c.rest_length,
+                  std::abs(missed) / std::max<double>(c.rest_length, length - missed)};
     }
     return out;
 }
 
 /// The largest of springs that have flowed, over the yield strain of their body: what is left unsolved flows
 /// like what is strained.
-double flow_residual(const View& view, const std::vector<double>& left)
+double flow_residual(const View& view, const std::vector<SpringMiss>& left)
 {
     const auto& bodies = view.world.scene().bodies;
     const std::vector<double> first = view.first_lengths();
@@ -65,7 +72,7 @@ double flow_residual(const View& view, const std::vector<double>& left)
         const double yield =
             bodies[static_cast<std::size_t>(next - starts.begin()) - 1].material.plastic_yield;
         if (yield > 0 && c.rest_length != first[k])
-            worst = std::max(worst, left[k] / yield);
+            worst = std::max(worst, left[k].of_rest / yield);
     }
     return worst;
 }
@@ -102,8 +109,8 @@ void measure_residuals(const View& view, StepReport& out)
         return s.multipliers != kNoBuffer && (s.kind == "distance" || s.kind == "bending");
     });
     // By forces that are on no record.
-    const bool limited = has_effect(view, "strain_limit") || has_effect(view, "attachment") ||
-                         has_effect(view, "contact");
+    const bool limited =
+        has_effect(view, "strain_limit") || has_effect(view, "attachment") || has_effect(view, "contact");
     const MethodKind kind = method_of(view.world.scene());
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
         measure_implicit_residual(view, out);
@@ -116,8 +123,10 @@ void measure_residuals(const View& view, StepReport& out)
         return;
     const double h = view.plan.timestep / view.plan.substeps;
     std::vector<glm::dvec3> impulse(view.x.size(), glm::dvec3(0));
-    const std::vector<double> left = distance_residuals(view, h, moved, impulse);
-    out.stretch_residual = left.empty() ? 0 : *std::max_element(left.begin(), left.end());
+    const std::vector<SpringMiss> left = distance_residuals(view, h, moved, impulse);
+    out.stretch_residual = 0;
+    for (const SpringMiss& spring : left)
+        out.stretch_residual = std::max(out.stretch_residual, spring.of_length);
     const auto& flows = view.model.flows;
     if (std::find(flows.begin(), flows.end(), true) != flows.end())
         out.flow_residual = flow_residual(view, left);

@@ -16,8 +16,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of the body's size: what stands on a narrower patch may roll about it. A ball of four cells stands on
-/// up to a quarter, a cube on 0.4.
+/// Of the body's size about the patch, both root mean squares: what stands on a narrower one may roll about
+/// it. A ball of four cells stands on up to a quarter, a cube on 0.4, a column of four thirds of its width on
+/// a third.
 constexpr double kApart = 1.0 / 3;
 
 Vector3d vector_of(const glm::dvec3& p) { return {p.x, p.y, p.z}; }

@@ -42,12 +42,12 @@ constexpr double kSofter = 0.2;
 constexpr double kMembraneShare = 1.0 / 9; ///< of kSweepStrain
 constexpr double kShortArm = 0.05;         ///< of a body's size: nearer to its pins it does not swing
 constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is within 41 degrees of the plumb
-constexpr double kPressed = 1e-4;   ///< strain of edges that are pressed together: less buckles nothing
-constexpr double kLimp = 2;         ///< of its length: cloth that a beam's formula lets sag further hangs
-constexpr double kFlowSweep = 3;    ///< of (c h / edge)^2 of the yield: what a sweep leaves, measured
-constexpr double kDrawnLeft = 0.05; ///< strain of springs that pins draw apart, half of accept.stretch
-constexpr double kMostDrawn = 0.5;  ///< more strain asks for no more substeps
-constexpr double kHingeSweep = 8;   ///< of B h^2 / (s edge^4): by how much softer one sweep bends
+constexpr double kPressed = 1e-4; ///< strain of edges that are pressed together: less buckles nothing
+constexpr double kLimp = 2;       ///< of its length: cloth that a beam's formula lets sag further hangs
+constexpr double kFlowSweep = 3;  ///< of (c h / edge)^2 of the yield: what a sweep leaves, measured
+/// Of what pins draw apart: half of accept.stretch, within these, since it costs 1/h.
+constexpr double kLeastLeft = 0.005, kMostLeft = 0.05;
+constexpr double kHingeSweep = 8; ///< of B h^2 / (s edge^4): by how much softer one sweep bends
 
 glm::dvec3 centre_of_mass(const Body& body)
 {
@@ -161,14 +161,19 @@ double longest_for_flow(const Body& body, const SweepLoad& load)
                : HUGE_VAL;
 }
 
-/// s: the longest substep in which sweeps leave no more than kDrawnLeft of the strain by which pins draw the
-/// springs of cloth apart; no limit for others.
-double longest_for_drawn(const Body& body, const SweepLoad& load)
+/// s: the longest substep in which sweeps leave half of accept.stretch of the strain by which pins draw the
+/// springs of cloth or of a chain apart (fabrics leave less); no limit for others.
+double longest_for_drawn(const Scene& scene, const Body& body, const SweepLoad& load)
 {
-    const double square = body.mesh.tetrahedra.empty() ? wave_speed_squared(body) : 0;
-    const double tears = body.material.tear_strain > 0 ? body.material.tear_strain : kMostDrawn;
-    const double strain = square > 0 ? std::min({drawn_strain(body), tears, kMostDrawn}) : 0;
-    const double left = strain > 0 ? kDrawnLeft / strain : HUGE_VAL, rest = 2.2 - 0.82 * left;
+    const Material& m = body.material;
+    const bool chain = body.shape.kind == ShapeKind::chain;
+    const double cloth = chain ? m.stretch_stiffness / m.density : wave_speed_squared(body);
+    const double square = body.mesh.tetrahedra.empty() ? cloth : 0;
+    if (!(square > 0) || !std::isfinite(square))
+        return HUGE_VAL;
+    const double strain = drawn_strain(body);
+    const double left = std::clamp(scene.accept.stretch / 2, kLeastLeft, kMostLeft) / strain;
+    const double rest = 2.2 - 0.82 * left; // without strain none is left
     return rest > 0 ? load.edge * std::sqrt(left / rest / square) : HUGE_VAL;
 }
 
@@ -320,10 +325,10 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     const double gas =
         method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
     const double carried = // whatever gravity does
-        method == "vbd" ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
-        : method == "xpbd"
-            ? std::min({gas, sweeps * longest_for_flow(body, load), sweeps * longest_for_drawn(body, load)})
-            : gas;
+        method == "vbd"    ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
+        : method == "xpbd" ? std::min({gas, sweeps * longest_for_flow(body, load),
+                                       sweeps * longest_for_drawn(scene, body, load)})
+                           : gas;
     const double blown = method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_wind(scene, body, load);
     if (!(g > 0))
         return std::min(carried, blown);

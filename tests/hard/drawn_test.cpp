@@ -53,6 +53,17 @@ TEST_CASE("cloth that pins draw apart is solved by the substeps that nobody name
             CHECK(report.status == Status::completed);
             CHECK(report.stretch_residual < 0.06); // 0.05 is aimed at
         }
+    Scene chain = drawn("xpbd", 0.2, 12);
+    chain.bodies[0].shape.kind = ShapeKind::chain;
+    chain.bodies[0].pins[0] = {};
+    chain.bodies[0].pins[0].corners = {"first"};
+    chain.bodies[0].pins[1].edges.clear();
+    chain.bodies[0].pins[1].corners = {"last"};
+    chain.bodies[0].pins[1].motion[1].translate = {0, -0.2 * chain.bodies[0].shape.length, 0};
+    const StepReport drawn_chain = end_of(chain);
+    INFO("chain: " << drawn_chain.stretch_residual << " " << drawn_chain.reason);
+    CHECK(drawn_chain.status == Status::completed);
+    CHECK(drawn_chain.stretch_residual < 0.06);
     Scene few = drawn("xpbd", 0.2, 12);
     few.method.substeps = 10;
     const StepReport report = end_of(few);

@@ -69,17 +69,35 @@ TEST_CASE("a turn about the line that touches is rolling, one across it is not",
     CHECK(longest(rest_of(x, across, edge)) > 0.9 * longest(across));
 }
 
-TEST_CASE("what sinks onto the vertex that touches is off by all of that", "[residuals]")
+TEST_CASE("what sinks about the vertex that touches has sunk, whatever turn comes closest", "[residuals]")
 {
     const Places x = lattice();
     Places sunk(x.size(), glm::dvec3(0, -0.01, 0));
-    sunk[0] = glm::dvec3(0);
-    const Places ways = rest_of(x, sunk, {0});
-    double mean = 0;
-    for (const glm::dvec3& w : ways)
-        mean += glm::length(w) / static_cast<double>(ways.size());
-    CHECK(mean > 0.004); // the turn that comes closest tips it away from where it is held
-    CHECK(longest(rest_of(x, sunk, {21})) > 0.0099);
+    sunk[5] = glm::dvec3(0);
+    const Places ways = rest_of(x, sunk, {5});
+    double mean = 0, turned = 0;
+    for (std::size_t i = 0; i < ways.size(); ++i)
+    {
+        mean += glm::length(ways[i]) / static_cast<double>(ways.size());
+        turned = std::max(turned, glm::distance(ways[i], sunk[i]));
+    }
+    CHECK(mean > 0.006);
+    CHECK(turned > 0.001); // vertex 5 is not the middle: some of it is a turn
+}
+
+TEST_CASE("a patch of a third of the body's size lets nothing roll, a narrower one does", "[residuals]")
+{
+    Places x = lattice();
+    const glm::dvec3 middle(0.5, 0, 0.5);
+    const auto rolls = [&](double half) {
+        const std::vector<std::size_t> held{0, 3, 48, 51}; // corners of the lowest face
+        for (const std::size_t i : held)
+            x[i] = middle + half * glm::dvec3(i % 4 == 0 ? -1 : 1, 0, i < 16 ? -1 : 1);
+        const Places ways = turned(x, middle, {0, 0, 1}, 0.1);
+        return longest(rest_of(x, ways, held)) < 1e-9;
+    };
+    CHECK(rolls(0.2));
+    CHECK_FALSE(rolls(0.33)); // the body's size about it is 0.87
 }
 
 TEST_CASE("what stands on a broad foot, or on nothing, does not roll", "[residuals]")
