@@ -110,6 +110,26 @@ TEST_CASE("of a body that touches something half of what is left counts, away fr
     for (std::size_t i = 0; i < pushed.force.size(); ++i)
         pushed.force[i] = left.beside[i] || left.touches[i] ? -10.0 * left.force[i] : glm::dvec3(0);
     CHECK(load_residual(model, model.start, pushed).share == 0);
+    pushed.against_response = true; // in a long time a push is followed
+    CHECK(load_residual(model, model.start, pushed).way > 0);
+}
+
+TEST_CASE("a body rolls about the vertex that touches, and not where a pin holds it", "[residuals]")
+{
+    PhysicalModel model = free_cloth(1e6);
+    Leftover left = weight_left(model);
+    left.time = 0.3;
+    left.against_response = true;
+    left.touches[0] = true;
+    const glm::dvec3 across = 1e-3 * glm::normalize(model.start[1] - model.start[0]);
+    for (std::size_t i = 0; i < model.mass.size(); ++i)
+        left.force[i] = -left.load[i] * across;
+    const double free = load_residual(model, model.start, left).way;
+    model.pinned[0] = true;
+    const double held = load_residual(model, model.start, left).way;
+    INFO(free << " free, " << held << " held");
+    CHECK(held > 1e-5);
+    CHECK(free < 0.05 * held);
 }
 
 TEST_CASE("of a body that mostly lies on something only what has yet to fall counts", "[residuals]")
