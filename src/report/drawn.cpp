@@ -80,18 +80,20 @@ double added_stiffness(const Body& body)
             x.push_back(placed(p));
         double sum = 0;
         for (const AddedElement& e : elements)
-            if (const double energy = e.energy(x);
-                std::isfinite(energy)) // it may be without bound so far out
-                sum += energy;
+        {
+            const double energy = e.energy(x);
+            sum += std::isfinite(energy) ? energy : 0; // it may be without bound so far out
+        }
         return sum;
     };
     double worst = 0;
     for (int along = 0; along < 3 && !elements.empty(); ++along)
         for (int across = 0; across < 3; ++across)
-            worst = std::max(worst, energy_of([&](glm::dvec3 p) {
-                                 p[along] += along == across ? 0 : p[across];
-                                 return p;
-                             }));
+            if (along != across)
+                worst = std::max(worst, energy_of([&](glm::dvec3 p) {
+                                     p[along] += p[across];
+                                     return p;
+                                 }));
     return elements.empty() ? 0 : worst + energy_of([](const glm::dvec3& p) { return 2.0 * p; });
 }
 

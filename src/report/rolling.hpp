@@ -3,7 +3,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,7 +14,7 @@ struct BodyWay
     std::span<const glm::dvec3> place; ///< m, of each vertex at the start
     std::span<const glm::dvec3> way;   ///< m
     std::span<const double> mass;      ///< kg
-    std::vector<bool> held;            ///< stays where it is: touches, or is pinned
+    std::vector<bool> held;            ///< touches, and stays where it is
 };
 
 /// m: the ways without the rotation about the held vertices that comes closest to them (by mass, least

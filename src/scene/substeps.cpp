@@ -138,7 +138,7 @@ double wave_speed_squared(const Body& body)
     if (!body.mesh.tetrahedra.empty())
         return m.youngs_modulus / m.density;
     const SpringNetwork& network = body.shape.network;
-    const double along = m.fabric.used  ? std::max(m.fabric.warp, m.fabric.weft)
+    const double along = m.fabric.used   ? std::max(m.fabric.warp, m.fabric.weft)
                          : network.used ? network_stiffness(network)
                                         : m.stretch_stiffness;
     return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
@@ -162,7 +162,7 @@ double longest_for_flow(const Body& body, const SweepLoad& load)
 }
 
 /// s: the longest substep in which sweeps leave half of accept.stretch of the strain by which pins draw the
-/// springs of cloth or of a chain apart (fabrics leave less); no limit for others.
+/// springs of cloth or of a chain apart (fabrics leave about half of that); no limit for others.
 double longest_for_drawn(const Scene& scene, const Body& body, const SweepLoad& load)
 {
     const Material& m = body.material;

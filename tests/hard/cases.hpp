@@ -182,6 +182,14 @@ std::string refusal_of(F&& f, std::string* text = nullptr)
     return "nothing";
 }
 
+/// Judges the end of a run that was looked at on its way, by its residuals, too.
+inline void judge_end(const World& world, const SoundnessWatch& watch, StepReport& report)
+{
+    set_status(watch.found(), report);
+    if (rank(report.status) < rank(Status::diverged))
+        judge_residuals(world.scene(), residuals_ahead(world), report);
+}
+
 /// As `taut run` judges it, but for what passes through colliders: on the way, at the end, and by residuals.
 inline StepReport judged_run(const Scene& scene, std::uint64_t frames, const std::shared_ptr<Device>& device)
 {
@@ -193,9 +201,7 @@ inline StepReport judged_run(const Scene& scene, std::uint64_t frames, const std
         watch.after(k, world);
     }
     StepReport report = measure(world);
-    set_status(watch.found(), report);
-    if (rank(report.status) < rank(Status::diverged))
-        judge_residuals(world.scene(), residuals_ahead(world), report);
+    judge_end(world, watch, report);
     return report;
 }
 

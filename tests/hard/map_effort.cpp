@@ -63,20 +63,16 @@ const std::vector<Entry> kEntries = {
     {"E13", "solid on a box that spins with 50 rad/s", acad, {1, 16, false}},
     {"A07", "solid bar, end 200 times heavier", xpbd, {2, 1, false}},
     {"E08", "solid of seven layers, each twice as heavy as the one below", implicit_euler, {2, 1, false}},
-    {"E08",
-     "solid of seven layers, each twice as heavy as the one below",
-     implicit_constraints,
-     {2, 1, false}},
+    {"E08", "solid of seven layers, each twice as heavy as the one below",
+     implicit_constraints, {2, 1, false}},
     {"E08", "solid of seven layers, each twice as heavy as the one below", vbd, {2, 1, false}},
     {"E12", "solid whose upper half is 1e4 times heavier", implicit_constraints, {64, 1, false}},
     {"E12", "solid whose upper half is 1e4 times heavier", pbd, {16, 1, false}},
     {"E12", "solid whose upper half is 1e4 times heavier", xpbd, {32, 1, false}},
     {"E12", "solid whose upper half is 1e4 times heavier", vbd, {32, 1, false}},
     {"", "Young's modulus of 1e2, 1e5, 1e8, 1e11 Pa in one scene, dropped", implicit_euler, {2, 1, false}},
-    {"",
-     "Young's modulus of 1e2, 1e5, 1e8, 1e11 Pa in one scene, dropped",
-     implicit_constraints,
-     {2, 1, false}},
+    {"", "Young's modulus of 1e2, 1e5, 1e8, 1e11 Pa in one scene, dropped",
+     implicit_constraints, {2, 1, false}},
     {"", "Young's modulus of 1e2, 1e5, 1e8, 1e11 Pa in one scene, dropped", xpbd, {2, 1, false}},
     {kDataCase, "dress_stage.obj", xpbd, {2, 1, false}},
     {kDataCase, "elephant-with-holes.off", vbd, {2, 1, false}},
@@ -99,12 +95,12 @@ std::string Effort::text() const
 
 void put_efforts(std::vector<MapCase>& cases)
 {
+    const bool data = std::ranges::any_of(cases, [](const MapCase& c) { return c.id == kDataCase; });
     for (const Entry& entry : kEntries)
     {
         const auto found = std::find_if(cases.begin(), cases.end(), [&](const MapCase& c) {
             return c.id == entry.id && c.what == entry.what;
         });
-        const bool data = std::ranges::any_of(cases, [](const MapCase& c) { return c.id == kDataCase; });
         if (found == cases.end() && entry.id == std::string(kDataCase) && !data)
             continue; // there is none here
         if (found == cases.end())

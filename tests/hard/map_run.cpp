@@ -87,9 +87,7 @@ Scene scene_for(const MapCase& c, MethodKind method)
 /// See Outcome::called.
 std::string called(const World& world, const SoundnessWatch& watch, StepReport report)
 {
-    set_status(watch.found(), report);
-    if (rank(report.status) < rank(Status::diverged))
-        judge_residuals(world.scene(), residuals_ahead(world), report);
+    judge_end(world, watch, report);
     return report.status == Status::completed ? ""
                                               : std::string(to_string(report.status)) + ": " + report.reason;
 }

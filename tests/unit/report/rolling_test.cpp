@@ -22,14 +22,13 @@ Places lattice()
     return out;
 }
 
-/// Ways of a turn about the axis through `middle`, and of `shift` on top.
-Places turned(const Places& x, const glm::dvec3& middle, const glm::dvec3& axis, double angle,
-              const glm::dvec3& shift = glm::dvec3(0))
+/// Ways of a turn about the axis through `middle`.
+Places turned(const Places& x, const glm::dvec3& middle, const glm::dvec3& axis, double angle)
 {
     Places out;
     const glm::dquat turn = glm::angleAxis(angle, glm::normalize(axis));
     for (const glm::dvec3& p : x)
-        out.push_back(middle + turn * (p - middle) + shift - p);
+        out.push_back(middle + turn * (p - middle) - p);
     return out;
 }
 
