@@ -1,14 +1,17 @@
-// What a Newton step needs of elastic tetrahedra: the stress, and its derivative made positive semidefinite,
-// one invocation per tetrahedron (layout: shared/solid_state.h). Vertices gather from it: the right-hand
-// side, the matrix, and its products.
+// What a Newton step needs of elastic tetrahedra: the stress, and its derivative, negative eigenvalues made
+// positive, one invocation per tetrahedron (layout: shared/solid_state.h). Vertices gather from it: the
+// right-hand side, the matrix, and its products.
 //
 // Based on:
 //   Smith, de Goes, Kim. Stable Neo-Hookean Flesh Simulation. ACM TOG 37(2), 2018, 4: derivative and
 //     eigensystem.
 //   Smith, de Goes, Kim. Analytic Eigensystems for Isotropic Distortion Energies. ACM TOG 38(1), 2019.
-// Departures: the derivative is formed as it is, and where an eigenvalue is negative its part is taken out,
-//   so that where there is none (close to rest) nothing depends on singular vectors. Without shear stiffness
-//   (volumes beside springs) only the outer product of the determinant's slope is kept, as for hinges.
+//   Chen, Liu, Levin, Zheng, Jacobson. Stabler Neo-Hookean Simulation: Absolute Eigenvalue Filtering for
+//     Projected Newton. SIGGRAPH 2024.
+// Departures: a negative eigenvalue becomes a sixteenth of its size (docs/decisions.md, 74). The derivative
+//   is formed as it is, and what negative eigenvalues lack is added, so that where there is none (close to
+//   rest) nothing depends on singular vectors. Without shear stiffness (volumes beside springs) only the
+//   outer product of the determinant's slope is kept, as for hinges.
 // Bytes per tetrahedron: 72 + 128 read, 216 written (float).
 #include "shared/portable.glsl"
 #include "shared/layouts.h"

@@ -3,22 +3,21 @@
 // One group per chunk of vertices; every group decides alike.
 //
 // Based on: Nocedal, Wright. Numerical Optimization, 2nd ed. 2006, 3.1 (backtracking).
-// Departures: all trials are evaluated at once, so that nothing waits for a decision of the host, and any
-//   decrease will do. Where no trial is a number the shortest is taken: a step
-//   that is none is seen and counted (finish.comp).
+// Departures: trials are evaluated in passes (shared/line_search.glsl), and any decrease will do. Where no
+//   trial is a number the shortest is taken: a step that is none is seen and counted (finish.comp).
 // Bytes per vertex: 28 read, 28 written (float).
 //! variant search SEARCH=1
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
-#include "shared/cg_state.glsl"
+#include "shared/line_search.glsl"
 
 PARAMS
 {
     uint count; // vertices
     uint chunk; // of them a group
     uint groups;
-    uint trials; // with SEARCH, at most 17
+    uint trials; // with SEARCH, at most TAUT_TRIALS
     uint parts;
     float lift; // as in implicit_force
 };
@@ -28,31 +27,18 @@ UPDATE(1, real, x);      // the step, lifted
 #if SEARCH
 READ(2, real, partials); // of implicit_trial
 SHARED(real, sum, TAUT_LINEAR_GROUP);
-SHARED(real, rise, 17);
+SHARED(real, rise, TAUT_TRIALS);
 #endif
 
 GROUP_KERNEL(TAUT_LINEAR_GROUP)
 {
     real share = real(1);
 #if SEARCH
-    for (uint trial = 0u; trial < trials; ++trial)
-    {
-        SUM_PARTIALS(sum, partials, trial * parts * groups, parts * groups)
-        LANES_BEGIN(1)
-        rise[trial] = sum[0];
-        LANES_END
-    }
-    real tried = real(1);
-    bool number = IS_FINITE(rise[0]);
-    share = rise[0] <= real(0) ? real(1) : real(0);
-    for (uint trial = 1u; trial < trials; ++trial)
-    {
-        tried *= real(0.5);
+    SUM_TRIALS(rise, sum, partials, trials, parts * groups, tried, found)
+    bool number = false;
+    for (uint trial = 0u; trial < tried; ++trial)
         number = number || IS_FINITE(rise[trial]);
-        if (!(share > real(0)) && rise[trial] <= real(0))
-            share = tried;
-    }
-    share = number ? share : tried;
+    share = found || !number ? trial_share(tried - 1u) : real(0);
 #endif
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);

@@ -1,10 +1,15 @@
-// dP/dF of an elastic tetrahedron, a symmetric 9 x 9 matrix, made positive semidefinite.
+// dP/dF of an elastic tetrahedron, a symmetric 9 x 9 matrix, its negative eigenvalues made positive.
 //
 // Based on, Departures: implicit_solids.comp.
 #ifndef TAUT_SHARED_SOLID_CURVATURE_GLSL
 #define TAUT_SHARED_SOLID_CURVATURE_GLSL
 
 #include "shared/singular.glsl"
+
+// Of a negative eigenvalue, what is added in multiples of its size: a sixteenth of it is left with the other
+// sign. With none left a direction has its inertia alone, and a Newton step along it is as long as the body
+// is stiff (docs/decisions.md, 74).
+#define TAUT_TURNED real(1.0625)
 
 /// Blocks by columns of F: 00, 11, 22 by their diagonal d and what is beside it, o (xy, xz, yz); 01, 02, 12
 /// by rows p, q, r.
@@ -39,14 +44,16 @@ void raise(INOUT(Curvature) k, real size, rvec3 e0, rvec3 e1, rvec3 e2)
     k.r2 += e2 * s1.z;
 }
 
-/// The same for an e that is given in the frames of the singular vectors: u v^T + w z^T, of length sqrt(2).
+/// The same for an e that is given in the frames of the singular vectors, u v^T + w z^T, of length sqrt(2),
+/// and whose eigenvalue is -size.
 void raise_pair(INOUT(Curvature) k, real size, rvec3 u, rvec3 v, rvec3 w, rvec3 z)
 {
     if (size > real(0))
-        raise(k, real(0.5) * size, u * v.x + w * z.x, u * v.y + w * z.y, u * v.z + w * z.z);
+        raise(k, real(0.5) * (size * TAUT_TURNED), u * v.x + w * z.x, u * v.y + w * z.y, u * v.z + w * z.z);
 }
 
-/// What three directions of scaling have that is negative, raised to zero. a: an eigenvector in the frames.
+/// What three directions of scaling have that is negative, raised beyond zero. a: an eigenvector in the
+/// frames.
 void raise_scaling(INOUT(Curvature) k, Singular d, real value, rvec3 a)
 {
     if (value < real(0))
@@ -54,7 +61,7 @@ void raise_scaling(INOUT(Curvature) k, Singular d, real value, rvec3 a)
         rvec3 u0 = d.u0 * a.x;
         rvec3 u1 = d.u1 * a.y;
         rvec3 u2 = d.u2 * a.z;
-        raise(k, -value, (u0 * d.v0.x + u1 * d.v1.x) + u2 * d.v2.x,
+        raise(k, -value * TAUT_TURNED, (u0 * d.v0.x + u1 * d.v1.x) + u2 * d.v2.x,
               (u0 * d.v0.y + u1 * d.v1.y) + u2 * d.v2.y, (u0 * d.v0.z + u1 * d.v1.z) + u2 * d.v2.z);
     }
 }

@@ -222,7 +222,7 @@ BufferPtr PlanBuilder::on_paper(std::uint32_t buffer)
     return paper;
 }
 
-void PlanBuilder::record(std::string_view effect, const std::function<void(Recorder&)>& fill)
+void PlanBuilder::record(std::string_view effect, const std::function<void(Recorder&)>& fill, bool idle)
 {
     Recorder recorder(paper_);
     fill(recorder);
@@ -235,7 +235,7 @@ void PlanBuilder::record(std::string_view effect, const std::function<void(Recor
             BufferRange& range = pass.bindings[slot];
             range.buffer = adopt(effect, desc.buffers[range.buffer]);
             const Access access = pass.kernel->bindings[slot].access;
-            if (access != Access::count)
+            if (access != Access::count && !idle)
                 cost_of(effect).bytes_per_step += range.bytes * (access == Access::update ? 2 : 1);
         }
         if (pass.indirect.buffer != kNoBuffer)

@@ -154,8 +154,9 @@ public:
     std::uint32_t adopt(std::string_view effect, const BufferPtr& buffer);
     /// The buffer on paper that stands for one of the plan, for passes that src/linear records.
     BufferPtr on_paper(std::uint32_t buffer);
-    /// Appends the passes that `fill` puts into a recorder of paper(), on account of `effect`.
-    void record(std::string_view effect, const std::function<void(Recorder&)>& fill);
+    /// Appends the passes that `fill` puts into a recorder of paper(), on account of `effect`. `idle`: they
+    /// nearly always return at once, so that their bytes are not counted.
+    void record(std::string_view effect, const std::function<void(Recorder&)>& fill, bool idle = false);
     /// Copies what was written on paper into the plan; once, after everything was recorded.
     void finish_paper();
 

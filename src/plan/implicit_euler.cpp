@@ -26,6 +26,7 @@
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
+#include "taut/kernels/shared/line_search.h"
 #include "taut/kernels/shared/solid_state.h"
 
 #include <algorithm>
@@ -239,11 +240,22 @@ void add_vectors(PlanBuilder& b, ImplicitEuler& m)
     m.product = make("product of the guess", 3ull * b.plan.vertex_count);
     m.products = make("partials of the guess", groups);
     m.curvatures = make("curvatures of the guess", groups);
-    if (b.scene.method.line_search > 0)
-        m.trials = make("trials", (b.scene.method.line_search + 1ull) * m.parts() * groups);
+    m.trial_count = line_search_of(b.scene) + 1;
+    if (m.trial_count > 1)
+        m.trials = make("trials", std::uint64_t{m.trial_count} * m.parts() * groups);
 }
 
 } // namespace
+
+std::uint32_t line_search_of(const Scene& resolved)
+{
+    constexpr std::uint32_t kOfCloth = 2, kOfSolids = TAUT_TRIALS - 1;
+    if (resolved.method.line_search != MethodSettings{}.line_search)
+        return resolved.method.line_search;
+    const bool solid = std::ranges::any_of(
+        resolved.bodies, [](const Body& body) { return !body.mesh.tetrahedra.empty(); });
+    return solid ? kOfSolids : kOfCloth;
+}
 
 void check_implicit_euler(const Scene& resolved, const DeviceTraits&)
 {

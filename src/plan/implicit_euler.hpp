@@ -14,6 +14,11 @@ void record_implicit_start(PlanBuilder& builder, const Moment& moment);
 /// One Newton step.
 void record_implicit_step(PlanBuilder& builder, const Moment& moment);
 
+/// How often a Newton step may be halved: what the scene names, else 16 where a body has tetrahedra, whose
+/// energy far from rest grows as (det F)^2, so that a step may be thousands of times too long; else 2
+/// (docs/decisions.md, 74).
+std::uint32_t line_search_of(const Scene& resolved);
+
 /// Plan buffers of layout::Spring and layout::SolidTetrahedron once the method is prepared, one record an
 /// element; kNoBuffer where there are none.
 struct ImplicitRecords

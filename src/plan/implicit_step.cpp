@@ -23,7 +23,11 @@
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
+#include "taut/kernels/shared/line_search.h"
 #include "taut/kernels/shared/solid_state.h"
+
+#include <algorithm>
+#include <iterator>
 
 namespace taut {
 namespace {
@@ -151,9 +155,19 @@ void record_push(PlanBuilder& b, const ImplicitEuler& m, Moment moment)
     record_colliders(b, moment);
 }
 
+/// Where passes of trials begin and the last ends. Most steps are taken whole, and nearly all others by a
+/// quarter or more.
+constexpr std::uint32_t kPasses[] = {0, 1, 3, TAUT_TRIALS};
+
+/// Trials first..end-1 of the line search: the whole step, its half, its quarter, ...
+struct Pass
+{
+    std::uint32_t first, end;
+};
+
 /// The part of elements of one kind.
 void record_rise(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder, const ImplicitKind& kind,
-                 std::uint32_t part)
+                 std::uint32_t part, const Pass& pass)
 {
     const linear::Gate always{m.solve->groups(), nullptr, 0};
     const linear::Grid grid = linear::make_grid(kind.count, always.groups);
@@ -166,14 +180,13 @@ void record_rise(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder, con
                        .partials = m.trials,
                        .constraint = b.on_paper(kind.records),
                        .step_values = b.on_paper(b.plan.step_values)},
-                   {grid.count, grid.chunk, always.groups, b.scene.method.line_search + 1, part, m.parts(),
-                    m.scale, m.lift});
+                   {grid.count, grid.chunk, always.groups, pass.first, pass.end, part, m.parts(), m.scale,
+                    m.lift});
 }
 
-void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
+void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder, const Pass& pass)
 {
     const linear::Gate always{m.solve->groups(), nullptr, 0};
-    const std::uint32_t trials = b.scene.method.line_search + 1;
     std::uint32_t part = 0;
     using Bindings = kernels::implicit_trial::Bindings<Recorder::Binding>;
     const auto add = [&](std::string_view variant, std::uint32_t count, Bindings bindings) {
@@ -183,7 +196,8 @@ void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
         bindings.x = b.on_paper(m.solve->x());
         bindings.partials = m.trials;
         linear::launch(recorder, always, {variant, b.plan.precision, kImplicitEuler}, bindings,
-                       {grid.count, grid.chunk, always.groups, trials, part++, m.parts(), m.scale, m.lift});
+                       {grid.count, grid.chunk, always.groups, pass.first, pass.end, part++, m.parts(),
+                        m.scale, m.lift});
     };
     const BufferPtr step_values = b.on_paper(b.plan.step_values);
     add("", b.plan.vertex_count, {.predicted = b.on_paper(b.plan.predicted)});
@@ -191,23 +205,34 @@ void record_trials(PlanBuilder& b, const ImplicitEuler& m, Recorder& recorder)
         add("springs", m.spring_count,
             {.spring = b.on_paper(m.springs), .step_values = step_values, .low = b.on_paper(b.plan.low)});
     for (const ImplicitKind& kind : m.kinds)
-        record_rise(b, m, recorder, kind, part++);
+        record_rise(b, m, recorder, kind, part++, pass);
     if (m.solid_count > 0)
         add("solids", m.solid_count, {.step_values = step_values, .solid = b.on_paper(m.solids)});
 }
 
+void record_search(PlanBuilder& b, const ImplicitEuler& m)
+{
+    for (std::size_t k = 0; k + 1 < std::size(kPasses) && kPasses[k] < m.trial_count; ++k)
+        b.record(
+            kImplicitEuler,
+            [&](Recorder& recorder) {
+                record_trials(b, m, recorder, {kPasses[k], std::min(kPasses[k + 1], m.trial_count)});
+            },
+            k > 0);
+}
+
 void record_update(PlanBuilder& b, const ImplicitEuler& m)
 {
+    if (m.trials)
+        record_search(b, m);
     b.record(kImplicitEuler, [&](Recorder& recorder) {
         const linear::Gate always{m.solve->groups(), nullptr, 0};
         const linear::Grid grid = linear::make_grid(b.plan.vertex_count, always.groups);
-        if (m.trials)
-            record_trials(b, m, recorder);
         linear::launch(
             recorder, always, {m.trials ? "search" : "", b.plan.precision, kImplicitEuler},
             kernels::implicit_update::Bindings<Recorder::Binding>{
                 .delta = b.on_paper(b.plan.delta), .x = b.on_paper(m.solve->x()), .partials = m.trials},
-            {grid.count, grid.chunk, always.groups, b.scene.method.line_search + 1, m.parts(), m.lift});
+            {grid.count, grid.chunk, always.groups, m.trial_count, m.parts(), m.lift});
     });
 }
 

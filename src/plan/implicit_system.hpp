@@ -38,7 +38,8 @@ struct ImplicitEuler
     std::optional<PlanSolve> solve;
     std::shared_ptr<const linear::TwoLevel> coarse; ///< null: block Jacobi alone
     BufferPtr product, products, curvatures;        ///< of the inertial guess
-    BufferPtr trials;                               ///< partial sums of the line search
+    std::uint32_t trial_count = 1; ///< the whole step and how often it is halved
+    BufferPtr trials;              ///< partial sums of the line search; null: none
     std::uint32_t parts() const
     {
         return 1u + (spring_count > 0 ? 1u : 0u) + static_cast<std::uint32_t>(kinds.size()) +

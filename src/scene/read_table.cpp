@@ -46,8 +46,8 @@ std::uint32_t read_count(const Field& value, const Key& key)
     if (value.is_text() && value.text() == key.word)
         return static_cast<std::uint32_t>(key.word_value);
     const std::uint32_t count = value.count(right);
-    if (key.limits.too_low(count))
-        value.refuse(right);
+    if (key.limits.too_low(count) || (count == key.word_value && !key.limits.contains(count)))
+        value.refuse(right); // the word stands for a count that nobody may write
     return count;
 }
 

@@ -300,8 +300,8 @@ struct MethodSettings
     double linear_tolerance = 1e-5;        ///< of |residual| / |right-hand side|, (0, 1)
     std::string linear_operator = "assembled";   ///< or "matrix_free"
     std::string preconditioner = "block_jacobi"; ///< implicit_euler: or "two_level" (of what is assembled)
-    /// implicit_euler: so often a Newton step may be halved that would raise the incremental potential.
-    std::uint32_t line_search = 2;
+    /// implicit_euler, 0..16: a Newton step that would raise the incremental potential is halved so often.
+    std::uint32_t line_search = ~0u; ///< ~0u: "automatic", 16 where a body has tetrahedra, else 2
 
     std::string constrained = "all";    ///< implicit_constraints, acad: or "structural"; others stay springs
     double constraint_compliance = -1;  ///< m/N, >= 0; < 0: each spring's own ("material")

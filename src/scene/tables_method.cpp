@@ -98,6 +98,8 @@ constexpr Key kMethod[] = {
         "line_search", "implicit_euler: so often a Newton step is halved that would raise the incremental "
                        "potential; 0: it is taken as it is")
         .range(0, 16)
+        .or_word("automatic", ~0u)
+        .usually("\"automatic\": 16 where a body has tetrahedra, else 2")
         .read_by(kEuler),
     key<&MethodSettings::constrained>("constrained", "implicit_constraints, acad: which springs may be "
                                                      "constraints; the others stay springs")

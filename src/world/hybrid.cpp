@@ -8,6 +8,7 @@
 #include "taut/world/hybrid.hpp"
 
 #include "taut/plan/contact_scene.hpp"
+#include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/material.hpp"
 #include "taut/plan/methods.hpp"
 #include "taut/runtime/required.hpp"
@@ -241,7 +242,8 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
             throw Error(ErrorCode::unsupported,
                         "a hybrid world cannot tear cloth, whose number of vertices changes; use one "
                         "device, or leave tear_strain out");
-    // The stiffest body may be on one side only; both take its substeps.
+    // The stiffest body, or the only solid, may be on one side; both sides take what it asks for.
+    my.scene.method.line_search = line_search_of(my.scene);
     if (const auto substeps = find_method(method_of(my.scene)).substeps)
         my.scene.method.substeps = substeps(my.scene).count;
     my.options = options;

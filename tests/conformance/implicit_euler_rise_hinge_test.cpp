@@ -42,7 +42,7 @@ TEMPLATE_TEST_CASE("implicit_euler_rise_hinge sums what a step and its halves ad
                    double)
 {
     using Real = TestType;
-    const std::uint32_t trials = GENERATE(1u, 5u, 17u);
+    const auto [first, trials] = GENERATE(std::pair(0u, 1u), std::pair(0u, 5u), std::pair(1u, 17u));
     for (const std::uint32_t count : {4u, 63u, 65u, 129u, 300u})
     {
         const Net<Real> net = random_net<Real>(count, 970 + count);
@@ -50,7 +50,7 @@ TEMPLATE_TEST_CASE("implicit_euler_rise_hinge sums what a step and its halves ad
         dealt.count = static_cast<std::uint32_t>(net.hinges.size());
         dealt.groups = dealt.count > 200 ? 3 : 1;
         dealt.spare = 1;
-        CAPTURE(trials, count);
+        CAPTURE(first, trials, count);
         Random random(971 + count);
         auto x = random_reals<Real>(random, 3 * count);
         for (std::uint32_t k = 0; k < 3 * count; ++k)
@@ -62,7 +62,7 @@ TEMPLATE_TEST_CASE("implicit_euler_rise_hinge sums what a step and its halves ad
         c.in["x"] = bytes_of(x);
         c.in["partials"] = bytes_of(std::vector<Real>(trials * parts * dealt.groups, Real(7)));
         const kernels::implicit_euler_rise_hinge::Params params{
-            dealt.count, dealt.chunk(), dealt.groups, trials, part, parts, net.scale, net.lift};
+            dealt.count, dealt.chunk(), dealt.groups, first, trials, part, parts, net.scale, net.lift};
         c.launches = {make_launch(kernels::implicit_euler_rise_hinge::info("", c.precision), params,
                                   dealt.dispatched())};
         const auto step = [&](std::uint32_t v, long double share) {
@@ -72,6 +72,12 @@ TEMPLATE_TEST_CASE("implicit_euler_rise_hinge sums what a step and its halves ad
         long double share = 1;
         for (std::uint32_t trial = 0; trial < trials; ++trial, share /= 2)
         {
+            if (trial < first) // of an earlier pass
+            {
+                for (std::uint32_t k = 0; k < parts * dealt.groups; ++k)
+                    field.add(7, 0);
+                continue;
+            }
             GroupSums sums(dealt);
             for (std::uint32_t k = 0; k < dealt.count; ++k)
             {

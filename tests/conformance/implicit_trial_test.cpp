@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
 {
     using Real = TestType;
     const std::string variant = GENERATE("", "springs", "solids");
-    const std::uint32_t trials = GENERATE(1u, 5u, 17u);
+    const auto [first, trials] = GENERATE(std::pair(0u, 1u), std::pair(0u, 5u), std::pair(3u, 17u));
     for (const std::uint32_t count : {4u, 63u, 65u, 129u, 300u})
     {
         const SolidNet<Real> in = random_solids<Real>(count, count, 970 + count);
@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
                                                                        : count);
         dealt.groups = dealt.count > 200 ? 3 : 1;
         dealt.spare = 1;
-        CAPTURE(variant, trials, count);
+        CAPTURE(variant, first, trials, count);
         Random random(971 + count);
         auto x = random_reals<Real>(random, 3 * count);
         for (std::uint32_t k = 0; k < 3 * count; ++k)
@@ -120,8 +120,8 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
         c.in["solid"] = bytes_of(in.solids);
         c.in["x"] = bytes_of(x);
         c.in["partials"] = bytes_of(std::vector<Real>(trials * parts * dealt.groups, Real(7)));
-        const kernels::implicit_trial::Params params{dealt.count, dealt.chunk(), dealt.groups, trials,
-                                                     part,        parts,         net.scale,    net.lift};
+        const kernels::implicit_trial::Params params{
+            dealt.count, dealt.chunk(), dealt.groups, first, trials, part, parts, net.scale, net.lift};
         c.launches = {
             make_launch(kernels::implicit_trial::info(variant, c.precision), params, dealt.dispatched())};
         const auto step = [&](std::uint32_t v, long double share) {
@@ -131,6 +131,12 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
         long double share = 1;
         for (std::uint32_t trial = 0; trial < trials; ++trial, share /= 2)
         {
+            if (trial < first) // of an earlier pass
+            {
+                for (std::uint32_t k = 0; k < parts * dealt.groups; ++k)
+                    field.add(7, 0);
+                continue;
+            }
             GroupSums sums(dealt);
             for (std::uint32_t k = 0; k < dealt.count; ++k)
             {
@@ -161,4 +167,28 @@ TEMPLATE_TEST_CASE("implicit_trial sums what a step and its halves add to the po
         }
         look_on_every_device(c, nullptr);
     }
+}
+
+TEMPLATE_TEST_CASE("implicit_trial leaves shorter steps alone where one before them lowers the potential", "",
+                   float, double)
+{
+    using Real = TestType;
+    const std::string variant = GENERATE("", "springs", "solids");
+    const std::uint32_t lowers = GENERATE(0u, 2u), count = 65, parts = 3, groups = 2, first = 3, trials = 5;
+    CAPTURE(variant, lowers);
+    const SolidNet<Real> in = random_solids<Real>(count, count, 975);
+    Random random(976);
+    std::vector<Real> partials(trials * parts * groups, Real(7));
+    partials[lowers * parts * groups] = Real(-36); // and 35 of the other parts and groups
+    Case c;
+    c.precision = precision_of<Real>();
+    c.in = in.net.buffers();
+    c.in["solid"] = bytes_of(in.solids);
+    c.in["x"] = bytes_of(random_reals<Real>(random, 3 * count));
+    c.in["partials"] = bytes_of(partials);
+    const kernels::implicit_trial::Params params{4, 64, groups, first, trials, 1, parts, 1, 1};
+    c.launches = {make_launch(kernels::implicit_trial::info(variant, c.precision), params, groups)};
+    for (const Real value : partials)
+        c.expected["partials"].add(double(value), 0);
+    check_on_every_device(c);
 }

@@ -16,9 +16,9 @@ double chosen(const std::vector<double>& rise)
     bool number = false;
     for (const double r : rise)
     {
-        if (r <= 0)
+        if (std::isfinite(r) && r <= 0)
             return share;
-        number = number || !std::isnan(r);
+        number = number || std::isfinite(r);
         share /= 2;
     }
     return number ? 0 : 2 * share;
@@ -62,11 +62,14 @@ TEMPLATE_TEST_CASE("implicit_update takes the first trial that does not raise th
 {
     using Real = TestType;
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInf = std::numeric_limits<double>::infinity();
     const std::vector<double> rise = GENERATE_COPY(
         std::vector<double>{-1, -2, -3}, std::vector<double>{2, -1, -5}, std::vector<double>{2, 1, -1},
         std::vector<double>{0, -1, -1}, std::vector<double>{3, 2, 1}, std::vector<double>{1, 2, 3},
         std::vector<double>{2, 1, 3}, std::vector<double>{kNan, 1, -1}, std::vector<double>{kNan, -1, 1},
-        std::vector<double>{2, kNan, 1}, std::vector<double>{kNan, kNan, kNan});
+        std::vector<double>{2, kNan, 1}, std::vector<double>{kNan, kNan, kNan},
+        std::vector<double>{kInf, -kInf, -1}, std::vector<double>{1, kNan, 2},
+        std::vector<double>{kInf, kNan});
     const Dealt dealt{300, 3, 1};
     const std::uint32_t parts = 2;
     Random random(985);

@@ -369,7 +369,7 @@ TEST_CASE("implicit Euler adds what its solves take and nothing else to a plan")
     scene.method.iterations = 3;
     CHECK(passes() == 2 + 3 * newton + 3 + 1);
     scene.method.line_search = 2;
-    CHECK(passes() == 2 + 3 * (newton + 2) + 3 + 1);
+    CHECK(passes() == 2 + 3 * (newton + 2 * 2) + 3 + 1); // the whole step, its halves; inertia and springs
     scene.method.line_search = 0;
     scene.method.substeps = 5;
     CHECK(passes() == 5 * (2 + 3 * newton + 3 + 1));

@@ -45,10 +45,10 @@ Matrix9 stress_derivative(const Elastic& m, const glm::dmat3& f)
     return out;
 }
 
-Matrix9 without_negative(const Matrix9& a)
+Matrix9 turned_positive(const Matrix9& a)
 {
     const Spectrum all = symmetric_spectrum(0.5 * (a + a.transpose()));
-    return all.vectors * all.values.cwiseMax(0).asDiagonal() * all.vectors.transpose();
+    return all.vectors * all.values.cwiseMax(-all.values / 16).asDiagonal() * all.vectors.transpose();
 }
 
 std::vector<double> state_of(const glm::dmat3& stress, const Matrix9& k)

@@ -1,6 +1,6 @@
 #pragma once
 // What a Newton step needs of an elastic tetrahedron in fp64: the derivative of its stress by definition,
-// made positive semidefinite by its eigenvalues.
+// its negative eigenvalues made positive.
 
 #include <Eigen/Core>
 #include <glm/mat3x3.hpp>
@@ -27,7 +27,8 @@ glm::dmat3 stress_of(const Elastic& m, const glm::dmat3& f);
 /// its central difference with a step of 1 is its derivative.
 Matrix9 stress_derivative(const Elastic& m, const glm::dmat3& f);
 
-Matrix9 without_negative(const Matrix9& a);
+/// Every negative eigenvalue becomes a sixteenth of its size (kernels/shared/solid_curvature.glsl).
+Matrix9 turned_positive(const Matrix9& a);
 
 /// The reals of a tetrahedron (kernels/shared/solid_state.h) in their order.
 std::vector<double> state_of(const glm::dmat3& stress, const Matrix9& k);

@@ -8,6 +8,7 @@
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/reduce.glsl"
+#include "shared/line_search.glsl"
 #include "shared/element.glsl"
 #include TAUT_ELEMENT
 #include "shared/element_form.glsl"
@@ -18,7 +19,8 @@ PARAMS
     uint count; // elements
     uint chunk; // of them a group
     uint groups;
-    uint trials; // 1 and the number of halvings
+    uint first;  // trial of this pass; beyond 0 only where all trials before raise the potential
+    uint trials; // one more than the last of this pass
     uint part;   // of all parts: which sums to write
     uint parts;
     float scale; // as in implicit_force
@@ -28,11 +30,12 @@ PARAMS
 READ(0, rvec4, position); // m, w = inverse mass 1/kg
 READ(1, rvec4, delta);    // m
 READ(2, real, x);         // the step, lifted
-WRITE(3, real, partials); // trials * parts * groups
+UPDATE(3, real, partials); // trials of all passes * parts * groups
 READ(4, OF_ELEMENT(record), constraint);
 READ_ONE(5, StepValues, step_values);
 
 SHARED(real, sum, TAUT_LINEAR_GROUP);
+SHARED(real, risen, TAUT_TRIALS);
 
 /// Of the whole step, lifted.
 rvec3 step_of(uint i) { return rvec3(x[3u * i], x[3u * i + 1u], x[3u * i + 2u]); }
@@ -77,8 +80,10 @@ GROUP_KERNEL(TAUT_LINEAR_GROUP)
 {
     uint begin = min(group * chunk, count);
     uint end = min(begin + chunk, count);
-    real share = real(1);
-    for (uint trial = 0u; trial < trials; ++trial)
+    SUM_TRIALS(risen, sum, partials, first, parts * groups, tried, found)
+    real share = trial_share(first);
+    uint end_of_pass = found ? first : trials;
+    for (uint trial = first; trial < end_of_pass; ++trial)
     {
         CLEAR_LANES(sum)
         EACH_BEGIN(begin, end)
