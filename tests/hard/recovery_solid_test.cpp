@@ -74,21 +74,23 @@ int steps_of(const Device& device, const Start& start, const Setting& setting, d
 
 void check_end(const Start& start, const Setting& setting, double ratio, const Outcome& out)
 {
-    // Ten times too large it comes back slowly under xpbd with one sweep a substep, and gains 6 % at nu 0.45.
+    // Ten times too large it comes back slowly under xpbd with one sweep a substep. What sweeps leave
+    // strained on the way is up to 45 times the start, chaotically; motion has less than a hundredth of it.
     const bool slow =
         named(start, "B14 x10") && std::string(setting.method) == "xpbd" && setting.iterations == 1;
     // Sweeps and solves that have not converged from the inertial guess let the energy rise a little where
     // the body opens from a hundredth of its size (vbd_solid_test.cpp too): 4.5e-5 was measured.
-    CHECK(out.highest <= (slow ? 1.1 : named(start, "B14 x0.01") ? 1 + 1e-4 : 1 + 1e-5));
+    if (slow)
+        CHECK(out.kinetic <= 0.01);
+    else
+        CHECK(out.highest <= (named(start, "B14 x0.01") ? 1 + 1e-4 : 1 + 1e-5));
     if (lost(start))
     {
         CHECK(to_string(out.report.status) == "unconverged");
         CHECK(out.report.warnings.count("degenerate") == 1); // it says that nothing leads out
         return;
     }
-    // Two tetrahedra of 320 stay inverted in one cell; the report counts them.
-    const bool counted = ratio > 0.4 && named(start, "B14 x0.01") && setting.substeps == 4;
-    CHECK(out.report.volume.inverted <= (counted ? 2u : 0u));
+    CHECK(out.report.volume.inverted == 0);
     if (!slow)
         CHECK((out.report.status == Status::completed) == (out.report.volume.inverted == 0));
     // With nu of 0.45 there are further shapes without a tangle (methods B13).
@@ -140,4 +142,21 @@ TEST_CASE("the recovery table: cubes find their shape, or what is said says that
         if (const char* file = std::getenv("TAUT_RECOVERY"); file && device->info().executor == "cpu:serial")
             write_file(file, page);
     });
+}
+
+TEST_CASE("from twenty times its size single sweeps of xpbd are diverged; twenty at once take it back [hard]",
+          "[solid]")
+{
+    const Start huge{"x20", [](const glm::dvec3& x, conformance::Random&) { return 20.0 * x; }};
+    const auto device = test_device("cpu:serial");
+    for (const double ratio : {0.3, 0.45})
+    {
+        CAPTURE(ratio);
+        const Scene single = under({"xpbd", 20, 1}, started(huge, ratio));
+        CHECK(judged_run(single, 60, device).status == Status::diverged);
+        const Outcome out = settle(under({"xpbd", 1, 20}, started(huge, ratio)), device, 300);
+        CHECK(out.highest <= 1 + 1e-5);
+        CHECK(out.report.status == Status::completed);
+        CHECK(out.report.volume.inverted == 0);
+    }
 }

@@ -63,6 +63,7 @@ struct Outcome
 {
     StepReport report;
     double highest = 1; ///< energy over that at the start
+    double kinetic = 0; ///< highest kinetic energy over the energy at the start
     bool reads = true;  ///< all numbers
 };
 
@@ -74,7 +75,9 @@ inline Outcome settle(const Scene& scene, const std::shared_ptr<Device>& device,
     for (int i = 0; i < steps; ++i)
     {
         world.step();
-        out.highest = std::max(out.highest, energy(world) / std::max(start, floor));
+        const StepReport r = measure(world);
+        out.highest = std::max(out.highest, energy(r) / std::max(start, floor));
+        out.kinetic = std::max(out.kinetic, r.kinetic_energy / std::max(start, floor));
     }
     out.report = measure(world);
     out.reads = finite(world.positions()) && finite(world.velocities());
