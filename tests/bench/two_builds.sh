@@ -29,8 +29,10 @@ for method in 'implicit_euler 2 1' 'xpbd 10 1' 'vbd 5 4'; do
     # shellcheck disable=SC2086 # words
     scene solid $method "$solid"
 done
-scene solid mass_spring 20 1 "$springs"
-scene solid pbd 10 1 "$springs"
+for method in 'mass_spring 20 1' 'implicit_constraints 2 1' 'acad 5 1' 'pbd 10 1'; do
+    # shellcheck disable=SC2086 # words
+    scene solid $method "$springs"
+done
 
 step_of() { # PROGRAM SCENE
     "$1" run "$2" --device "$device" --no-picture --out "$work/out" > /dev/null 2> "$work/errors" || true
