@@ -155,8 +155,8 @@ void record_push(PlanBuilder& b, const ImplicitEuler& m, Moment moment)
     record_colliders(b, moment);
 }
 
-/// Where passes of trials begin and the last ends. Most steps are taken whole, and nearly all others by a
-/// quarter or more.
+/// Where passes of trials begin and the last ends: a step that is taken whole pays for one trial, one that is
+/// taken by a quarter for three.
 constexpr std::uint32_t kPasses[] = {0, 1, 3, TAUT_TRIALS};
 
 /// Trials first..end-1 of the line search: the whole step, its half, its quarter, ...
