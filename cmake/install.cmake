@@ -9,7 +9,7 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 # install_prefix compiles them (each alone in tests/matrix.sh headers).
 set(taut_public_headers
     elements/element.hpp
-    scene/scene.hpp scene/contact.hpp scene/fabric.hpp scene/fabric_readings.hpp scene/method_kind.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
+    scene/scene.hpp scene/contact.hpp scene/fabric.hpp scene/fabric_readings.hpp scene/method_kind.hpp scene/options.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
     scene/frame_source.hpp scene/distance_field.hpp
     plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/plate_hinges.hpp plan/solid.hpp plan/surface.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp

@@ -71,10 +71,10 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
             issues.push_back(issue);
         for (const PlanWarning& warning : make_plan(resolved).warnings)
             issues.push_back({false, "", warning.sentence()});
-        if (resolved.contact.start == "separate")
+        if (resolved.contact.start == ContactStart::separate)
             add_separated(resolved, issues);
         else if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())
-            issues.push_back({resolved.contact.start == "refuse", "contact.start", crossed});
+            issues.push_back({resolved.contact.start == ContactStart::refuse, "contact.start", crossed});
     }
     catch (const Error& error)
     {

@@ -45,7 +45,7 @@ void MeshSequence::set_scene(const Scene& resolved)
 {
     faces_.clear();
     vertices_.clear();
-    in_double_ = resolved.method.precision == "double";
+    in_double_ = resolved.method.precision == Precision::float64;
     std::size_t first = 0;
     for (std::size_t b = 0; b < resolved.bodies.size(); ++b)
     {

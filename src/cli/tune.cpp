@@ -62,7 +62,8 @@ std::string rejected_table(const TuneResult& result)
 {
     struct Group
     {
-        std::string method, stage, text;
+        MethodKind method;
+        std::string stage, text;
         std::size_t count;
     };
     std::vector<Group> groups;
@@ -80,8 +81,8 @@ std::string rejected_table(const TuneResult& result)
     }
     std::string text;
     for (const Group& group : groups)
-        text += "  " + group.method + ", " + std::to_string(group.count) + " by " + group.stage +
-                (group.count > 1 ? "; the first: " : ": ") + group.text + "\n";
+        text += "  " + std::string(to_string(group.method)) + ", " + std::to_string(group.count) + " by " +
+                group.stage + (group.count > 1 ? "; the first: " : ": ") + group.text + "\n";
     return text;
 }
 

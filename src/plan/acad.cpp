@@ -49,12 +49,13 @@ struct Strain
 /// Strain below which a row is released; -1 where multipliers decide.
 double release_strain(const Scene& scene)
 {
-    return scene.method.release == "strain" ? scene.method.release_strain : -1;
+    return scene.method.release == ReleaseRule::strain ? scene.method.release_strain : -1;
 }
 
 double target_length(const Scene& scene, const StretchElement& e)
 {
-    return scene.method.target == "rest" ? e.rest_length : e.rest_length * (1 + scene.method.activate_strain);
+    return scene.method.target == ConstraintTarget::rest ? e.rest_length
+                                                         : e.rest_length * (1 + scene.method.activate_strain);
 }
 
 std::uint32_t size_of(const Acad& a) { return static_cast<std::uint32_t>(a.elements.size()); }
@@ -193,10 +194,9 @@ void check_acad(const Scene& scene, const DeviceTraits&)
 {
     refuse_rigid(scene);
     check_constrained_lengths(scene);
-    if (scene.method.integrator != "semi_implicit")
-        throw Error(ErrorCode::unsupported,
-                    "method.integrator is \"" + scene.method.integrator +
-                        "\", but method.type \"acad\" steps by \"semi_implicit\" only");
+    if (scene.method.integrator != Integrator::semi_implicit)
+        throw Error(ErrorCode::unsupported, "method.integrator is " + quoted(scene.method.integrator) +
+                                                ", but method.type \"acad\" steps by \"semi_implicit\" only");
 }
 
 void prepare_acad(PlanBuilder& b)
@@ -289,7 +289,7 @@ void record_acad_solve(PlanBuilder& b, const Moment& moment)
                                                 .step_values = {b.plan.step_values, 0}};
     if (kept)
         store.total = {a.total};
-    const std::uint32_t release = b.scene.method.release == "multiplier";
+    const std::uint32_t release = b.scene.method.release == ReleaseRule::multiplier;
     gated(b, a, kept ? "total" : "", store, {springs, a.chunk, further, last, release}, a.groups,
           TAUT_ACAD_SOLVE);
     const kernels::constraint_spread::Bindings<Use> moved = {.start = {a.rows.start},

@@ -83,26 +83,26 @@ std::string methods_of(const ElementKind& kind)
 /// Throws where the scene's method cannot move elements of this kind.
 void check_method(const std::string& where, const Scene& scene, const ElementKind& kind)
 {
-    const std::string& method = scene.method.type;
+    const std::string_view method = to_string(scene.method.type);
     const bool can = std::find(std::begin(kMethodsOfElements), std::end(kMethodsOfElements), method) !=
                      std::end(kMethodsOfElements);
     if (!has_kernel(kind, method))
         throw Error(ErrorCode::unsupported,
-                    where + ": method \"" + method + "\" has no kernels for elements \"" + kind.name +
-                        "\"; use " + methods_of(kind) +
+                    where + ": method " + quoted(scene.method.type) + " has no kernels for elements \"" +
+                        kind.name + "\"; use " + methods_of(kind) +
                         (is_own(kind) || !can
                              ? ""
                              : ", or name it in the line \"//! methods\" of " + kind.name + ".glsl"));
-    if (method_of(scene) == MethodKind::pbd && !pbd_is_coloured(scene))
-        throw Error(ErrorCode::unsupported, where + ": method.scheme \"" + scene.method.scheme +
-                                                "\" does not move elements \"" + kind.name +
+    if (scene.method.type == MethodKind::pbd && !pbd_is_coloured(scene))
+        throw Error(ErrorCode::unsupported, where + ": method.scheme " + quoted(scene.method.scheme) +
+                                                " does not move elements \"" + kind.name +
                                                 "\"; use \"coloured\"");
 }
 
 /// Whether the method moves elements by their force, which a rigid one does not have.
 bool needs_force(const Scene& scene)
 {
-    const MethodKind kind = method_of(scene);
+    const MethodKind kind = scene.method.type;
     return kind != MethodKind::xpbd && kind != MethodKind::pbd;
 }
 

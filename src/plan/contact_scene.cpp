@@ -33,9 +33,9 @@ std::string at_body(std::size_t k) { return "bodies[" + std::to_string(k) + "]";
 
 void check_guarantee(const Scene& scene)
 {
-    if (scene.contact.guarantee == "none")
+    if (scene.contact.guarantee == Guarantee::none)
         return;
-    const std::string asked = "contact.guarantee is \"" + scene.contact.guarantee + "\"";
+    const std::string asked = "contact.guarantee is " + quoted(scene.contact.guarantee);
     if (!wants_contact(scene))
         throw Error(ErrorCode::bad_input,
                     asked + ", but no surfaces meet: set bodies[].contact.self, or contact.between and two "
@@ -58,7 +58,7 @@ void check_radius(const Scene& scene, std::size_t k)
     if (!(radius > 0))
         throw Error(ErrorCode::bad_input, at_body(k) + ".contact.thickness is " + shown(radius) +
                                               " m; surfaces that meet need a radius above 0");
-    if (scene.method.precision == "float" && radius < least)
+    if (scene.method.precision == Precision::float32 && radius < least)
         throw Error(ErrorCode::bad_input,
                     at_body(k) + ".contact.thickness is " + shown(radius) + " m; " + shown(far, 3) +
                         " m from the origin float needs at least " + shown(least, 3) +
@@ -69,21 +69,17 @@ void check_radius(const Scene& scene, std::size_t k)
 
 double radius_of(const Scene& scene, const Body& body)
 {
-    if (body.contact.thickness >= 0)
-        return body.contact.thickness;
-    return scene.contact.thickness >= 0 ? scene.contact.thickness : body.material.thickness;
+    return body.contact.thickness.value_or(scene.contact.thickness.value_or(body.material.thickness));
 }
 
 double friction_of(const Scene& scene, const Body& body)
 {
-    return body.contact.friction >= 0 ? body.contact.friction : scene.contact.friction;
+    return body.contact.friction.value_or(scene.contact.friction);
 }
 
 std::uint32_t friction_mix_of(const Scene& scene)
 {
-    const auto& all = kFrictionMixes;
-    const auto found = std::find(all.begin(), all.end(), scene.contact.friction_mix);
-    return static_cast<std::uint32_t>(found - all.begin());
+    return static_cast<std::uint32_t>(scene.contact.friction_mix);
 }
 
 GroupBits group_bits(const Scene& scene, const Body& body)
@@ -129,7 +125,7 @@ bool wants_contact(const Scene& scene)
 
 bool wants_guarantee(const Scene& scene)
 {
-    return scene.contact.guarantee == "no_crossing" && wants_contact(scene);
+    return scene.contact.guarantee == Guarantee::no_crossing && wants_contact(scene);
 }
 
 void check_contact(const Scene& scene)

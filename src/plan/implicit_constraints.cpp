@@ -113,7 +113,7 @@ BufferPtr diagonal_inverse(PlanBuilder& b, const ImplicitConstraints& c)
 
 bool may_be_constrained(const Scene& scene, const StretchElement& spring)
 {
-    return scene.method.constrained == "all" || spring.kind == SpringKind::structural;
+    return scene.method.constrained == ConstrainedSprings::all || spring.kind == SpringKind::structural;
 }
 
 void check_constrained_lengths(const Scene& scene)
@@ -132,10 +132,11 @@ void check_constrained_lengths(const Scene& scene)
 void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
 {
     check_constrained_lengths(scene);
-    if (scene.method.integrator != "semi_implicit") // no pass would give back what the kick takes of gravity
+    if (scene.method.integrator !=
+        Integrator::semi_implicit) // no pass would give back what the kick takes of gravity
         throw Error(ErrorCode::unsupported,
-                    "method.integrator is \"" + scene.method.integrator +
-                        "\", but method.type \"implicit_constraints\" steps by \"semi_implicit\" only");
+                    "method.integrator is " + quoted(scene.method.integrator) +
+                        ", but method.type \"implicit_constraints\" steps by \"semi_implicit\" only");
     bool rows = false;
     for (std::size_t body = 0; body < scene.bodies.size(); ++body)
     {
@@ -161,8 +162,9 @@ void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
 
 std::vector<double> row_compliances(const PlanBuilder& b, std::span<const StretchElement> springs)
 {
-    const double given = b.scene.method.constraint_compliance, h = b.plan.timestep / b.plan.substeps;
-    const bool rigid = method_of(b.scene) == MethodKind::acad;
+    const std::optional<double> given = b.scene.method.constraint_compliance;
+    const double h = b.plan.timestep / b.plan.substeps;
+    const bool rigid = b.scene.method.type == MethodKind::acad;
     const RedundantRows parts = redundant_rows(springs, b.inverse_mass);
     std::vector<double> out;
     std::size_t first = 0;
@@ -179,7 +181,7 @@ std::vector<double> row_compliances(const PlanBuilder& b, std::span<const Stretc
         for (; first < last; ++first)
         {
             const StretchElement& e = springs[first];
-            const double own = given >= 0 ? given : rigid ? 0 : e.compliance;
+            const double own = given.value_or(rigid ? 0 : e.compliance);
             const double share = parts.contradictory[first]          ? kContradiction
                                  : all || parts.redundant[first] ? kRegularisation
                                                                  : 0;
@@ -237,7 +239,7 @@ void prepare_implicit_constraints(PlanBuilder& b)
         return;
     add_row_buffers(b, *c);
     std::shared_ptr<const linear::Operator> system;
-    if (b.scene.method.linear_operator == "assembled")
+    if (b.scene.method.linear_operator == LinearOperator::assembled)
     {
         make_matrix(b, *c);
         system = c->matrix->matrix();

@@ -200,7 +200,7 @@ std::vector<std::uint32_t> aggregates_of(const linear::SparseMatrix& pattern, co
 /// Matrix (stored, or of its diagonal blocks alone), tables, preconditioner, solver.
 void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, const std::vector<bool>& solved)
 {
-    const bool assembled = b.scene.method.linear_operator == "assembled";
+    const bool assembled = b.scene.method.linear_operator == LinearOperator::assembled;
     const linear::SparseMatrix pattern = implicit_pattern(solved, elements.corners, assembled);
     const linear::UploadOptions options{linear::Format::bcsr3, b.plan.precision, false, 0, false, true};
     const auto matrix = linear::DeviceMatrix::upload(b.paper(), pattern, options);
@@ -213,7 +213,7 @@ void add_system(PlanBuilder& b, ImplicitEuler& m, const Elements& elements, cons
     std::shared_ptr<const linear::Operator> system = matrix;
     if (!assembled)
         system = std::make_shared<ImplicitProduct>(product_buffers(b, m));
-    if (b.scene.method.preconditioner != "two_level")
+    if (b.scene.method.preconditioner != NewtonPreconditioner::two_level)
     {
         m.solve.emplace(b, kImplicitEuler, system,
                         linear::Preconditioning{inverse->kind(), inverse->inverse(), nullptr},
@@ -250,8 +250,8 @@ void add_vectors(PlanBuilder& b, ImplicitEuler& m)
 std::uint32_t line_search_of(const Scene& resolved)
 {
     constexpr std::uint32_t kOfCloth = 2, kOfSolids = TAUT_TRIALS - 1;
-    if (resolved.method.line_search != MethodSettings{}.line_search)
-        return resolved.method.line_search;
+    if (resolved.method.line_search)
+        return *resolved.method.line_search;
     const bool solid = std::ranges::any_of(
         resolved.bodies, [](const Body& body) { return !body.mesh.tetrahedra.empty(); });
     return solid ? kOfSolids : kOfCloth;

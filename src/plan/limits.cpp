@@ -80,7 +80,7 @@ bool wants_strain_limit(const Scene& scene)
 bool wants_attachment(const Scene& scene)
 {
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) {
-        return b.material.attachment_slack >= 0 &&
+        return b.material.attachment_slack &&
                std::any_of(b.pins.begin(), b.pins.end(), [](const Pin& p) { return !p.vertices.empty(); });
     });
 }
@@ -182,14 +182,14 @@ void prepare_attachment(PlanBuilder& b)
         for (std::size_t body = 0; body < b.scene.bodies.size(); ++body)
         {
             const Body& own = b.scene.bodies[body];
-            if (own.material.attachment_slack < 0 || own.pins.empty())
+            if (!own.material.attachment_slack || own.pins.empty())
                 continue;
             const std::vector<NearestPin> nearest = nearest_pins(own);
             for (std::uint32_t v = 0; v < nearest.size(); ++v)
                 if (nearest[v].distance > 0 && nearest[v].distance < std::numeric_limits<double>::infinity())
                     records.push_back(
                         {b.vertex(body, v), b.vertex(body, nearest[v].pin),
-                         static_cast<Real>((1 + own.material.attachment_slack) * nearest[v].distance)});
+                         static_cast<Real>((1 + *own.material.attachment_slack) * nearest[v].distance)});
         }
         b.attachment_count = static_cast<std::uint32_t>(records.size());
         if (!records.empty())

@@ -86,7 +86,7 @@ void record_kick(PlanBuilder& b, float force_share, float gravity_share)
 void warn_of_growth(PlanBuilder& b)
 {
     const double h = b.plan.timestep / b.plan.substeps, rate = rate_bounds(b.scene).stiffness;
-    if (b.scene.method.integrator != "explicit" || !(rate > 0))
+    if (b.scene.method.integrator != Integrator::explicit_euler || !(rate > 0))
         return;
     b.plan.warnings.push_back(
         {"energy_growth", 1,
@@ -127,14 +127,14 @@ void add_inner_forces(PlanBuilder& b, std::string_view effect, std::uint32_t spr
 
 void check_mass_spring(const Scene& scene, const DeviceTraits&) { refuse_rigid(scene); }
 
-bool wants_forces_after(const Scene& scene) { return scene.method.integrator == "verlet"; }
-bool wants_kick_after(const Scene& scene) { return scene.method.integrator != "semi_implicit"; }
+bool wants_forces_after(const Scene& scene) { return scene.method.integrator == Integrator::verlet; }
+bool wants_kick_after(const Scene& scene) { return scene.method.integrator != Integrator::semi_implicit; }
 
 double velocity_lead(const Scene& scene)
 {
-    if (method_of(scene) != MethodKind::mass_spring || !wants_kick_after(scene))
+    if (scene.method.type != MethodKind::mass_spring || !wants_kick_after(scene))
         return -0.5;
-    return scene.method.integrator == "verlet" ? 0 : 0.5;
+    return scene.method.integrator == Integrator::verlet ? 0 : 0.5;
 }
 
 bool wants_kick(const Scene& scene)
@@ -154,7 +154,7 @@ void prepare_spring_force(PlanBuilder& b)
     f.springs = static_cast<std::uint32_t>(elements.size());
     if (elements.empty())
         return;
-    f.node_centric = b.scene.method.scheme != "spring_centric";
+    f.node_centric = b.scene.method.scheme != ElementScheme::spring_centric;
     f.damped = std::any_of(elements.begin(), elements.end(),
                            [](const StretchElement& e) { return e.damping > 0; });
     const Incidence at = incidence_of(b.plan.vertex_count, elements);
@@ -198,10 +198,10 @@ void record_force_kick(PlanBuilder& b, const Moment&)
 {
     if (forces(b).force == kNoBuffer)
         return;
-    const std::string& integrator = b.scene.method.integrator;
-    if (integrator == "explicit")
+    const Integrator integrator = b.scene.method.integrator;
+    if (integrator == Integrator::explicit_euler)
         record_kick(b, 0, -1);
-    else if (integrator == "verlet")
+    else if (integrator == Integrator::verlet)
         record_kick(b, 0.5f, -0.5f);
     else
         record_kick(b, 1, 0);
@@ -209,7 +209,7 @@ void record_force_kick(PlanBuilder& b, const Moment&)
 
 void record_force_kick_after(PlanBuilder& b, const Moment&)
 {
-    const float share = b.scene.method.integrator == "verlet" ? 0.5f : 1;
+    const float share = b.scene.method.integrator == Integrator::verlet ? 0.5f : 1;
     record_kick(b, share, share);
 }
 

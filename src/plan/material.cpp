@@ -97,7 +97,7 @@ void append_solid_edges(std::vector<StretchElement>& out, const Mesh& mesh, doub
 
 bool of_springs(const Body& body)
 {
-    return !body.mesh.tetrahedra.empty() && body.material.model == "springs";
+    return !body.mesh.tetrahedra.empty() && body.material.model == SolidModel::springs;
 }
 
 } // namespace

@@ -12,8 +12,6 @@
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
 
-#include <algorithm>
-#include <cassert>
 #include <vector>
 
 namespace taut {
@@ -44,21 +42,13 @@ constexpr Method kMethods[] = {
 
 } // namespace
 
-MethodKind method_of(const Scene& scene)
-{
-    const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), scene.method.type);
-    if (found == kMethodNames.end())
-        throw Error(ErrorCode::unsupported, "method.type \"" + scene.method.type +
-                                                "\" is not there; there is " +
-                                                scene_file::listing(kMethodNames));
-    return static_cast<MethodKind>(found - kMethodNames.begin());
-}
-
 const Method& find_method(MethodKind kind)
 {
-    const Method& method = kMethods[static_cast<std::size_t>(kind)];
-    assert(method.kind == kind);
-    return method;
+    for (const Method& method : kMethods)
+        if (method.kind == kind)
+            return method;
+    throw Error(ErrorCode::unsupported,
+                "method.type is none of " + scene_file::listing(words_of<MethodKind>()));
 }
 
 std::string methods_with(bool Method::*can)
@@ -66,25 +56,27 @@ std::string methods_with(bool Method::*can)
     std::vector<std::string_view> names;
     for (const Method& method : kMethods)
         if (method.*can)
-            names.push_back(kMethodNames[static_cast<std::size_t>(method.kind)]);
+            names.push_back(to_string(method.kind));
     return scene_file::listing(names);
 }
 
 void check_solids(const Scene& scene)
 {
-    const Method& method = find_method(method_of(scene));
+    const Method& method = find_method(scene.method.type);
+    const std::string name(to_string(method.kind));
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     {
         const Body& body = scene.bodies[k];
         const std::string where = "bodies[" + std::to_string(k) + "].material.";
         if (is_elastic(body) && !method.elastic)
             throw Error(ErrorCode::unsupported,
-                        where + "model is \"" + body.material.model + "\", which method \"" +
-                            scene.method.type + "\" does not have; take model \"springs\", or a method of " +
+                        where + "model is \"" + std::string(to_string(body.material.model)) +
+                            "\", which method \"" + name +
+                            "\" does not have; take model \"springs\", or a method of " +
                             methods_with(&Method::elastic));
         if (holds_volumes(body) && !method.volumes)
             throw Error(ErrorCode::unsupported,
-                        where + "volume_stiffness is not 0, but method \"" + scene.method.type +
+                        where + "volume_stiffness is not 0, but method \"" + name +
                             "\" does not hold the volume of tetrahedra; set it to 0, or take a method of " +
                             methods_with(&Method::volumes));
         if (!holds_surface_volume(body))
@@ -93,7 +85,7 @@ void check_solids(const Scene& scene)
             body.mesh.tetrahedra.empty() ? "volume_stiffness is not 0" : "volume is \"surface\"";
         if (!method.surface_volume)
             throw Error(ErrorCode::unsupported,
-                        where + what + ", but method \"" + scene.method.type +
+                        where + what + ", but method \"" + name +
                             "\" does not hold the volume within a surface; set volume_stiffness to 0, or "
                             "take a method of " +
                             methods_with(&Method::surface_volume));

@@ -12,9 +12,6 @@ namespace taut {
 
 struct DeviceTraits;
 
-/// The kind of a scene's method.type. Throws Error{unsupported} for a word that is not in kMethodNames.
-MethodKind method_of(const Scene& scene);
-
 /// Substeps of a time step, and the longest that a substep may become later, s; 0 = any length.
 struct Substeps
 {
@@ -38,6 +35,7 @@ struct Method
     Substeps (*substeps)(const Scene& resolved) = nullptr;
 };
 
+/// Throws Error{unsupported} for what is no enumerator.
 const Method& find_method(MethodKind kind);
 /// The names of the methods that can do something, as a list in words.
 std::string methods_with(bool Method::*can);

@@ -31,7 +31,7 @@ namespace {
 /// meets other bodies is turned by them.
 bool turns_freely(const Scene& scene, const Body& body)
 {
-    const bool among_colliders = method_of(scene) == MethodKind::xpbd && !body.start_positions.empty();
+    const bool among_colliders = scene.method.type == MethodKind::xpbd && !body.start_positions.empty();
     return !body.mesh.tetrahedra.empty() && (scene.colliders.empty() || among_colliders) &&
            !takes_part(scene, body) &&
            std::all_of(body.pins.begin(), body.pins.end(), [](const Pin& p) { return p.vertices.empty(); });

@@ -37,7 +37,7 @@ bool kicks_first(const Scene& scene)
     const std::span<const Effect> rows = effect_table();
     return std::any_of(rows.begin(), rows.end(), [&](const Effect& row) {
         return row.stage == Stage::force && row.name != "motion" &&
-               (row.methods & only(method_of(scene))) != 0 && row.wanted(scene);
+               (row.methods & only(scene.method.type)) != 0 && row.wanted(scene);
     });
 }
 

@@ -190,7 +190,7 @@ std::string jacobi_variant(const PbdBuffers& pbd, bool chebyshev)
 
 bool pbd_is_coloured(const Scene& scene)
 {
-    return scene.method.scheme == "automatic" || scene.method.scheme == "coloured";
+    return scene.method.scheme == ElementScheme::automatic || scene.method.scheme == ElementScheme::coloured;
 }
 
 double pbd_share(double stiffness, std::uint32_t iterations)
@@ -313,7 +313,7 @@ void prepare_pbd_jacobi(PlanBuilder& b)
     add_jacobi_records(b, of);
     const std::uint64_t vector = 4 * b.real_size();
     b.pbd.other = b.add_buffer(kJacobi, "other iterate", b.plan.vertex_count * vector);
-    if (b.scene.method.scheme != "constraint_centric")
+    if (b.scene.method.scheme != ElementScheme::constraint_centric)
         return;
     b.pbd.spring_slots =
         b.add_buffer(kJacobi, "corrections of springs", std::max<std::size_t>(of.springs.size(), 1) * vector);
@@ -337,7 +337,7 @@ void record_pbd_jacobi(PlanBuilder& b, const Moment& moment)
     const std::uint32_t n = b.plan.vertex_count, report = moment.last;
     const std::uint32_t listed = 8 + (hinges ? 16 : 0) + (volumes ? 16 : 0);
     const Shares shares = shares_of(b);
-    if (m.scheme == "constraint_centric")
+    if (m.scheme == ElementScheme::constraint_centric)
     {
         record_slots(b, shares, report);
         const kernels::pbd_average::Bindings<Use> uses = {.position = {b.plan.position},

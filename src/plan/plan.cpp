@@ -26,12 +26,12 @@ constexpr double kMinSubstep = 1e-15;
 
 void check_settings(const Scene& scene, const DeviceTraits& traits)
 {
-    const Method& method = find_method(method_of(scene));
+    const Method& method = find_method(scene.method.type);
     check_timestep(scene.timestep, scene.method.substeps);
     for (const SceneIssue& issue : check_resolved(scene))
         if (issue.error)
             throw Error(issue.code, issue.field + " " + issue.text);
-    if (scene.method.precision == "double" && !traits.float64)
+    if (scene.method.precision == Precision::float64 && !traits.float64)
         throw Error(ErrorCode::unsupported, "method.precision is \"double\", but the device has no 64-bit "
                                             "floats; use \"float\" or another device");
     check_solids(scene);
@@ -82,7 +82,7 @@ void warn_of_few_substeps(const Scene& scene, PlanBuilder& builder)
         return; // named, or as many as the scene asks for
     const double wanted = wanted_substeps(scene);
     // Under implicit_euler only solids that stand on something ask for many, whatever the iterations.
-    const bool sweeps = scene.method.type != "implicit_euler";
+    const bool sweeps = scene.method.type != MethodKind::implicit_euler;
     if (wanted > kMostSubsteps)
         builder.plan.warnings.push_back(
             {"few_substeps", 1,
@@ -102,7 +102,7 @@ std::vector<const Effect*> wanted_effects(const Scene& scene, const PlanOptions&
     {
         const bool available =
             names.empty() || std::find(names.begin(), names.end(), effect.name) != names.end();
-        const bool acts = (effect.methods & only(method_of(scene))) != 0;
+        const bool acts = (effect.methods & only(scene.method.type)) != 0;
         if (available && acts && effect.wanted(scene))
             rows.push_back(&effect);
     }

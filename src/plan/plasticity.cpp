@@ -214,7 +214,11 @@ bool wants_plasticity(const Scene& scene)
 
 void check_plasticity(const Scene& scene)
 {
-    constexpr std::string_view kMethodsThatFlow[] = {"xpbd", "vbd", "implicit_euler", "mass_spring"};
+    constexpr MethodKind kMethodsThatFlow[] = {MethodKind::xpbd, MethodKind::vbd, MethodKind::implicit_euler,
+                                               MethodKind::mass_spring};
+    std::vector<std::string_view> flowing;
+    for (const MethodKind kind : kMethodsThatFlow)
+        flowing.push_back(to_string(kind));
     const bool tears = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.material.tear_strain > 0; });
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
@@ -224,9 +228,9 @@ void check_plasticity(const Scene& scene)
         const std::string where = "bodies[" + std::to_string(k) + "].material.plastic_yield is not 0, but ";
         if (std::find(std::begin(kMethodsThatFlow), std::end(kMethodsThatFlow), scene.method.type) ==
             std::end(kMethodsThatFlow))
-            throw Error(ErrorCode::unsupported, where + "method \"" + scene.method.type +
-                                                    "\" keeps no strain; set it to 0, or take a method of " +
-                                                    scene_file::listing(kMethodsThatFlow));
+            throw Error(ErrorCode::unsupported, where + "method " + quoted(scene.method.type) +
+                                                    " keeps no strain; set it to 0, or take a method of " +
+                                                    scene_file::listing(flowing));
         if (tears)
             throw Error(ErrorCode::unsupported,
                         where + "a body of the scene can tear, and a tear plans the scene anew and would "

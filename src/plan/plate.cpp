@@ -112,9 +112,9 @@ void check_plate(const Scene& scene)
             throw Error(code,
                         "bodies[" + std::to_string(k) + "].material.bending_model is \"plate\", but " + why);
         };
-        if (scene.method.type != "xpbd")
-            refuse(ErrorCode::unsupported, "method \"" + scene.method.type +
-                                               "\" has hinges alone; set it to \"hinge\", or take xpbd");
+        if (scene.method.type != MethodKind::xpbd)
+            refuse(ErrorCode::unsupported, "method " + quoted(scene.method.type) +
+                                               " has hinges alone; set it to \"hinge\", or take xpbd");
         if (tears)
             refuse(ErrorCode::unsupported,
                    "a body of the scene can tear, and a tear plans the scene anew and "

@@ -229,8 +229,8 @@ void add_side(const Plate& plate, std::vector<PlateHinge>& out, std::vector<std:
 
 bool is_plate(const Body& body)
 {
-    return body.material.bending_model == "plate" && body.mesh.tetrahedra.empty() && !body.kinematic.used &&
-           !body.mesh.triangles.empty() && resists_bending(body.material);
+    return body.material.bending_model == BendingModel::plate && body.mesh.tetrahedra.empty() &&
+           !body.kinematic.used && !body.mesh.triangles.empty() && resists_bending(body.material);
 }
 
 std::vector<PlateHinge> plate_hinges(const Body& body, std::size_t* dropped)

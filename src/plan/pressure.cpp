@@ -24,7 +24,7 @@ constexpr const char* kPressureEffect = "pressure";
 
 bool has_gas(const Body& body) { return body.material.pressure != 0 && !body.mesh.triangles.empty(); }
 
-bool is_isothermal(const Body& body) { return body.material.pressure_law == "isothermal"; }
+bool is_isothermal(const Body& body) { return body.material.pressure_law == PressureLaw::isothermal; }
 
 /// What explicit steps of this length cannot follow.
 void warn_of_stiffness(PlanBuilder& b, std::size_t body)

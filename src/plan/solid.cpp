@@ -47,13 +47,13 @@ double bulk_modulus(const Material& m)
 
 bool holds_volumes(const Body& body)
 {
-    return !body.mesh.tetrahedra.empty() && body.material.model == "springs" &&
-           body.material.volume == "tetrahedra" && bulk_modulus(body.material) > 0;
+    return !body.mesh.tetrahedra.empty() && body.material.model == SolidModel::springs &&
+           body.material.volume == HeldVolume::tetrahedra && bulk_modulus(body.material) > 0;
 }
 
 bool is_elastic(const Body& body)
 {
-    return !body.mesh.tetrahedra.empty() && body.material.model != "springs";
+    return !body.mesh.tetrahedra.empty() && body.material.model != SolidModel::springs;
 }
 
 std::vector<VolumeElement> volume_elements(const Body& body)
@@ -76,7 +76,7 @@ std::vector<SolidElement> solid_elements(const Body& body)
         return {};
     const double e = body.material.youngs_modulus, nu = body.material.poissons_ratio;
     const double lame_mu = e / (2 * (1 + nu)), lame_lambda = e * nu / ((1 + nu) * (1 - 2 * nu));
-    const bool log = body.material.model == "neo_hookean";
+    const bool log = body.material.model == SolidModel::neo_hookean;
     SolidElement element;
     element.log = log ? 1 : 0;
     element.mu = log ? 4.0 / 3 * lame_mu : lame_mu;

@@ -45,7 +45,7 @@ void refuse_rigid(const Scene& scene)
     {
         const Body& own = scene.bodies[body];
         const std::string where =
-            "bodies[" + std::to_string(body) + "], method \"" + scene.method.type + "\": ";
+            "bodies[" + std::to_string(body) + "], method " + quoted(scene.method.type) + ": ";
         std::vector<std::uint32_t> at(own.mesh.positions.size(), 0);
         for (const StretchElement& e : stretch_elements(own))
         {

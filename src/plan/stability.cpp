@@ -34,8 +34,8 @@ std::array<double, 4> hinge_gradient_sizes(const BendElement& h, std::span<const
 
 bool acts_as_force(const Scene& scene, const StretchElement& spring)
 {
-    return method_of(scene) != MethodKind::implicit_constraints ||
-           !(scene.method.constrained == "all" || spring.kind == SpringKind::structural);
+    return scene.method.type != MethodKind::implicit_constraints ||
+           !(scene.method.constrained == ConstrainedSprings::all || spring.kind == SpringKind::structural);
 }
 
 std::vector<double> stiffness_rows(const std::vector<StretchElement>& springs,
@@ -86,7 +86,7 @@ RateBounds rate_bounds(const Scene& resolved)
     {
         auto springs = stretch_elements(body);
         std::erase_if(springs, [&](const StretchElement& e) { return !acts_as_force(resolved, e); });
-        const auto hinges = method_of(resolved) == MethodKind::implicit_constraints
+        const auto hinges = resolved.method.type == MethodKind::implicit_constraints
                                 ? std::vector<BendElement>()
                                 : bend_elements(body); // rows there
         const auto mass = vertex_masses(body);
@@ -116,7 +116,7 @@ Substeps stable_substeps(const Scene& scene)
     check_added_elements(scene);
     const MethodSettings& method = scene.method;
     const std::uint32_t asked = method.substeps == 0 ? automatic_substeps(scene) : method.substeps;
-    if (method.stability == "ignore")
+    if (method.stability == StabilityRule::ignore)
         return {asked, 0};
     const double largest = kStableShare * stable_step(rate_bounds(scene));
     const double needed = std::max(std::ceil(scene.timestep / largest), 1.0);
@@ -124,7 +124,7 @@ Substeps stable_substeps(const Scene& scene)
     const double allowed = std::isfinite(largest) ? largest : 0;
     if (stable)
         return {asked, allowed};
-    if (method.stability == "substep" && needed <= kMostSubsteps)
+    if (method.stability == StabilityRule::substep && needed <= kMostSubsteps)
         return {static_cast<std::uint32_t>(needed), allowed};
     const std::string way_out =
         needed > kMostSubsteps
@@ -132,7 +132,7 @@ Substeps stable_substeps(const Scene& scene)
                   " there may be; use an implicit or position-based method, or softer springs"
             : "; set method.substeps to that, or method.stability to \"substep\"";
     throw Error(ErrorCode::unstable_timestep,
-                "method \"" + method.type + "\": a substep is " + shown(scene.timestep / asked, 4) +
+                "method " + quoted(method.type) + ": a substep is " + shown(scene.timestep / asked, 4) +
                     " s, the longest stable one " + shown(largest, 4) + " s (" + shown(kStableShare) +
                     " of what the stiffest vertex allows); it takes " + shown(needed) + " substeps" +
                     way_out);

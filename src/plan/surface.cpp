@@ -19,9 +19,9 @@ constexpr double kLeastVolume = 1e-9;
 
 bool holds_surface_volume(const Body& body)
 {
-    const bool asked = body.mesh.tetrahedra.empty()
-                           ? body.material.volume_stiffness > 0
-                           : body.material.model == "springs" && body.material.volume == "surface";
+    const bool asked = body.mesh.tetrahedra.empty() ? body.material.volume_stiffness > 0
+                                                    : body.material.model == SolidModel::springs &&
+                                                          body.material.volume == HeldVolume::surface;
     return asked && bulk_modulus(body.material) > 0;
 }
 

@@ -24,7 +24,7 @@
 namespace taut {
 namespace {
 
-bool adaptive(const PlanBuilder& b) { return b.scene.method.start == "adaptive"; }
+bool adaptive(const PlanBuilder& b) { return b.scene.method.start == SweepStart::adaptive; }
 
 /// 2 * body + 1 for bodies with held vertices, by vertex.
 std::vector<std::uint32_t> support_of(const PlanBuilder& b)
@@ -181,7 +181,7 @@ void record_vbd_start(PlanBuilder& b, const Moment&)
     const BlockBuffers& f = *b.blocks;
     if (f.rows == 0)
         return;
-    const bool previous = b.scene.method.start == "previous", contact = f.touched != kNoBuffer;
+    const bool previous = b.scene.method.start == SweepStart::previous, contact = f.touched != kNoBuffer;
     kernels::vbd_start::Bindings<Use> uses = {.position = {b.plan.position},
                                               .predicted = {b.plan.predicted},
                                               .delta = {b.plan.delta},

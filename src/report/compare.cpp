@@ -87,7 +87,7 @@ CompareRow row_of(const Variant& variant, std::uint64_t frames, const Progress& 
 {
     CompareRow row;
     row.label = variant.label;
-    row.method = variant.scene.method.type;
+    row.method = to_string(variant.scene.method.type);
     row.executor = variant.device->info().executor;
     row.interrupted = stopped(progress);
     if (row.interrupted)

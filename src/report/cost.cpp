@@ -165,10 +165,10 @@ private:
     CostPoint point(const MethodSettings& settings)
     {
         CostPoint out;
-        out.method = settings.type;
+        out.method = to_string(settings.type);
         out.substeps = settings.substeps;
         out.iterations = settings.iterations;
-        out.precision = settings.precision == "float" ? Precision::float32 : Precision::float64;
+        out.precision = settings.precision;
         out.settings = settings;
         out.other_material = tuning::other_material(facts_, settings);
         out.sweeps = static_cast<double>(out.substeps) * out.iterations / scene_.timestep;

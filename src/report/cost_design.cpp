@@ -15,8 +15,8 @@ class Design
 public:
     Design(MethodKind kind, Precision precision, const MethodSettings& base) : base_(settings_for(kind, base))
     {
-        base_.precision = std::string(to_string(precision));
-        base_.stability = "refuse";
+        base_.precision = precision;
+        base_.stability = StabilityRule::refuse;
     }
 
     MethodSettings& base() { return base_; }
@@ -42,12 +42,12 @@ const Counts kAll{1, 2, 4, 8, 16, 32, 64, 128};
 
 void explicit_springs(Design& design)
 {
-    for (const char* integrator : {"semi_implicit", "verlet"})
+    for (Integrator integrator : {Integrator::semi_implicit, Integrator::verlet})
     {
         design.base().integrator = integrator;
         design.add(1, kAll);
     }
-    design.base().integrator = "explicit";
+    design.base().integrator = Integrator::explicit_euler;
     design.add(1, {32, 128});
 }
 
@@ -98,7 +98,7 @@ std::vector<MethodSettings> method_design(MethodKind kind, Precision precision, 
     case MethodKind::xpbd: sweeps(design); break;
     case MethodKind::pbd:
         sweeps(design);
-        design.base().scheme = "node_centric";
+        design.base().scheme = ElementScheme::node_centric;
         design.add(4, {4});
         design.add(16, {4});
         break;

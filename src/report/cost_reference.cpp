@@ -30,7 +30,7 @@ std::string unmodelled(const Scene& scene)
     add(scene.wind.density > 0 && any([](const Material& m) { return m.drag > 0 || m.friction_drag > 0; }),
         "wind");
     add(any([](const Material& m) { return m.strain_limit > 0; }), "limits of strain");
-    add(any([](const Material& m) { return m.attachment_slack >= 0; }), "attachments");
+    add(any([](const Material& m) { return m.attachment_slack.has_value(); }), "attachments");
     add(any([](const Material& m) { return m.tear_strain > 0; }), "tearing");
     add(any([](const Material& m) { return m.plastic_yield > 0; }), "plasticity");
     add(wants_contact(scene), "contact between surfaces");

@@ -87,7 +87,7 @@ std::vector<Refined> refined(const Question& q, Refine refine_one, CostReference
             reason = error.what();
         }
         if (!reason.empty())
-            none.passed.push_back("R4 (" + std::string(method_name(method)) + "): " + reason);
+            none.passed.push_back("R4 (" + std::string(to_string(method)) + "): " + reason);
     }
     return out;
 }
@@ -132,7 +132,7 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
     if (q.options.reference_error > 0 && runs.size() > 1 && 2 * runs[1].found.frames < runs[0].found.frames)
         runs.erase(runs.begin() + 1, runs.end()); // half of the frames are worth more than a second opinion
     Refined& best = runs[0];
-    const std::string name(method_name(best.method));
+    const std::string name(to_string(best.method));
     CostReference out;
     out.passed = std::move(none.passed);
     out.verified = true;
@@ -152,7 +152,7 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
         out.error_l = std::max(*out.error_l, far);
         best.found.frames = std::min(best.found.frames, runs[1].found.frames);
         out.methods.push_back(runs[1].method);
-        out.text += "; the finest run of " + std::string(method_name(runs[1].method)) + " differs by " +
+        out.text += "; the finest run of " + std::string(to_string(runs[1].method)) + " differs by " +
                     shown(error, 2) + ", which counts as its error";
     }
     else
@@ -234,8 +234,8 @@ MethodSettings fine_settings(const Question& q, MethodKind method, std::uint32_t
     MethodSettings out = settings_for(method, q.scene.method);
     out.substeps = substeps;
     out.iterations = 1;
-    out.precision = "double";
-    out.stability = "refuse";
+    out.precision = Precision::float64;
+    out.stability = StabilityRule::refuse;
     return out;
 }
 

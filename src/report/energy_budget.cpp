@@ -85,7 +85,7 @@ double elastic_at_start(const PhysicalModel& model)
 double largest_violation(const Scene& scene, const PhysicalModel& model)
 {
     const MethodSettings& method = scene.method;
-    const bool all = method.type == "pbd" || method.constraint_compliance == 0;
+    const bool all = method.type == MethodKind::pbd || method.constraint_compliance == 0;
     double out = 0;
     for (const StretchElement& e : model.springs)
         if (all || !(e.compliance > 0))

@@ -31,7 +31,7 @@ GasElement gas_element(const Body& body, std::uint32_t first)
     out.triangles = body.mesh.triangles;
     out.rest_volume = enclosed_volume(body.mesh.triangles, body.mesh.positions);
     out.pressure = out.rest_volume < 0 ? -body.material.pressure : body.material.pressure;
-    out.isothermal = body.material.pressure_law == "isothermal";
+    out.isothermal = body.material.pressure_law == PressureLaw::isothermal;
     for (auto& triangle : out.triangles)
         for (std::uint32_t& v : triangle)
             v += first;

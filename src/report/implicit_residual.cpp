@@ -57,7 +57,7 @@ std::shared_ptr<const PhysicalModel> with_dampers_as_springs(const View& view,
     if (std::none_of(view.model.springs.begin(), view.model.springs.end(), damped))
         return {std::shared_ptr<void>(), &view.model};
     auto model = std::make_shared<PhysicalModel>(view.model);
-    const bool by_length = method_of(view.world.scene()) == MethodKind::vbd;
+    const bool by_length = view.world.scene().method.type == MethodKind::vbd;
     for (StretchElement& e : model->springs)
     {
         const glm::dvec3 d = view.x[e.a] - view.x[e.b], change = moved[e.a] - moved[e.b];
@@ -244,7 +244,7 @@ std::vector<double> least_loads(const View& view, double substep)
     {
         const bool blown =
             view.plan.wind != kNoBuffer && body.material.drag + body.material.friction_drag > 0;
-        const bool driven = (blown || scene.external_forces) && method_of(scene) != MethodKind::xpbd;
+        const bool driven = (blown || scene.external_forces) && scene.method.type != MethodKind::xpbd;
         const double rounded = rounded_way(view.plan.precision, view.model.diameter) / (substep * substep);
         out.push_back(gravity > 0 ? gravity : driven ? rounded : kWeight);
     }
@@ -254,7 +254,7 @@ std::vector<double> least_loads(const View& view, double substep)
 /// m/s^2: what elements have answered, but, under xpbd, to gases: that is held against what these move.
 glm::dvec3 answered(const View& view, const Substep& last, std::size_t vertex)
 {
-    const bool apart = method_of(view.world.scene()) == MethodKind::xpbd;
+    const bool apart = view.world.scene().method.type == MethodKind::xpbd;
     return last.inertia[vertex] + (apart ? last.gas[vertex] / last.model->mass[vertex] : glm::dvec3(0));
 }
 
@@ -302,7 +302,7 @@ std::vector<bool> unjudged_bodies(const View& view)
         mark(e.triangles.at(0)[0]);
     const auto& bodies = view.world.scene().bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        out[b] = out[b] || bodies[b].material.attachment_slack >= 0;
+        out[b] = out[b] || bodies[b].material.attachment_slack;
     return out;
 }
 
@@ -332,7 +332,7 @@ LoadResidual measure_load_residual(const World& world)
     View view(world);
     view.distance = std::vector<reference::DistanceRecord>(); // the matrix takes their room
     view.v = std::vector<glm::dvec3>();
-    const MethodKind kind = method_of(world.scene());
+    const MethodKind kind = world.scene().method.type;
     const bool sweeps = kind == MethodKind::xpbd;
     if (kind != MethodKind::implicit_euler && kind != MethodKind::vbd && !sweeps)
         return {};

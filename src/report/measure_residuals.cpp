@@ -111,7 +111,7 @@ void measure_residuals(const View& view, StepReport& out)
     // By forces that are on no record.
     const bool limited =
         has_effect(view, "strain_limit") || has_effect(view, "attachment") || has_effect(view, "contact");
-    const MethodKind kind = method_of(view.world.scene());
+    const MethodKind kind = view.world.scene().method.type;
     if ((kind == MethodKind::implicit_euler || kind == MethodKind::vbd) && !limited)
         measure_implicit_residual(view, out);
     // Rest angles of plates are those of the next substep by now.

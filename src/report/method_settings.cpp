@@ -19,7 +19,7 @@ using scene_file::value_of;
 /// What the method of these settings reads and is not as by default.
 Json details(const MethodSettings& settings)
 {
-    const MethodSet method = only(method_named(settings.type));
+    const MethodSet method = only(settings.type);
     MethodSettings usual;
     usual.release_strain = settings.activate_strain; // as a scene has it that says nothing
     Json out = Json::object();
@@ -47,21 +47,18 @@ std::string listed(const std::vector<std::string_view>& words)
 
 MethodKind method_named(std::string_view name)
 {
-    const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
-    if (found == kMethodNames.end())
-        throw Error(ErrorCode::bad_input, "there is no method \"" + std::string(name) + "\"; there is " +
-                                              scene_file::listing(kMethodNames));
-    return static_cast<MethodKind>(found - kMethodNames.begin());
+    if (const std::optional<MethodKind> found = option_of<MethodKind>(name))
+        return *found;
+    throw Error(ErrorCode::bad_input, "there is no method \"" + std::string(name) + "\"; there is " +
+                                          scene_file::listing(words_of<MethodKind>()));
 }
-
-std::string_view method_name(MethodKind kind) { return kMethodNames[static_cast<std::size_t>(kind)]; }
 
 int method_style(std::string_view name) { return static_cast<int>(method_named(name)); }
 
 MethodSettings settings_for(MethodKind kind, const MethodSettings& base)
 {
     MethodSettings out = base;
-    out.type = std::string(method_name(kind));
+    out.type = kind;
     if (out.type == base.type)
         return out;
     const MethodSettings usual;
@@ -78,7 +75,7 @@ std::vector<MethodKind> methods_listed(const std::vector<std::string>& names)
     for (const std::string& name : names)
         set |= name == "all" ? kAllMethods : only(method_named(name));
     std::vector<MethodKind> out;
-    for (std::size_t i = 0; i < kMethodNames.size(); ++i)
+    for (std::size_t i = 0; i < kWords<MethodKind>.size(); ++i)
         if (set & only(static_cast<MethodKind>(i)))
             out.push_back(static_cast<MethodKind>(i));
     return out;
@@ -97,12 +94,8 @@ std::vector<std::string_view> keys_read(MethodKind kind)
 
 std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::vector<std::string>& given)
 {
-    const auto type = std::find(kMethodNames.begin(), kMethodNames.end(), settings.type);
     std::vector<SceneIssue> out;
-    if (type == kMethodNames.end())
-        return out;
-    const std::vector<std::string_view> read =
-        keys_read(static_cast<MethodKind>(type - kMethodNames.begin()));
+    const std::vector<std::string_view> read = keys_read(settings.type);
     const auto reads = [&](const std::string& name) {
         const Key* key = kMethodTable.find(name);
         return key && (key->readers == 0 || std::find(read.begin(), read.end(), name) != read.end());
@@ -110,7 +103,7 @@ std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::v
     for (const std::string& key : given)
         if (!reads(key))
             out.push_back({false, "method." + key,
-                           "method \"" + settings.type +
+                           "method \"" + std::string(to_string(settings.type)) +
                                "\" does not read it; take it out (beside type, substeps and precision it "
                                "reads " +
                                listed(read) + ")"});
@@ -130,10 +123,10 @@ std::string settings_details(const MethodSettings& settings)
 std::string settings_block(const MethodSettings& settings)
 {
     const Json substeps = settings.substeps == 0 ? Json("automatic") : Json(settings.substeps);
-    Json json = {{"type", settings.type}, {"substeps", substeps}};
-    if (reads_iterations(method_named(settings.type)) || settings.iterations != 1)
+    Json json = {{"type", to_string(settings.type)}, {"substeps", substeps}};
+    if (reads_iterations(settings.type) || settings.iterations != 1)
         json["iterations"] = settings.iterations;
-    json["precision"] = settings.precision;
+    json["precision"] = to_string(settings.precision);
     json.update(details(settings));
     return json.dump();
 }
@@ -141,12 +134,12 @@ std::string settings_block(const MethodSettings& settings)
 std::string settings_text(const MethodSettings& settings)
 {
     const bool automatic = settings.substeps == 0;
-    std::string text =
-        settings.type + ", " + (automatic ? "automatic substeps" : counted(settings.substeps, "substep"));
-    if (reads_iterations(method_named(settings.type)))
+    std::string text = std::string(to_string(settings.type)) + ", " +
+                       (automatic ? "automatic substeps" : counted(settings.substeps, "substep"));
+    if (reads_iterations(settings.type))
         text += " x " + counted(settings.iterations, "iteration");
     const std::string more = settings_details(settings);
-    return text + " in " + settings.precision + (more.empty() ? "" : ", " + more);
+    return text + " in " + std::string(to_string(settings.precision)) + (more.empty() ? "" : ", " + more);
 }
 
 } // namespace taut

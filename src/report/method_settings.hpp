@@ -9,18 +9,17 @@
 
 namespace taut {
 
-/// A name of kMethodNames. Throws Error{bad_input} that lists them.
+/// The method of a name. Throws Error{bad_input} that lists them.
 MethodKind method_named(std::string_view name);
-std::string_view method_name(MethodKind kind);
 
 /// These settings for that method. What methods read differently is as by default where the method is another
 /// one: the scheme, the integrator, relaxation and spectral_radius.
 MethodSettings settings_for(MethodKind kind, const MethodSettings& base);
 
-/// Of figures: colour and marker of a method (PlotSeries::style), its place in kMethodNames.
+/// Of figures: colour and marker of a method (PlotSeries::style), its place in MethodKind.
 int method_style(std::string_view name);
 
-/// "xpbd,vbd" or "all", in the order of kMethodNames and each once. Throws Error{bad_input}.
+/// "xpbd,vbd" or "all", in the order of MethodKind and each once. Throws Error{bad_input}.
 std::vector<MethodKind> methods_listed(const std::vector<std::string>& names);
 
 /// Whether the method repeats its substeps' solve (docs/scene.md, `iterations`).
@@ -29,8 +28,7 @@ bool reads_iterations(MethodKind kind);
 /// The keys of a scene's `method` that the method reads, beside type, substeps and precision, which all read.
 std::vector<std::string_view> keys_read(MethodKind kind);
 
-/// A warning for each of the keys given for a method (given_method_keys) that it does not read. None for a
-/// method that is not there.
+/// A warning for each of the keys given for a method (given_method_keys) that it does not read.
 std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::vector<std::string>& given);
 
 /// What the method reads and is not as by default, beside substeps, iterations and precision:

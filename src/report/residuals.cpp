@@ -31,7 +31,7 @@ LoadResidual lasting_load_residual(World& world)
 
 Residuals residuals_ahead(const World& world)
 {
-    const MethodKind kind = method_of(world.scene());
+    const MethodKind kind = world.scene().method.type;
     if (kind != MethodKind::xpbd && kind != MethodKind::implicit_euler && kind != MethodKind::vbd)
         return {};
     WorldOptions options;
@@ -63,14 +63,14 @@ void judge_residuals(const Scene& scene, const Residuals& left, StepReport& repo
     judge_residuals(scene, report);
     // Judged at the end of a run only: a stiff body that was just let go may leave more for some steps.
     const double accepted = kLoadShare * scene.accept.residual;
-    const bool sweeps = method_of(scene) == MethodKind::xpbd;
+    const bool sweeps = scene.method.type == MethodKind::xpbd;
     if (left.load <= accepted && sweeps && left.load_way > kSeenWay)
         count(Warning::soft, 1, report.warnings); // little beside what its loads move, and yet to be seen
     if (left.load <= accepted)
         return;
     const std::string limit = "; a quarter of accept.residual (" + shown(scene.accept.residual, 3) +
                               ") is accepted; take more substeps or iterations" +
-                              (sweeps || scene.method.precision == "double"
+                              (sweeps || scene.method.precision == Precision::float64
                                    ? ""
                                    : ", or method.precision \"double\" where loads are next to nothing "
                                      "beside the stiffness");

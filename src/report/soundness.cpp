@@ -65,7 +65,7 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
 {
     const Scene& scene = state.scene;
     const std::span<const glm::dvec3> x = state.x;
-    const MethodKind kind = method_of(scene);
+    const MethodKind kind = scene.method.type;
     const bool kept = kind == MethodKind::pbd;
     const double share = kept ? scene.method.stretch : 1;
     // Cloth that has torn since the model was made has other springs than the model.
@@ -89,7 +89,8 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
             out.kept_strain = std::max(out.kept_strain, share * strain);
         else if (std::abs(strain) > accepted && !model.flows[first])
             out.energy += 0.5 * stretch * stretch / e.compliance;
-        const bool may_act = scene.method.constrained == "all" || e.kind == SpringKind::structural;
+        const bool may_act =
+            scene.method.constrained == ConstrainedSprings::all || e.kind == SpringKind::structural;
         const bool seen = e.rest_length > kNoLength * model.diameter;
         if (kind == MethodKind::acad && may_act && seen)
             out.active_strain = std::max(out.active_strain, strain - scene.method.activate_strain);
@@ -103,7 +104,7 @@ void add_springs(const PhysicalModel& model, const RunState& state, double accep
 /// tetrahedra of a body together, by what each is off: one alone may be so for a moment.
 void add_volumes(const PhysicalModel& model, const RunState& state, Strained& out)
 {
-    const bool pbd = method_of(state.scene) == MethodKind::pbd;
+    const bool pbd = state.scene.method.type == MethodKind::pbd;
     const double share = pbd ? state.scene.method.volume : 1;
     const auto kept = [&](double compliance) { return pbd || !(compliance > 0); };
     std::vector<double> off(state.scene.bodies.size()), whole(off);
@@ -138,7 +139,7 @@ void add_elements(const PhysicalModel& model, const RunState& state, double acce
 void add_hinges(const PhysicalModel& model, const RunState& state, Strained& out)
 {
     const std::span<const glm::dvec3> x = state.x;
-    if (method_of(state.scene) == MethodKind::pbd || x.size() != model.mass.size())
+    if (state.scene.method.type == MethodKind::pbd || x.size() != model.mass.size())
         return;
     for (const BendElement& e : model.hinges)
     {
@@ -165,7 +166,7 @@ Strained strained(const PhysicalModel& model, const RunState& state)
     add_volumes(model, state, out);
     add_elements(model, state, accepted, out);
     add_hinges(model, state, out);
-    if (method_of(state.scene) != MethodKind::pbd)
+    if (state.scene.method.type != MethodKind::pbd)
         for (const SolidElement& e : model.solids)
         {
             if (model.flows[e.vertex[0]])
@@ -248,7 +249,7 @@ double length_change(const PhysicalModel& model, const RunState& state)
 
 Soundness judge_rates(const PhysicalModel& model, const RunState& state)
 {
-    const MethodKind kind = method_of(state.scene);
+    const MethodKind kind = state.scene.method.type;
     if (kind != MethodKind::implicit_constraints && kind != MethodKind::acad)
         return {};
     const double change = length_change(model, state), accepted = state.scene.accept.stretch;
@@ -309,7 +310,7 @@ Soundness worse(const Soundness& a, const Soundness& b)
 Soundness judge_clamps(const Scene& scene, const Events& events, double vertex_substeps)
 {
     const double clamped = static_cast<double>(events.speed_clamped);
-    const MethodKind kind = method_of(scene);
+    const MethodKind kind = scene.method.type;
     if (kind == MethodKind::implicit_constraints)
         return judge_turned(scene, clamped, vertex_substeps);
     if (kind == MethodKind::acad)

@@ -207,7 +207,7 @@ private:
     std::pair<std::uint32_t, bool> accuracy_of(const Candidate& candidate) const
     {
         const auto& by = starts_[0].reference.methods;
-        return {candidate.settings.substeps, !by.empty() && candidate.settings.type == method_name(by[0])};
+        return {candidate.settings.substeps, !by.empty() && candidate.settings.type == by[0]};
     }
 
     /// Why a candidate is not tried when the race ends at that part of the time; empty: it is.

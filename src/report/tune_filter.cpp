@@ -56,9 +56,9 @@ std::vector<Candidate> designed(const Scene& resolved, const std::vector<MethodK
 bool fell_in_float(const std::vector<TuneRejection>& rejected, const MethodSettings& settings)
 {
     MethodSettings twin = settings;
-    twin.precision = "float";
+    twin.precision = Precision::float32;
     const std::string block = settings_block(twin);
-    return settings.precision == "double" &&
+    return settings.precision == Precision::float64 &&
            std::any_of(rejected.begin(), rejected.end(), [&](const TuneRejection& r) {
                return r.stage != "filter" && r.stage != "material" && settings_block(r.settings) == block;
            });
@@ -104,7 +104,7 @@ void add_strains(const PhysicalModel& model, const std::vector<glm::dvec3>& x, S
 /// What acad's constraints keep the springs from; empty: nothing.
 std::string held_by_acad(const SceneFacts& facts, const MethodSettings& settings)
 {
-    const bool structural = settings.constrained == "structural";
+    const bool structural = settings.constrained == ConstrainedSprings::structural;
     const double longer = structural ? facts.structural_strain : facts.strain;
     const double shorter = structural ? facts.structural_shortening : facts.shortening;
     const bool pressed = settings.compress && shorter > settings.activate_strain;
@@ -125,14 +125,15 @@ bool any_stiff(const Elements& elements)
 
 std::string other_material(const SceneFacts& facts, const MethodSettings& settings)
 {
-    if (settings.type == "pbd" && facts.stiff)
+    if (settings.type == MethodKind::pbd && facts.stiff)
         return "pbd does not have the material's stiffness: its own has no unit and lies in [0, 1]";
-    if (const std::string held = held_by_acad(facts, settings); settings.type == "acad" && !held.empty())
+    if (const std::string held = held_by_acad(facts, settings);
+        settings.type == MethodKind::acad && !held.empty())
         return held;
-    if ((settings.type == "acad" || settings.type == "implicit_constraints") && facts.stiff &&
-        settings.constraint_compliance >= 0)
-        return settings.type + " gives every constraint a compliance of " +
-               shown(settings.constraint_compliance, 3) + " m/N in place of the material's";
+    if ((settings.type == MethodKind::acad || settings.type == MethodKind::implicit_constraints) &&
+        facts.stiff && settings.constraint_compliance)
+        return std::string(to_string(settings.type)) + " gives every constraint a compliance of " +
+               shown(*settings.constraint_compliance, 3) + " m/N in place of the material's";
     return {};
 }
 
@@ -170,13 +171,13 @@ std::string filtered(const Scene& resolved, const SceneFacts& facts, const Devic
                      Candidate& candidate)
 {
     const MethodSettings& settings = candidate.settings;
-    if (settings.precision == "double" && !traits.float64)
+    if (settings.precision == Precision::float64 && !traits.float64)
         return "the device has no double";
-    if (settings.type == "xpbd" && facts.mass_ratio > 100 && bound < 0.01)
+    if (settings.type == MethodKind::xpbd && facts.mass_ratio > 100 && bound < 0.01)
         return "mass ratio " + shown(facts.mass_ratio, 3) +
                " is above 100: XPBD needs too many sweeps for an error below 1 %";
     const double substep = resolved.timestep / settings.substeps;
-    const bool constrains = settings.type == "implicit_constraints";
+    const bool constrains = settings.type == MethodKind::implicit_constraints;
     if (constrains && facts.largest_speed * substep > 0.3 * facts.shortest)
         return "a vertex moves " + shown(facts.largest_speed * substep, 3) +
                " m in a substep, more than 0.3 of the shortest spring (" + shown(facts.shortest, 3) + " m)";

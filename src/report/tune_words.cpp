@@ -58,11 +58,13 @@ std::vector<std::string> listed_settings(const std::vector<MethodSettings>& sett
     for (const MethodSettings& one : settings)
     {
         const std::string details = settings_details(one);
-        const std::string name = one.type + " in " + one.precision + (details.empty() ? "" : ", " + details);
+        const std::string name = std::string(to_string(one.type)) + " in " +
+                                 std::string(to_string(one.precision)) +
+                                 (details.empty() ? "" : ", " + details);
         auto found = std::find_if(families.begin(), families.end(),
                                   [&](const auto& f) { return f.first.name == name; });
         if (found == families.end())
-            found = families.insert(found, {{name, {}}, reads_iterations(method_named(one.type))});
+            found = families.insert(found, {{name, {}}, reads_iterations(one.type)});
         auto& rows = found->first.rows;
         auto row =
             std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.first == one.iterations; });

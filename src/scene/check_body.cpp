@@ -113,9 +113,9 @@ void check_body(const Body& body, const Checker& out)
         out.warning("material.stretch_stiffness",
                     "is " + shown(stiffness) +
                         " N/m, which does nothing: the springs of a network have their own");
-    if (body.material.attachment_slack >= 0 && body.pins.empty() && !body.kinematic.used)
+    if (body.material.attachment_slack && body.pins.empty() && !body.kinematic.used)
         out.warning("material.attachment_slack",
-                    "is " + shown(body.material.attachment_slack) +
+                    "is " + shown(*body.material.attachment_slack) +
                         ", which does nothing: the body has no pins that its vertices could be attached to");
     if (out.scope() != Scope::meshes)
         return check_source(body, out);
@@ -159,7 +159,7 @@ void check_collider(const Collider& collider, const Checker& out)
             out.error("distance_field", fault);
         if (!collider.field && collider.field_file.empty())
             out.error("distance_field.file", "is empty; it must name a grid that `taut sdf` wrote");
-        if (collider.meets == kMeetsSurface)
+        if (collider.meets == ColliderMeets::surface)
             out.error("meets", "is \"surface\"; a distance field meets vertices alone so far, a kinematic "
                                "body of the mesh meets triangles, too");
     }

@@ -77,11 +77,11 @@ void check_fabric_bending(const FabricBending& bending, const Checker& out)
     if (!(bending.warp > 0) || !(bending.weft > 0) || !(bending.bias > 0))
         return;
     const double least = (bending.warp + bending.weft) / 4, most = largest_bias(bending);
-    if (bending.bias_of == "sheet" && bending.bias <= least)
+    if (bending.bias_of == BiasSpecimen::sheet && bending.bias <= least)
         out.error("bias", "is " + shown(bending.bias) +
                               " N m; a sheet of these rigidities of warp and weft has " + shown(least, 4) +
                               " N m with no resistance to twist: above that would be right");
-    if (bending.bias_of == "strip" && bending.bias > most)
+    if (bending.bias_of == BiasSpecimen::strip && bending.bias > most)
         out.warning("bias", "is " + shown(bending.bias) +
                                 " N m; no strip bends as hard that twists as freely "
                                 "as warp and weft let it: " +
@@ -142,11 +142,11 @@ void check_fabric_body(const Body& body, const Checker& out)
                                      "poissons_ratio say");
     if (body.shape.kind == ShapeKind::grid && body.shape.network.used)
         out.error("material.fabric", "stands beside a network of springs; leave one of the two out");
-    if (body.material.fabric.grain_of == "texture" && body.shape.kind == ShapeKind::grid)
+    if (body.material.fabric.grain_of == GrainSource::texture && body.shape.kind == ShapeKind::grid)
         out.error("material.fabric.grain_of",
                   "is \"texture\" of a grid, which has no texture coordinates; take "
                   "\"direction\" and a grain, or a mesh file that has some");
-    if (body.shape.kind == ShapeKind::grid && body.shape.diagonals == "uniform")
+    if (body.shape.kind == ShapeKind::grid && body.shape.diagonals == Diagonals::uniform)
         out.warning("grid.diagonals",
                     "is \"uniform\" beside a fabric: triangles that all lean one way cannot shear "
                     "along the bias as cloth does, and stiffen it; \"alternating\" is right");

@@ -7,19 +7,20 @@ namespace {
 
 void check_scheme(const MethodSettings& method, const Checker& out)
 {
-    if (method.type == "pbd" && method.scheme == "spring_centric")
+    if (method.type == MethodKind::pbd && method.scheme == ElementScheme::spring_centric)
         out.error("scheme", "is \"spring_centric\"; pbd has \"coloured\", \"node_centric\" and "
                             "\"constraint_centric\"");
-    if (method.type == "mass_spring" &&
-        (method.scheme == "coloured" || method.scheme == "constraint_centric"))
-        out.error("scheme",
-                  "is \"" + method.scheme + "\"; mass_spring has \"node_centric\" and \"spring_centric\"");
+    if (method.type == MethodKind::mass_spring &&
+        (method.scheme == ElementScheme::coloured || method.scheme == ElementScheme::constraint_centric))
+        out.error("scheme", "is " + quoted(method.scheme) +
+                                "; mass_spring has \"node_centric\" and \"spring_centric\"");
 }
 
 void check_preconditioner(const MethodSettings& method, const Checker& out)
 {
-    if (method.type == "implicit_euler" && method.preconditioner == "two_level" &&
-        method.linear_operator == "matrix_free")
+    if (method.type == MethodKind::implicit_euler &&
+        method.preconditioner == NewtonPreconditioner::two_level &&
+        method.linear_operator == LinearOperator::matrix_free)
         out.error("preconditioner", "is \"two_level\", which is made of the matrix; take linear_operator "
                                     "\"assembled\", or the preconditioner \"block_jacobi\"");
 }

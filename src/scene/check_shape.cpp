@@ -18,8 +18,8 @@ void warn_of_idle_numbers(const Material& material, const Checker& out)
     if (material.plastic_yield == 0 && material.plastic_limit != none.plastic_limit)
         out.warning("plastic_limit", "is " + shown(material.plastic_limit) + flows);
     if (material.pressure == 0 && material.pressure_law != none.pressure_law)
-        out.warning("pressure_law", "is \"" + material.pressure_law +
-                                        "\", which does nothing: there is no gas without a pressure (Pa)");
+        out.warning("pressure_law", "is " + quoted(material.pressure_law) +
+                                        ", which does nothing: there is no gas without a pressure (Pa)");
 }
 
 } // namespace
@@ -52,10 +52,10 @@ void check_cloth(const Material& material, const Checker& out)
 {
     check_fabric_beside(material, out);
     warn_of_idle_numbers(material, out);
-    if (material.bending_model == "plate" && !resists_bending(material))
+    if (material.bending_model == BendingModel::plate && !resists_bending(material))
         out.warning("bending_model", "is \"plate\" of cloth that does not resist bending; give it a "
                                      "bending_stiffness (N m), or a fabric that bends");
-    if (material.bending_model == "hinge" && material.bending_poissons_ratio != 0)
+    if (material.bending_model == BendingModel::hinge && material.bending_poissons_ratio != 0)
         out.warning("bending_poissons_ratio", "is " + shown(material.bending_poissons_ratio) +
                                                   " of hinges, which have none of their own; it is for "
                                                   "bending_model \"plate\"");
@@ -79,7 +79,7 @@ void check_solid(const Material& material, const Checker& out)
     if (material.tear_strain != 0)
         out.error("tear_strain", "is " + shown(material.tear_strain) + "; solids do not tear");
     warn_of_idle_numbers(material, out);
-    if (material.model == "springs")
+    if (material.model == SolidModel::springs)
         return;
     const std::string none = ", which does nothing: only model \"springs\" has springs and held volumes";
     if (material.strain_limit > 0)
@@ -88,7 +88,7 @@ void check_solid(const Material& material, const Checker& out)
         out.warning("stretch_damping", "is " + shown(material.stretch_damping) + none);
     if (material.volume_stiffness != -1)
         out.warning("volume_stiffness", "is " + shown(material.volume_stiffness) + none);
-    if (material.volume == "surface")
+    if (material.volume == HeldVolume::surface)
         out.warning("volume", "is \"surface\"" + none);
 }
 

@@ -1,8 +1,10 @@
 #include "taut/scene/check_table.hpp"
 
 #include "taut/scene/key_text.hpp"
+#include "taut/scene/keys.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -14,7 +16,7 @@ bool stands_for_something(const Key& key, double value)
 {
     if (key.has_unset && value == key.unset)
         return true;
-    return !key.word.empty() &&
+    return !key.word.empty() && key.kind != Kind::maybe_number && key.kind != Kind::maybe_count &&
            (value == key.word_value || (key.limits.too_low(key.word_value) && value < key.limits.low));
 }
 
@@ -84,10 +86,13 @@ void check_objects(const Key& key, const void* list, const Checker& out)
     }
 }
 
-void check_text(const Key& key, const std::string& value, const Checker& out)
+/// A file cannot say what is none of the words, a program can.
+void check_option(const Key& key, const void* member, const Checker& out)
 {
-    if (!key.word_sets[0].words.empty())
-        out.word(key.name, value, key.word_sets[0].words);
+    const std::size_t place = key.option.get(member);
+    if (place >= key.word_sets[0].words.size())
+        out.error(key.name,
+                  "is value " + std::to_string(place) + "; it must be " + listing(key.word_sets[0].words));
 }
 
 void check_key(const Key& key, const void* object, const Checker& out)
@@ -99,7 +104,15 @@ void check_key(const Key& key, const void* object, const Checker& out)
     {
     case Kind::number: return check_number(key, key.name, member_as<double>(member), out);
     case Kind::count: return check_count(key, member_as<std::uint32_t>(member), out);
-    case Kind::text: return check_text(key, member_as<std::string>(member), out);
+    case Kind::maybe_number:
+        if (const auto& value = member_as<std::optional<double>>(member))
+            check_number(key, key.name, *value, out);
+        return;
+    case Kind::maybe_count:
+        if (const auto& value = member_as<std::optional<std::uint32_t>>(member))
+            check_count(key, *value, out);
+        return;
+    case Kind::option: return check_option(key, member, out);
     case Kind::vector: return check_vector(key, key.name, member_as<glm::dvec3>(member), out);
     case Kind::number_pair: return check_parts(key, member_as<glm::dvec2>(member), out);
     case Kind::count_pair: return check_parts(key, member_as<glm::uvec2>(member), out);
@@ -124,6 +137,7 @@ void check_key(const Key& key, const void* object, const Checker& out)
     case Kind::objects: return check_objects(key, member, out);
     case Kind::version:
     case Kind::boolean:
+    case Kind::text:
     case Kind::file:
     case Kind::counts:
     case Kind::texts:

@@ -83,9 +83,7 @@ void Checker::word(std::string_view member, const std::string& value,
 {
     if (std::find(known.begin(), known.end(), value) != known.end())
         return;
-    const std::string close = nearest(value, known);
-    error(member, "is \"" + value.substr(0, 60) + "\"; it must be " + listing(known) +
-                      (close.empty() || known.size() == 1 ? "" : " (did you mean \"" + close + "\"?)"));
+    error(member, unknown_word(value, known));
 }
 
 } // namespace taut::scene_file

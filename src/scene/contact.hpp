@@ -1,33 +1,29 @@
 #pragma once
 // How surfaces meet: the objects `contact` of a scene and of a body (docs/contact.md). Part of scene.hpp.
 
-#include <array>
+#include "taut/scene/options.hpp"
+
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace taut {
-
-/// How the coefficients of two surfaces that rub make one (TAUT_CONTACT_MIX_* of the kernels, in this order).
-inline constexpr std::array<std::string_view, 5> kFrictionMixes = {"mean", "minimum", "maximum", "product",
-                                                                   "geometric_mean"};
 
 /// How deformable surfaces meet each other. Two surfaces of radii r and s keep their middles r + s apart.
 struct SceneContact
 {
     bool between = false;  ///< different bodies meet; false = none does: no effect unless a body meets itself
-    double thickness = -1; ///< m, radius of all surfaces that give none; < 0 = each material's `thickness`
+    /// m, >= 0: radius of all surfaces that give none; without it each material's `thickness`.
+    std::optional<double> thickness;
     double friction = 0;   ///< Coulomb coefficient of all surfaces that give none, >= 0
-    std::string friction_mix = "mean"; ///< one of kFrictionMixes
-    std::uint32_t searches = 4;        ///< a time step, 1..1000: how often pairs that may meet are looked for
+    FrictionMix friction_mix = FrictionMix::mean;
+    std::uint32_t searches = 4; ///< a time step, 1..1000: how often pairs that may meet are looked for
     /// 1..100: over all pairs, after each iteration of the constraints; 0: automatic_sweeps(), put in by
     /// resolve()
     std::uint32_t sweeps = 0;
-    /// Surfaces that meet and cross at the start: "ignore" (they stay so), "refuse" (World throws), or
-    /// "separate": World takes them apart first, and what is nearer than its gap; throws where it cannot.
-    std::string start = "ignore";
-    std::string guarantee = "none"; ///< or "no_crossing": no pair that meets ever crosses (docs/contact.md)
+    ContactStart start = ContactStart::ignore;
+    Guarantee guarantee = Guarantee::none;
 };
 
 /// The same of one body's surface.
@@ -38,8 +34,8 @@ struct BodyContact
     /// Groups whose bodies do not meet this one, nor it them. Its own: bodies of the group do not meet each
     /// other. Whether a body meets itself is said by `self` alone.
     std::vector<std::string> passes;
-    double thickness = -1; ///< m, its radius; < 0 = as the scene says
-    double friction = -1;  ///< Coulomb coefficient; < 0 = as the scene says
+    std::optional<double> thickness; ///< m, >= 0: its radius; none given: as the scene says
+    std::optional<double> friction;  ///< >= 0: Coulomb coefficient; none given: as the scene says
 };
 
 /// Names of groups that the bodies of a scene may have between them.

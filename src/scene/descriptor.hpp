@@ -34,9 +34,12 @@ enum class Kind
 {
     number,       ///< double
     count,        ///< std::uint32_t
+    maybe_number, ///< std::optional<double>: none where the file has the key's word, or lacks the key
+    maybe_count,  ///< std::optional<std::uint32_t>, likewise
     version,      ///< int
     boolean,      ///< bool
     text,         ///< std::string
+    option,       ///< an enum with words (options.hpp)
     file,         ///< std::filesystem::path
     vector,       ///< glm::dvec3
     number_pair,  ///< glm::dvec2
@@ -79,6 +82,13 @@ using TypeTag = const void*;
 template <class T>
 inline constexpr char kTypeTag = 0;
 
+/// The value of an option by its place among the option's words.
+struct OptionAccess
+{
+    std::size_t (*get)(const void*) = nullptr;
+    void (*set)(void*, std::size_t) = nullptr;
+};
+
 /// How a list of objects grows and is walked.
 struct ListAccess
 {
@@ -100,10 +110,11 @@ struct Key
     const Table* solid_table = nullptr; ///< instead of `table` where `solids` says so
     bool (*solids)(const void*) = nullptr;
     ListAccess access;
+    OptionAccess option;
 
     std::string_view unit_text; ///< "kg/m^2"; in brackets what a number without a unit is: "(a strain)"
     Limits limits;
-    std::string_view word;  ///< text that stands for `word_value`
+    std::string_view word;  ///< text that stands for `word_value`, or for no value
     double word_value = 0;  ///< beyond `limits`, or else a number may say it, too
     bool has_unset = false; ///< `unset`: what the member is where a file says nothing, beyond `limits`
     double unset = 0;
@@ -144,6 +155,7 @@ struct Key
         key.word_value = value;
         return key;
     }
+    constexpr Key or_word(std::string_view text) const { return with(&Key::word, text); }
     constexpr Key unset_as(double value) const
     {
         Key key = *this;

@@ -35,7 +35,7 @@ double largest_bias(const FabricBending& bending)
 FabricRigidity fabric_rigidity(const FabricBending& bending, double nu)
 {
     const double warp = bending.warp, weft = bending.weft;
-    const bool strips = bending.bias_of == "strip";
+    const bool strips = bending.bias_of == BiasSpecimen::strip;
     const double held = strips ? 1 - nu * nu : 1;
     FabricRigidity out{warp / held, weft / held, 0, nu * std::sqrt(warp * weft) / held};
     const double even = 2 * (1 - nu) * std::sqrt(out.d11 * out.d22);

@@ -3,10 +3,9 @@
 // follow.
 
 #include "taut/scene/fabric_readings.hpp"
+#include "taut/scene/options.hpp"
 
 #include <glm/vec3.hpp>
-
-#include <string>
 
 namespace taut {
 
@@ -17,9 +16,7 @@ struct FabricBending
     double warp = 0;   ///< N m, where the warp yarns curve, > 0
     double weft = 0;   ///< N m, where the weft yarns curve, > 0
     double bias = 0; ///< N m, at 45 degrees to both; 0: as smooth as can be, (sqrt(warp) + sqrt(weft))^2 / 4
-    /// What `bias` was measured on: a narrow "strip" whose sides are free, as a cantilever is, or a wide
-    /// "sheet" that curves one way only, as between the clamps of KES-FB2.
-    std::string bias_of = "strip";
+    BiasSpecimen bias_of = BiasSpecimen::strip;
 };
 
 /// Moduli of a sheet per width: Pa times its thickness. Strains are those of warp and weft and the sine of
@@ -33,12 +30,11 @@ struct Fabric
     double bias = 0;   ///< N/m, Young's modulus at 45 degrees to the grain; 0: from `shear`
     double poissons_ratio =
         0; ///< across, of a strip that is pulled along the grain; its square < warp / weft
-    FabricBending bending;
-    KesReadings kes; ///< apply_readings() turns these three into the values above
-    FastReadings fast;
-    PeirceReadings peirce;
-    /// Where the warp lies: along `grain`, or along the second coordinate (v) of the mesh file's "texture".
-    std::string grain_of = "direction";
+    FabricBending bending = {};
+    KesReadings kes = {}; ///< apply_readings() turns these three into the values above
+    FastReadings fast = {};
+    PeirceReadings peirce = {};
+    GrainSource grain_of = GrainSource::direction;
     glm::dvec3 grain{0, 1, 0}; ///< along the warp, in the frame of the shape; projected onto each triangle
     double grain_degrees = 0;  ///< the warp is turned by this, counter-clockwise as triangles are
 };

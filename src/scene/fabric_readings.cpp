@@ -27,7 +27,7 @@ void apply_bending(Fabric& fabric, double warp, double weft, double bias = 0)
 {
     if (fabric.bending.used || !(warp > 0) || !(weft > 0))
         return;
-    fabric.bending = {true, warp, weft, bias, "strip"};
+    fabric.bending = {true, warp, weft, bias, BiasSpecimen::strip};
 }
 
 void apply_kes(const KesReadings& kes, Fabric& fabric)

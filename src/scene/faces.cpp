@@ -46,9 +46,9 @@ bool has_faces(ColliderKind kind)
 bool SurfaceRule::meets(const Collider& collider)
 {
     if (!has_faces(collider.kind) || body_.kinematic.used || body_.mesh.triangles.empty() ||
-        collider.meets == kMeetsVertices)
+        collider.meets == ColliderMeets::vertices)
         return false;
-    if (collider.meets == kMeetsSurface)
+    if (collider.meets == ColliderMeets::surface)
         return true;
     if (!hole_)
         hole_ = largest_hole(body_);

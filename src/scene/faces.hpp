@@ -5,14 +5,8 @@
 
 #include <array>
 #include <optional>
-#include <string_view>
 
 namespace taut {
-
-/// The words of Collider::meets.
-inline constexpr std::string_view kMeetsAutomatic = "automatic", kMeetsVertices = "vertices",
-                                  kMeetsSurface = "surface";
-inline constexpr std::array<std::string_view, 3> kMeets = {kMeetsAutomatic, kMeetsVertices, kMeetsSurface};
 
 /// Radius of the smallest ball round a triangle, m: what is less wide may pass between the corners.
 double hole_of(const std::array<glm::dvec3, 3>& triangle);
@@ -24,10 +18,10 @@ double largest_hole(const Body& body);
 /// points between the vertices of a triangle are not looked for in a distance field.
 bool has_faces(ColliderKind kind);
 
-/// Which colliders meet the surface of a body of a resolved scene. "automatic": where the collider could
-/// stand out between vertices that just do not touch it by a quarter of the largest hole and the body's
-/// thickness. That is the whole hole at an edge of a box, r - sqrt(r^2 - hole^2) of a ball or a capsule. Of
-/// kinematic bodies never. The body must outlive it.
+/// Which colliders meet the surface of a body of a resolved scene. ColliderMeets::automatic: where the
+/// collider could stand out between vertices that just do not touch it by a quarter of the largest hole and
+/// the body's thickness. That is the whole hole at an edge of a box, r - sqrt(r^2 - hole^2) of a ball or a
+/// capsule. Of kinematic bodies never. The body must outlive it.
 class SurfaceRule
 {
 public:

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 namespace taut::scene_file {
 namespace {
@@ -50,6 +51,12 @@ Json with_word(const Key& key, T value)
     if (!key.word.empty() && (double(value) == key.word_value || beyond))
         return key.word;
     return value;
+}
+
+template <class T>
+Json or_word(const Key& key, const std::optional<T>& value)
+{
+    return value ? Json(*value) : Json(key.word);
 }
 
 std::string range_of_numbers(const Key& key)
@@ -136,9 +143,16 @@ nlohmann::ordered_json value_of(const Key& key, const void* object)
     {
     case Kind::number: return with_word(key, member_as<double>(member));
     case Kind::count: return with_word(key, member_as<std::uint32_t>(member));
+    case Kind::maybe_number: return or_word(key, member_as<std::optional<double>>(member));
+    case Kind::maybe_count: return or_word(key, member_as<std::optional<std::uint32_t>>(member));
     case Kind::version: return member_as<int>(member);
     case Kind::boolean: return member_as<bool>(member);
     case Kind::text: return member_as<std::string>(member);
+    case Kind::option:
+    {
+        const std::size_t place = key.option.get(member);
+        return place < key.word_sets[0].words.size() ? Json(key.word_sets[0].words[place]) : Json();
+    }
     case Kind::file: return member_as<std::filesystem::path>(member).string();
     case Kind::vector: return parts_of(member_as<glm::dvec3>(member));
     case Kind::number_pair: return parts_of(member_as<glm::dvec2>(member));

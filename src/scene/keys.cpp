@@ -56,6 +56,13 @@ std::string nearest(std::string_view word, std::span<const std::string_view> can
     return best;
 }
 
+std::string unknown_word(std::string_view word, std::span<const std::string_view> known)
+{
+    const std::string close = nearest(word, known);
+    return "is \"" + std::string(word.substr(0, 60)) + "\"; it must be " + listing(known) +
+           (close.empty() || known.size() == 1 ? "" : " (did you mean \"" + close + "\"?)");
+}
+
 std::string listing(std::span<const std::string_view> words)
 {
     std::string out;

@@ -87,7 +87,7 @@ std::vector<SceneIssue> locking_issues(const Scene& resolved)
                                (incompressible ? " and a Poisson's ratio of " + shown(ratio, 3) : "") +
                                "; one that bends needs at least " + std::to_string(least) +
                                ", or is too stiff" + kSeen});
-        if (body.material.model == "springs")
+        if (body.material.model == SolidModel::springs)
             out.push_back({false, "bodies[" + std::to_string(b) + "].material.model",
                            std::string("is \"springs\", which are stiffer than youngs_modulus says however "
                                        "fine the mesh is") +

@@ -92,7 +92,7 @@ public:
     std::optional<glm::dvec3> of(std::size_t triangle, const Checker& out) const
     {
         const std::array<glm::dvec3, 3> x = corners(body_.mesh, triangle);
-        const bool texture = fabric_.grain_of == "texture";
+        const bool texture = fabric_.grain_of == GrainSource::texture;
         const std::optional<glm::dvec3> along = texture ? by_texture(triangle, x, out) : direction_;
         if (!along)
             return {};

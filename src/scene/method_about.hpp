@@ -13,8 +13,8 @@ struct MethodAbout
     bool has_page = true;  ///< docs/methods/NAME.md
 };
 
-/// In the order of kMethodNames.
-inline constexpr std::array<MethodAbout, kMethodNames.size()> kMethodAbout = {{
+/// In the order of MethodKind.
+inline constexpr std::array<MethodAbout, kWords<MethodKind>.size()> kMethodAbout = {{
     {"nothing: forces act before the guess"},
     {"Newton steps on the incremental potential, each a linear solve on the device"},
     {"all springs together, as one linear system"},

@@ -3,6 +3,9 @@
 #include "taut/scene/key_text.hpp"
 #include "taut/scene/keys.hpp"
 
+#include <algorithm>
+#include <optional>
+
 namespace taut::scene_file {
 namespace {
 
@@ -12,11 +15,16 @@ T& as(void* member)
     return *static_cast<T*>(member);
 }
 
+bool is_word(const Field& value, const Key& key)
+{
+    return !key.word.empty() && value.is_text() && value.text() == key.word;
+}
+
 double read_number(const Field& value, const Key& key)
 {
     if (key.word.empty())
         return value.number();
-    if (value.is_text() && value.text() == key.word)
+    if (is_word(value, key))
         return key.word_value;
     if (value.is_text())
         value.refuse("it must be a number" +
@@ -43,10 +51,10 @@ std::uint32_t read_count(const Field& value, const Key& key)
     if (key.word.empty())
         return value.count(right);
     right += ", or \"" + std::string(key.word) + '"';
-    if (value.is_text() && value.text() == key.word)
+    if (is_word(value, key))
         return static_cast<std::uint32_t>(key.word_value);
     const std::uint32_t count = value.count(right);
-    if (key.limits.too_low(count) || (count == key.word_value && !key.limits.contains(count)))
+    if (key.limits.too_low(count))
         value.refuse(right); // the word stands for a count that nobody may write
     return count;
 }
@@ -84,15 +92,34 @@ void read_objects(const Field& value, const Key& key, void* list)
     value.each([&](const Field& element) { read_table(element, *key.table, key.access.append(list)); });
 }
 
+void read_option(const Field& value, const Key& key, void* member)
+{
+    const std::span<const std::string_view> words = key.word_sets[0].words;
+    const std::string word = value.text();
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end())
+        value.fail(unknown_word(word, words));
+    key.option.set(member, static_cast<std::size_t>(found - words.begin()));
+}
+
 void read_value(const Field& value, const Key& key, void* member)
 {
     switch (key.kind)
     {
     case Kind::number: as<double>(member) = read_number(value, key); return;
     case Kind::count: as<std::uint32_t>(member) = read_count(value, key); return;
+    case Kind::maybe_number:
+        as<std::optional<double>>(member) =
+            is_word(value, key) ? std::nullopt : std::optional(read_number(value, key));
+        return;
+    case Kind::maybe_count:
+        as<std::optional<std::uint32_t>>(member) =
+            is_word(value, key) ? std::nullopt : std::optional(read_count(value, key));
+        return;
     case Kind::version: as<int>(member) = static_cast<int>(value.count()); return;
     case Kind::boolean: as<bool>(member) = value.boolean(); return;
     case Kind::text: as<std::string>(member) = value.text(); return;
+    case Kind::option: return read_option(value, key, member);
     case Kind::file: as<std::filesystem::path>(member) = value.text(); return;
     case Kind::vector: as<glm::dvec3>(member) = value.vector(); return;
     case Kind::number_pair:

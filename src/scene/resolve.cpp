@@ -77,11 +77,11 @@ Mesh make_mesh(const Shape& shape, const std::filesystem::path& directory, const
     {
     case ShapeKind::grid:
         return make_grid(shape.cells.x, shape.cells.y, shape.size.x, shape.size.y,
-                         shape.diagonals == "alternating");
+                         shape.diagonals == Diagonals::alternating);
     case ShapeKind::chain: return make_chain(shape.links, shape.length, shape.width);
     case ShapeKind::box:
         return make_box({shape.box_cells.x, shape.box_cells.y, shape.box_cells.z}, shape.box_size,
-                        shape.split == "five");
+                        shape.split == BoxSplit::five);
     case ShapeKind::ball: return make_ball(shape.ball_cells, shape.radius);
     case ShapeKind::mesh:
     case ShapeKind::tetrahedra: break;
@@ -372,7 +372,7 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
         resolve_body(body, scene.directory, at);
         if (any_error(issues)) // pins may name what is not there
             continue;
-        scene_file::check_size(body, scene.method.precision == "double", at);
+        scene_file::check_size(body, scene.method.precision == Precision::float64, at);
         if (body.kinematic.used)
         {
             attempt("kinematic.sequence.file", at,

@@ -4,6 +4,7 @@
 
 #include "taut/scene/descriptor.hpp"
 
+#include <optional>
 #include <utility>
 
 namespace taut::scene_file {
@@ -48,12 +49,18 @@ constexpr Kind kind_of()
         return Kind::number;
     else if constexpr (std::is_same_v<T, std::uint32_t>)
         return Kind::count;
+    else if constexpr (std::is_same_v<T, std::optional<double>>)
+        return Kind::maybe_number;
+    else if constexpr (std::is_same_v<T, std::optional<std::uint32_t>>)
+        return Kind::maybe_count;
     else if constexpr (std::is_same_v<T, int>)
         return Kind::version;
     else if constexpr (std::is_same_v<T, bool>)
         return Kind::boolean;
     else if constexpr (std::is_same_v<T, std::string>)
         return Kind::text;
+    else if constexpr (Option<T>)
+        return Kind::option;
     else if constexpr (std::is_same_v<T, std::filesystem::path>)
         return Kind::file;
     else if constexpr (std::is_same_v<T, glm::dvec3>)
@@ -79,8 +86,8 @@ constexpr Kind kind_of()
 
 constexpr bool counts(Kind kind)
 {
-    return kind == Kind::count || kind == Kind::count_pair || kind == Kind::count_triple ||
-           kind == Kind::counts || kind == Kind::version;
+    return kind == Kind::count || kind == Kind::maybe_count || kind == Kind::count_pair ||
+           kind == Kind::count_triple || kind == Kind::counts || kind == Kind::version;
 }
 
 template <class Owner>
@@ -119,6 +126,16 @@ constexpr Key key(std::string_view name, std::string_view what)
     out.at = [](void* object) -> void* {
         return &detail::reach<First, More...>(*static_cast<Owner*>(object));
     };
+    if constexpr (Option<Value>)
+    {
+        out.word_sets[0].words = words_of<Value>();
+        out.option.get = [](const void* member) {
+            return static_cast<std::size_t>(*static_cast<const Value*>(member));
+        };
+        out.option.set = [](void* member, std::size_t place) {
+            *static_cast<Value*>(member) = static_cast<Value>(place);
+        };
+    }
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include "taut/scene/embed.hpp"
 #include "taut/scene/fabric.hpp"
 #include "taut/scene/mesh.hpp"
+#include "taut/scene/options.hpp"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,15 +31,13 @@ struct Material
     double stretch_stiffness = 1e4; ///< N/m, membrane modulus E*thickness; 0 = no stretch effect; inf = rigid
     Fabric fabric;                  ///< cloth by its yarns; stretch_stiffness must be 0 beside it
     double bending_stiffness = 0;   ///< N m, plate rigidity; 0 = no bending effect, or fabric.bending
-    /// Of cloth that bends: "hinge", one at each edge by itself, or "plate", hinges whose triangles couple
-    /// them, which converges to a plate on every mesh (docs/effects/plate.md).
-    std::string bending_model = "hinge";
+    BendingModel bending_model = BendingModel::hinge; ///< of cloth that bends (docs/effects/plate.md)
     double bending_poissons_ratio = 0; ///< of a plate, (-1, 1): how far it curves across where it is bent
     double thickness = 0.001;       ///< m, gap kept from colliders, >= 0
     double stretch_damping = 0;     ///< s, >= 0: a spring of stiffness k has the damper k * stretch_damping
     double strain_limit = 0;        ///< (l - L)/L that no spring may pass, >= 0; 0 = no strain_limit effect
-    /// Long-range attachments: no vertex further from its pin than (1 + slack) times at rest; < 0 = none.
-    double attachment_slack = -1;
+    /// Long-range attachments: no vertex further from its pin than (1 + slack) times at rest; slack >= 0.
+    std::optional<double> attachment_slack;
     double tear_strain = 0;   ///< (l - L)/L at which cloth tears, >= 0; 0 = no tearing effect
     double drag = 0;          ///< of a triangle along its normal in the wind, >= 0; 0 = no wind effect
     double friction_drag = 0; ///< the same across its normal (skin friction), >= 0
@@ -47,8 +47,7 @@ struct Material
     double volume_stiffness = 0;
     /// Pa: by how much the gas within presses more than the air outside, at the rest volume; 0 = no effect.
     double pressure = 0;
-    /// "constant", or "isothermal": the pressure falls as V0 / V where the body swells.
-    std::string pressure_law = "constant";
+    PressureLaw pressure_law = PressureLaw::constant;
     /// Strain beyond which springs and tetrahedra keep a part of it, >= 0; 0 = no plasticity effect.
     double plastic_yield = 0;
     double plastic_creep = 10; ///< 1/s, > 0: the rate at which strain beyond the yield stays; inf = at once
@@ -57,12 +56,8 @@ struct Material
     // Solids: tetrahedra. stretch_stiffness is not theirs.
     double youngs_modulus = 0;   ///< Pa, > 0 in solids
     double poissons_ratio = 0.3; ///< (-1, 0.5)
-    /// "neo_hookean": stable neo-Hookean tetrahedra, "neo_hookean_simple": without the logarithm that keeps
-    /// them from collapsing to a point (plan/solid.hpp); "springs": springs along the edges, and constraints
-    /// of volume beside them.
-    std::string model = "neo_hookean";
-    /// What springs hold: the volume of each of the "tetrahedra", or the one within the "surface".
-    std::string volume = "tetrahedra";
+    SolidModel model = SolidModel::neo_hookean;
+    HeldVolume volume = HeldVolume::tetrahedra; ///< of SolidModel::springs
 };
 
 /// Defaults of bodies with tetrahedra: soft rubber.
@@ -180,9 +175,8 @@ struct Shape
     /// grid: cells along x and along -y in the plane z = 0, centred at the origin; the row y = +h/2 is "top".
     glm::uvec2 cells{32, 32}; ///< >= 1 each
     glm::dvec2 size{1, 1};    ///< m
-    /// grid: how quads are cut: "alternating" (union-jack) or "uniform" (one direction)
-    std::string diagonals = "alternating";
-    SpringNetwork network; ///< grid
+    Diagonals diagonals = Diagonals::alternating; ///< grid
+    SpringNetwork network;                        ///< grid
     /// chain: links along -y from the origin, `length` metres in all, each carrying a strip of `width`.
     std::uint32_t links = 10;   ///< >= 0 (0 = one free particle)
     double length = 1;          ///< m
@@ -191,9 +185,9 @@ struct Shape
     double weld_distance = 0;   ///< mesh: vertices this close become one, m in file units; < 0 = keep all
     glm::uvec3 box_cells{4, 4, 4}; ///< box: cells along x, y, z, >= 1 each; centred at the origin
     glm::dvec3 box_size{1, 1, 1};  ///< box: m
-    std::string split = "five";    ///< box: tetrahedra a cell, "five" (mirrored by turns) or "six" (Kuhn's)
-    std::uint32_t ball_cells = 8;  ///< ball: cells along a diameter, >= 2
-    double radius = 0.5;           ///< ball: m
+    BoxSplit split = BoxSplit::five; ///< box
+    std::uint32_t ball_cells = 8;    ///< ball: cells along a diameter, >= 2
+    double radius = 0.5;             ///< ball: m
 };
 
 struct Body
@@ -263,34 +257,27 @@ struct Collider
     double field_scale = 1;           ///< > 0
     std::shared_ptr<const DistanceField> field;
     double friction = 0; ///< Coulomb coefficient, >= 0; 0 = no friction effect
-    std::string meets = "automatic"; ///< "vertices" of bodies, or their "surface": faces.hpp
+    ColliderMeets meets = ColliderMeets::automatic;
     std::vector<Keyframe> motion;
     /// Set by a World whose program moves the collider: `motion` is then that of the last step alone, and the
     /// last key is where it is.
     bool moved_by_program = false;
 };
 
-/// The words of MethodSettings::type.
-inline constexpr std::array<std::string_view, 7> kMethodNames = {
-    "mass_spring", "implicit_euler", "implicit_constraints", "acad", "pbd", "xpbd", "vbd"};
-
 inline constexpr std::uint32_t kMostSubsteps = 1000; ///< of a time step
 /// How a step advances. docs/methods.md says which method reads which setting.
 struct MethodSettings
 {
-    std::string type = "xpbd";
+    MethodKind type = MethodKind::xpbd;
     std::uint32_t substeps = 0; ///< per time step, 1..1000; 0: automatic_substeps(), put in by resolve()
     /// Per substep, 1..1000: sweeps (pbd, xpbd, vbd), Newton steps (implicit_euler), linear solves, each at
     /// the places that the one before led to (implicit_constraints, acad).
     std::uint32_t iterations = 1;
-    std::string precision = "float"; ///< or "double"
+    Precision precision = Precision::float32;
 
-    std::string integrator = "semi_implicit"; ///< mass_spring: or "explicit", "verlet"
-    /// mass_spring, acad: beyond the stable step "refuse", take more substeps ("substep"), or "ignore" it.
-    std::string stability = "refuse";
-    /// mass_spring: "node_centric" (gather), "spring_centric" (slots); pbd: "coloured" (Gauss-Seidel),
-    /// "node_centric", "constraint_centric" (both Jacobi); "automatic": the first of them.
-    std::string scheme = "automatic";
+    Integrator integrator = Integrator::semi_implicit;
+    StabilityRule stability = StabilityRule::refuse;
+    ElementScheme scheme = ElementScheme::automatic;
     double stretch = 1;    ///< pbd: stiffness of springs in [0, 1], whatever the number of iterations
     double bend = 1;       ///< pbd: of hinges
     double volume = 1;     ///< pbd: of the volumes of tetrahedra
@@ -298,21 +285,21 @@ struct MethodSettings
 
     std::uint32_t linear_iterations = 100; ///< implicit_*, acad: of conjugate gradients a solve, 1..100000
     double linear_tolerance = 1e-5;        ///< of |residual| / |right-hand side|, (0, 1)
-    std::string linear_operator = "assembled";   ///< or "matrix_free"
-    std::string preconditioner = "block_jacobi"; ///< implicit_euler: or "two_level" (of what is assembled)
+    LinearOperator linear_operator = LinearOperator::assembled;
+    NewtonPreconditioner preconditioner = NewtonPreconditioner::block_jacobi;
     /// implicit_euler, 0..16: a Newton step that would raise the incremental potential is halved so often.
-    std::uint32_t line_search = ~0u; ///< ~0u: "automatic", 16 where a body has tetrahedra, else 2
+    std::optional<std::uint32_t> line_search; ///< none given: 16 where a body has tetrahedra, else 2
 
-    std::string constrained = "all";    ///< implicit_constraints, acad: or "structural"; others stay springs
-    double constraint_compliance = -1;  ///< m/N, >= 0; < 0: each spring's own ("material")
-    double activate_strain = 0.05;      ///< acad: (l - L)/L beyond which a spring becomes a constraint, > 0
-    double release_strain = 0.05;       ///< acad: below which it is a spring again, at most activate_strain
-    std::string release = "multiplier"; ///< acad: by the multiplier's sign, or by "strain"
-    std::string target = "threshold";   ///< acad: length L(1 + activate_strain), or "rest": L
+    ConstrainedSprings constrained = ConstrainedSprings::all;
+    std::optional<double> constraint_compliance; ///< m/N, >= 0; none given: each spring's own
+    double activate_strain = 0.05; ///< acad: (l - L)/L beyond which a spring becomes a constraint, > 0
+    double release_strain = 0.05;  ///< acad: below which it is a spring again, at most activate_strain
+    ReleaseRule release = ReleaseRule::multiplier;
+    ConstraintTarget target = ConstraintTarget::threshold;
     bool compress = false; ///< acad: likewise below L(1 - activate_strain); then activate_strain < 1
 
-    std::string start = "adaptive"; ///< vbd: or "inertial", "previous"
-    double spectral_radius = 0;     ///< vbd, pbd (Jacobi): Chebyshev acceleration, [0, 1); 0 = none
+    SweepStart start = SweepStart::adaptive;
+    double spectral_radius = 0; ///< vbd, pbd (Jacobi): Chebyshev acceleration, [0, 1); 0 = none
 };
 
 /// Air that cloth moves in. Without density there is no wind effect.

@@ -73,11 +73,14 @@ Json value_schema(const Key& key)
 {
     switch (key.kind)
     {
-    case Kind::number: return or_word(number_schema(key, false), key);
-    case Kind::count: return or_word(number_schema(key, true), key);
+    case Kind::number:
+    case Kind::maybe_number: return or_word(number_schema(key, false), key);
+    case Kind::count:
+    case Kind::maybe_count: return or_word(number_schema(key, true), key);
     case Kind::version: return {{"const", tidy(key.limits.low)}};
     case Kind::boolean: return {{"type", "boolean"}};
     case Kind::text:
+    case Kind::option:
     case Kind::file:
     case Kind::ignored: return text_schema(key);
     case Kind::vector: return list_schema(number_schema(key, false), 3);
@@ -113,9 +116,11 @@ std::string description(const Key& key)
     if (!unit_of(key).empty())
         out += " [" + std::string(unit_of(key)) + ']';
     std::string readers;
-    for (std::size_t k = 0; key.readers != 0 && key.readers != kAllMethods && k < kMethodNames.size(); ++k)
+    for (std::size_t k = 0; key.readers != 0 && key.readers != kAllMethods && k < kWords<MethodKind>.size();
+         ++k)
         if (key.readers & only(static_cast<MethodKind>(k)))
-            readers += (readers.empty() ? " (read by " : ", ") + std::string(kMethodNames[k]);
+            readers +=
+                (readers.empty() ? " (read by " : ", ") + std::string(to_string(static_cast<MethodKind>(k)));
     return out + (readers.empty() ? "" : readers + ')');
 }
 

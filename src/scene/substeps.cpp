@@ -223,7 +223,7 @@ double longest_for_push(const Scene& scene, const Body& body, const SweepLoad& l
     const bool spanned = is_spanned(body, push);
     const double pull = spanned ? 1 : swing_pull(body, push / g);
     const double open = 2 * std::max(load.vertices, 1.0) * pull * g; // m/s^2: see "Based on"
-    const bool sweeps = scene.method.type != "vbd"; // whose steps at a vertex see all its triangles
+    const bool sweeps = scene.method.type != MethodKind::vbd; // whose steps at a vertex see all its triangles
     const auto is_membrane = [](const Body::Elements& e) { return e.kind == scene_file::kMembrane; };
     const bool membrane = std::any_of(body.elements.begin(), body.elements.end(), is_membrane);
     const double sag = spanned && sweeps ? 8.0 / 3 * kSeenWay * kSeenWay : 1;
@@ -244,7 +244,7 @@ double longest_for_pressure(const Scene& scene, const Body& body, const SweepLoa
     const double radius = all.size() / (2 * std::sqrt(3.0)); // of a ball in that box
     const double vertices = std::max(1.0, radius / (2 * load.edge));
     const double carried = std::sqrt(kSweepStrain * load.edge / (2 * vertices * force / mass));
-    if (scene.method.type != "xpbd" || !body.mesh.tetrahedra.empty())
+    if (scene.method.type != MethodKind::xpbd || !body.mesh.tetrahedra.empty())
         return carried;
     const double stiffness = wave_speed_squared(body) * body.material.density; // N/m; 0: rigid
     const bool buckles = stiffness > 0 && -body.material.pressure * radius / 2 > kPressed * stiffness;
@@ -317,30 +317,31 @@ double longest_for_bending(const Body& body, const SweepLoad& load, const glm::d
 /// s: the longest substep that a body allows.
 double longest_substep(const Scene& scene, const Body& body, double g)
 {
-    const std::string& method = scene.method.type;
+    const MethodKind method = scene.method.type;
     const SweepLoad load = sweep_load(body);
     if (!(load.edge > 0) || body.kinematic.used) // whose vertices are all led
         return HUGE_VAL;
     const double sweeps = std::sqrt(scene.method.iterations);
     const double gas =
-        method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
+        method == MethodKind::implicit_euler ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
     const double carried = // whatever gravity does
-        method == "vbd"    ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
-        : method == "xpbd" ? std::min({gas, sweeps * longest_for_flow(body, load),
-                                       sweeps * longest_for_drawn(scene, body, load)})
-                           : gas;
-    const double blown = method == "implicit_euler" ? HUGE_VAL : sweeps * longest_for_wind(scene, body, load);
+        method == MethodKind::vbd    ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
+        : method == MethodKind::xpbd ? std::min({gas, sweeps * longest_for_flow(body, load),
+                                                 sweeps * longest_for_drawn(scene, body, load)})
+                                     : gas;
+    const double blown =
+        method == MethodKind::implicit_euler ? HUGE_VAL : sweeps * longest_for_wind(scene, body, load);
     if (!(g > 0))
         return std::min(carried, blown);
     const bool meets = !scene.colliders.empty() || scene.contact.between;
     const double standing = meets ? longest_for_standing(body, load, scene.gravity) : HUGE_VAL;
-    if (method == "implicit_euler")
+    if (method == MethodKind::implicit_euler)
         return standing;
     const double weight = sweeps * longest_for_push(scene, body, load, scene.gravity);
     const double all = std::min({carried, blown, weight});
-    if (method == "vbd") // whose contacts come once a substep, whatever the sweeps
+    if (method == MethodKind::vbd) // whose contacts come once a substep, whatever the sweeps
         return std::min(all, standing);
-    if (method == "pbd")
+    if (method == MethodKind::pbd)
         return all;
     return std::min(all, sweeps * std::min({longest_for_solid(body, load, g), standing,
                                             longest_for_bending(body, load, scene.gravity)}));
@@ -377,10 +378,11 @@ bool is_spanned(const Body& body, const glm::dvec3& push)
 
 double wanted_substeps(const Scene& scene)
 {
-    const std::string& method = scene.method.type;
+    const MethodKind method = scene.method.type;
     const double g = glm::length(scene.gravity);
     double most = kLeastSubsteps;
-    if (method == "xpbd" || method == "pbd" || method == "vbd" || method == "implicit_euler")
+    if (method == MethodKind::xpbd || method == MethodKind::pbd || method == MethodKind::vbd ||
+        method == MethodKind::implicit_euler)
         for (const Body& body : scene.bodies)
             most = std::max(most, std::ceil(scene.timestep / longest_substep(scene, body, g)));
     return most;

@@ -56,9 +56,9 @@ std::string methods()
 {
     std::string out =
         "| `type` | what corrects the inertial guess | settings that it reads |\n|---|---|---|\n";
-    for (std::size_t k = 0; k < kMethodNames.size(); ++k)
+    for (std::size_t k = 0; k < kWords<MethodKind>.size(); ++k)
     {
-        const std::string name(kMethodNames[k]);
+        const std::string name(kWords<MethodKind>[k]);
         const MethodAbout& about = kMethodAbout[k];
         std::string settings;
         for (const Key& key : kMethodTable.keys)

@@ -47,7 +47,6 @@ constexpr Key kCollider[] = {
                           "what of a body it pushes: its vertices, or points of its triangles, too, so that "
                           "nothing comes through between vertices; \"automatic\": triangles, too, where it "
                           "could stand out by a quarter of the largest hole between vertices")
-        .words(kMeets)
         .see("which", "contact.md#colliders-and-triangles"),
     list<&Collider::motion>("motion", "how it moves", kKeyframeTable),
 };

@@ -33,7 +33,6 @@ void read_preset(const Field& fabric, Fabric& out)
 }
 
 constexpr std::string_view kPresetOr = "needed without `preset`, `kes` or `fast`";
-constexpr std::string_view kGrains[] = {"direction", "texture"};
 
 bool has_bending(const Fabric& fabric) { return fabric.bending.used; }
 bool has_kes(const Fabric& fabric) { return fabric.kes.used; }
@@ -84,8 +83,7 @@ constexpr Key kFabric[] = {
     object<&Fabric::peirce>("peirce", "bending by the overhangs of the cantilever test", kPeirceTable)
         .when<has_peirce>(),
     key<&Fabric::grain_of>("grain_of", "where the warp lies: along `grain`, or along the second texture "
-                                       "coordinate (v) of the mesh file")
-        .words(kGrains),
+                                       "coordinate (v) of the mesh file"),
     key<&Fabric::grain>("grain", "along the warp, in the frame of the shape; projected onto each triangle")
         .direction(),
     key<&Fabric::grain_degrees>("grain_degrees",

@@ -14,18 +14,16 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kBulkModulus = -1; ///< Material::volume_stiffness of solids: by the other two stiffnesses
 
-constexpr std::string_view kLaws[] = {"constant", "isothermal"};
-constexpr std::string_view kModels[] = {"neo_hookean", "neo_hookean_simple", "springs"};
-constexpr std::string_view kVolumes[] = {"tetrahedra", "surface"};
-
 // Rows that both have.
 constexpr Key kThickness =
     key<&Material::thickness>("thickness", "the gap that is kept from colliders").unit("m").at_least(0);
 constexpr Key kSlack =
     key<&Material::attachment_slack>("attachment_slack",
                                      "no vertex goes further from its pin than (1 + this) of the distance at "
-                                     "rest; negative: no attachment effect")
-        .unit("(of the rest distance)");
+                                     "rest; \"none\": no attachment effect")
+        .unit("(of the rest distance)")
+        .at_least(0)
+        .or_word("none");
 constexpr Key kFrictionDrag =
     key<&Material::friction_drag>("friction_drag", "of triangles across their normal")
         .unit("(a coefficient)")
@@ -36,10 +34,8 @@ constexpr Key kPressure =
                     "the rest volume; negative: it sucks; 0: no pressure effect; not with `tear_strain`")
         .unit("Pa")
         .see("pressure", "effects/pressure.md");
-constexpr Key kPressureLaw =
-    key<&Material::pressure_law>("pressure_law",
-                                 "the pressure stays, or falls as the volume at rest over the volume")
-        .words(kLaws);
+constexpr Key kPressureLaw = key<&Material::pressure_law>(
+    "pressure_law", "the pressure stays, or falls as the volume at rest over the volume");
 constexpr Key kCreep =
     key<&Material::plastic_creep>("plastic_creep",
                                   "the rate at which strain beyond the yield stays; \"at once\": all of it")
@@ -48,7 +44,6 @@ constexpr Key kCreep =
         .or_word("at once", kUnbounded);
 constexpr Key kPlasticLimit =
     key<&Material::plastic_limit>("plastic_limit", "strain that may stay in all").unit("(a strain)").above(0);
-constexpr std::string_view kBendingModels[] = {"hinge", "plate"};
 
 constexpr Key kDensity = key<&Material::density>("density", "mass of an area").above(0);
 
@@ -92,7 +87,6 @@ constexpr Key kMaterial[] = {
     key<&Material::bending_model>("bending_model",
                                   "hinges that know nothing of each other, or hinges coupled within "
                                   "triangles, which converge to a plate; under xpbd")
-        .words(kBendingModels)
         .see("plate", "effects/plate.md"),
     key<&Material::bending_poissons_ratio>("bending_poissons_ratio",
                                            "of a plate: how far it curves across where it is bent")
@@ -146,7 +140,6 @@ constexpr Key kSolidMaterial[] = {
                           "stable neo-Hookean tetrahedra, with or without the logarithm that keeps them "
                           "from collapsing to a point, or springs along the edges with constraints of "
                           "volume")
-        .words(kModels)
         .see("solids.md", "solids.md"),
     key<&Material::volume_stiffness>(
         "volume_stiffness",
@@ -160,7 +153,6 @@ constexpr Key kSolidMaterial[] = {
     key<&Material::volume>("volume",
                            "springs: what the constraints hold, the volume of each tetrahedron or the "
                            "one within the surface")
-        .words(kVolumes)
         .see("surface_volume", "effects/surface_volume.md"),
     key<&Material::bending_stiffness>("bending_stiffness", "of the surface, as a plate; 0: no bending effect")
         .unit("N m")

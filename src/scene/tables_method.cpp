@@ -13,18 +13,6 @@ constexpr MethodSet kMassSpring = only(MethodKind::mass_spring), kEuler = only(M
 constexpr MethodSet kConstraints = only(MethodKind::implicit_constraints) | kAcad;
 constexpr MethodSet kSolvers = kEuler | kConstraints;
 
-constexpr std::string_view kPrecisions[] = {"float", "double"};
-constexpr std::string_view kIntegrators[] = {"semi_implicit", "explicit", "verlet"};
-constexpr std::string_view kStabilities[] = {"refuse", "substep", "ignore"};
-constexpr std::string_view kSchemes[] = {"automatic", "node_centric", "spring_centric", "coloured",
-                                         "constraint_centric"};
-constexpr std::string_view kOperators[] = {"assembled", "matrix_free"};
-constexpr std::string_view kPreconditioners[] = {"block_jacobi", "two_level"};
-constexpr std::string_view kConstrained[] = {"all", "structural"};
-constexpr std::string_view kReleases[] = {"multiplier", "strain"};
-constexpr std::string_view kTargets[] = {"threshold", "rest"};
-constexpr std::string_view kStarts[] = {"adaptive", "inertial", "previous"};
-
 /// A scene that names one strain has it for both ways.
 void read_release_strain(const Field& method, MethodSettings& out)
 {
@@ -34,7 +22,7 @@ void read_release_strain(const Field& method, MethodSettings& out)
 }
 
 constexpr Key kMethod[] = {
-    key<&MethodSettings::type>("type", "the method").words(kMethodNames),
+    key<&MethodSettings::type>("type", "the method"),
     key<&MethodSettings::substeps>("substeps", "parts of a time step; the main price of accuracy")
         .range(1, kMostSubsteps)
         .or_word("automatic", 0)
@@ -45,23 +33,20 @@ constexpr Key kMethod[] = {
                       "(implicit_constraints, acad), solves for the volume within surfaces (mass_spring)")
         .range(1, 1000)
         .read_by(kAllMethods),
-    key<&MethodSettings::precision>("precision", "the arithmetic of the kernels").words(kPrecisions),
+    key<&MethodSettings::precision>("precision", "the arithmetic of the kernels"),
     // implicit_constraints and acad refuse what is not "semi_implicit".
     key<&MethodSettings::integrator>("integrator",
                                      "mass_spring: how time advances; implicit_constraints, acad: "
                                      "only \"semi_implicit\"")
-        .words(kIntegrators)
         .read_by(kMassSpring | kConstraints),
     key<&MethodSettings::stability>(
         "stability",
         "mass_spring, acad, implicit_constraints with springs that stay forces: beyond the stable "
         "step refuse, take more substeps, or go on")
-        .words(kStabilities)
         .read_by(kMassSpring | kConstraints),
     key<&MethodSettings::scheme>("scheme",
                                  "mass_spring: vertices gather, or springs write slots; pbd: colours "
                                  "(Gauss-Seidel), or Jacobi by vertices or constraints")
-        .words(kSchemes)
         .read_by(kMassSpring | kPbd),
     key<&MethodSettings::stretch>("stretch", "pbd: stiffness of springs, whatever the number of iterations")
         .range(0, 1)
@@ -86,30 +71,27 @@ constexpr Key kMethod[] = {
     // acad's rows are never assembled.
     key<&MethodSettings::linear_operator>("linear_operator",
                                           "the matrix is assembled, or its product formed from the springs")
-        .words(kOperators)
         .read_by(kEuler | only(MethodKind::implicit_constraints)),
     key<&MethodSettings::preconditioner>(
         "preconditioner",
         "implicit_euler: of conjugate gradients: blocks of single vertices, or these and the "
         "translations of aggregates of vertices, which stiff and large bodies want")
-        .words(kPreconditioners)
         .read_by(kEuler),
     key<&MethodSettings::line_search>(
         "line_search", "implicit_euler: so often a Newton step is halved that would raise the incremental "
                        "potential; 0: it is taken as it is")
         .range(0, 16)
-        .or_word("automatic", ~0u)
+        .or_word("automatic")
         .usually("\"automatic\": 16 where a body has tetrahedra, else 2")
         .read_by(kEuler),
     key<&MethodSettings::constrained>("constrained", "implicit_constraints, acad: which springs may be "
                                                      "constraints; the others stay springs")
-        .words(kConstrained)
         .read_by(kConstraints),
     key<&MethodSettings::constraint_compliance>(
         "constraint_compliance", "of the constraints; 0 is rigid; \"material\": each spring's own")
         .unit("m/N")
         .at_least(0)
-        .or_word("material", -1)
+        .or_word("material")
         .read_by(kConstraints),
     key<&MethodSettings::activate_strain>("activate_strain",
                                           "acad: a spring longer by this share becomes a constraint")
@@ -123,16 +105,14 @@ constexpr Key kMethod[] = {
         .usually("`activate_strain`")
         .ranges("0 to `activate_strain`"),
     key<&MethodSettings::release>("release", "acad: a constraint ends by its multiplier's sign, or by strain")
-        .words(kReleases)
         .read_by(kAcad),
     key<&MethodSettings::target>("target",
                                  "acad: the constraint's length: that of the threshold, or the rest length")
-        .words(kTargets)
         .read_by(kAcad),
     key<&MethodSettings::compress>("compress",
                                    "acad: a spring shorter by `activate_strain` becomes a constraint, too")
         .read_by(kAcad),
-    key<&MethodSettings::start>("start", "vbd: where a substep's sweeps begin").words(kStarts).read_by(kVbd),
+    key<&MethodSettings::start>("start", "vbd: where a substep's sweeps begin").read_by(kVbd),
     key<&MethodSettings::spectral_radius>("spectral_radius", "vbd, pbd: of Chebyshev acceleration; 0: none")
         .at_least(0)
         .below(1)

@@ -6,7 +6,6 @@
 namespace taut::scene_file {
 namespace {
 
-constexpr std::string_view kMeasuredOn[] = {"strip", "sheet"};
 constexpr std::string_view kPair = "[warp, weft]";
 
 void begin_bending(FabricBending& bending) { bending.used = true; }
@@ -23,8 +22,7 @@ constexpr Key kBending[] = {
         .usually("(√`warp` + √`weft`)² / 4"),
     key<&FabricBending::bias_of>("bias_of",
                                  "what `bias` was measured on: a narrow strip with free sides, as of a "
-                                 "cantilever, or a wide sheet that curves one way only, as of KES-FB2")
-        .words(kMeasuredOn),
+                                 "cantilever, or a wide sheet that curves one way only, as of KES-FB2"),
 };
 
 constexpr Key kKes[] = {

@@ -99,9 +99,6 @@ constexpr Key kWindKey[] = {
     key<&Wind::Key::velocity>("velocity", "of the air at that time").unit("m/s").needed(),
 };
 
-constexpr std::string_view kContactStarts[] = {"ignore", "refuse", "separate"};
-constexpr std::string_view kGuarantees[] = {"none", "no_crossing"};
-
 constexpr Key kContact[] = {
     key<&SceneContact::between>("between", "different bodies meet; bodies say themselves whether they meet "
                                            "themselves"),
@@ -109,11 +106,10 @@ constexpr Key kContact[] = {
                                                "keep the sum of theirs apart; \"material\": its `thickness`")
         .unit("m")
         .at_least(0)
-        .or_word("material", -1),
+        .or_word("material"),
     key<&SceneContact::friction>("friction", "Coulomb coefficient of every surface whose body gives none")
         .at_least(0),
     key<&SceneContact::friction_mix>("friction_mix", "what the coefficients of two surfaces that rub make")
-        .words(kFrictionMixes)
         .see("which", "contact.md#what-meets-what"),
     key<&SceneContact::searches>("searches",
                                  "how often a time step, at least, looks for what may meet where "
@@ -122,16 +118,14 @@ constexpr Key kContact[] = {
     key<&SceneContact::start>("start",
                               "what becomes of surfaces that go through each other at the start: they "
                               "stay so, and the run is `unconverged`; the scene is refused; or they are "
-                              "taken apart before the run, and so is what is nearer than its gap")
-        .words(kContactStarts),
+                              "taken apart before the run, and so is what is nearer than its gap"),
     key<&SceneContact::sweeps>("sweeps", "over all pairs, after each iteration of the constraints: more for "
                                          "stacks of many layers")
         .range(1, 100)
         .or_word("automatic", 0)
         .usually("\"automatic\": 8 where a solid that is not led can meet another body or itself, else 2"),
     key<&SceneContact::guarantee>("guarantee", "\"no_crossing\": surfaces that meet, and do not cross at the "
-                                               "start, never do ([the guarantee](contact.md#the-guarantee))")
-        .words(kGuarantees),
+                                               "start, never do ([the guarantee](contact.md#the-guarantee))"),
 };
 
 constexpr Key kBodyContact[] = {
@@ -147,8 +141,8 @@ constexpr Key kBodyContact[] = {
                                  "the surface's radius; two surfaces keep the sum of theirs apart")
         .unit("m")
         .at_least(0)
-        .or_word("scene", -1),
-    key<&BodyContact::friction>("friction", "Coulomb coefficient").at_least(0).or_word("scene", -1),
+        .or_word("scene"),
+    key<&BodyContact::friction>("friction", "Coulomb coefficient").at_least(0).or_word("scene"),
 };
 
 } // namespace

@@ -6,9 +6,6 @@
 namespace taut::scene_file {
 namespace {
 
-constexpr std::string_view kDiagonals[] = {"alternating", "uniform"};
-constexpr std::string_view kSplits[] = {"five", "six"};
-
 bool has_links(const Shape& shape) { return shape.links > 0; } // one particle has no length
 
 void begin_network(SpringNetwork& network) { network.used = true; }
@@ -19,8 +16,7 @@ constexpr Key kGrid[] = {
         .at_least(1)
         .ranges("1 or more each; at most 67108864 vertices"),
     key<&Shape::size>("size", "its extent").called("[width, height]").unit("m").above(0),
-    key<&Shape::diagonals>("diagonals", "how cells are cut: neighbours mirrored (union jack), or all alike")
-        .words(kDiagonals),
+    key<&Shape::diagonals>("diagonals", "how cells are cut: neighbours mirrored (union jack), or all alike"),
     object<&Shape::network>(
         "network", "springs between vertices instead of springs along the edges of triangles", kNetworkTable),
 };
@@ -51,8 +47,7 @@ constexpr Key kSolidBox[] = {
         .ranges("1 or more each; at most 67108864 vertices"),
     key<&Shape::box_size>("size", "along x, y and z").unit("m").above(0),
     key<&Shape::split>("split", "tetrahedra of a cell: five, mirrored from cell to cell, or six round its "
-                                "diagonal")
-        .words(kSplits),
+                                "diagonal"),
 };
 
 constexpr Key kBall[] = {

@@ -244,7 +244,7 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
                         "device, or leave tear_strain out");
     // The stiffest body, or the only solid, may be on one side; both sides take what it asks for.
     my.scene.method.line_search = line_search_of(my.scene);
-    if (const auto substeps = find_method(method_of(my.scene)).substeps)
+    if (const auto substeps = find_method(my.scene.method.type).substeps)
         my.scene.method.substeps = substeps(my.scene).count;
     my.options = options;
     my.sides[0].device = std::move(one);
@@ -378,8 +378,8 @@ std::uint64_t HybridWorld::divisions() const { return impl_->divisions; }
 void HybridWorld::copy_into(World& whole) const
 {
     if (!whole.plan().kept.empty())
-        throw Error(ErrorCode::unsupported, "method \"" + impl_->scene.method.type +
-                                                "\" keeps more than places and speeds, which a hybrid world "
+        throw Error(ErrorCode::unsupported, "method " + quoted(impl_->scene.method.type) +
+                                                " keeps more than places and speeds, which a hybrid world "
                                                 "does not put together");
     std::vector<std::uint32_t> all(impl_->scene.bodies.size());
     std::iota(all.begin(), all.end(), 0u);

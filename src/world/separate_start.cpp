@@ -88,9 +88,9 @@ SeparatedStart separate_start(const Scene& resolved)
 
 Scene with_start(Scene resolved)
 {
-    if (resolved.contact.start == "separate")
+    if (resolved.contact.start == ContactStart::separate)
         return separate_start(resolved).scene;
-    if (resolved.contact.start != "refuse")
+    if (resolved.contact.start != ContactStart::refuse)
         return resolved;
     check_values(resolved);
     if (const std::string crossed = crossed_at_start(resolved); !crossed.empty())

@@ -199,13 +199,13 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
     my.scene = my.world->scene();
     if (!my.world->plan().kept.empty())
         throw Error(ErrorCode::unsupported,
-                    "method \"" + my.scene.method.type +
-                        "\" keeps more than places and speeds from step to step; bodies "
+                    "method " + quoted(my.scene.method.type) +
+                        " keeps more than places and speeds from step to step; bodies "
                         "under it cannot sleep");
     if (!my.world->plan().solvers.empty())
         throw Error(ErrorCode::unsupported,
-                    "method \"" + my.scene.method.type +
-                        "\" solves for all bodies as one system, so one that is not "
+                    "method " + quoted(my.scene.method.type) +
+                        " solves for all bodies as one system, so one that is not "
                         "there would change the others; bodies under it cannot sleep");
     if (wants_contact(my.scene))
         throw Error(ErrorCode::unsupported,

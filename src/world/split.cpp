@@ -60,12 +60,12 @@ void check(const Scene& scene, double share)
     if (wants_contact(scene))
         throw Error(ErrorCode::unsupported, "surfaces that meet cannot be cut between two devices; use one "
                                             "device, or leave contact out");
-    const MethodKind method = method_of(scene);
+    const MethodKind method = scene.method.type;
     if (method != MethodKind::xpbd && !(method == MethodKind::pbd && pbd_is_coloured(scene)))
         throw Error(
             ErrorCode::unsupported,
-            "method.type \"" + scene.method.type + "\"" +
-                (method == MethodKind::pbd ? " with method.scheme \"" + scene.method.scheme + "\"" : "") +
+            "method.type " + quoted(method) +
+                (method == MethodKind::pbd ? " with method.scheme " + quoted(scene.method.scheme) : "") +
                 " cannot be cut between two devices; \"xpbd\" and \"pbd\" with the scheme \"coloured\" "
                 "can: divide whole bodies, or use one device");
 }

@@ -159,8 +159,8 @@ void World::restore(const WorldState& state)
     for (std::size_t i = 0; same && i < plan.kept.size(); ++i)
         same = state.kept[i].size() == plan.buffers[plan.kept[i]].bytes;
     if (!same)
-        throw Error(ErrorCode::bad_input, "restore: what method \"" + impl_->scene.method.type +
-                                              "\" keeps from step to step is missing or of another size: the "
+        throw Error(ErrorCode::bad_input, "restore: what method " + quoted(impl_->scene.method.type) +
+                                              " keeps from step to step is missing or of another size: the "
                                               "state is of another scene or method");
     const Clock& clock = state.clock;
     const double sum = clock.time + clock.timestep + glm::length(clock.gravity) + glm::length(clock.fall);

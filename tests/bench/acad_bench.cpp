@@ -60,14 +60,14 @@ Scene cloths(const Setting& setting)
         scene.bodies.push_back(body);
     }
     MethodSettings& m = scene.method;
-    m.type = setting.method;
+    m.type = named<MethodKind>(setting.method);
     m.compress = setting.compress;
     m.substeps = 32;
-    m.stability = "substep";
-    m.constrained = "structural";
+    m.stability = StabilityRule::substep;
+    m.constrained = ConstrainedSprings::structural;
     m.constraint_compliance = 0;
     m.activate_strain = 0.05;
-    m.release = "strain"; // what is active stays so: its target is the threshold
+    m.release = ReleaseRule::strain; // what is active stays so: its target is the threshold
     m.release_strain = 0;
     m.linear_iterations = 16; // of every solve, so that the cost of one does not depend on what it finds
     m.linear_tolerance = 1e-30;

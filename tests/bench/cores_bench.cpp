@@ -50,7 +50,7 @@ Scene box()
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {16, 16, 16};
     body.material = solid_material();
-    body.material.model = "springs";
+    body.material.model = SolidModel::springs;
     body.material.youngs_modulus = 1e6;
     Pin pin;
     pin.faces = {"top"};

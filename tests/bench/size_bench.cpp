@@ -49,11 +49,11 @@ Scene cloth(std::uint32_t n, const char* method)
     scene.bodies = {body};
     scene.damping = 2;
     MethodSettings& m = scene.method;
-    m.type = method;
-    m.substeps = m.type == "pbd" ? 1 : m.type == "mass_spring" ? 32 : 8;
-    m.iterations = m.type == "pbd" ? 20 : m.iterations;
-    m.stability = "substep"; // mass_spring takes as many as it needs
-    m.constrained = "structural";
+    m.type = named<MethodKind>(method);
+    m.substeps = m.type == MethodKind::pbd ? 1 : m.type == MethodKind::mass_spring ? 32 : 8;
+    m.iterations = m.type == MethodKind::pbd ? 20 : m.iterations;
+    m.stability = StabilityRule::substep; // mass_spring takes as many as it needs
+    m.constrained = ConstrainedSprings::structural;
     m.constraint_compliance = 0;
     m.linear_iterations = 20;
     m.linear_tolerance = 1e-2;

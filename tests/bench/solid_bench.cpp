@@ -33,7 +33,7 @@ taut::Scene hanging()
     body.shape.kind = taut::ShapeKind::box;
     body.shape.box_cells = {16, 16, 16};
     body.material = taut::solid_material();
-    body.material.model = "springs";
+    body.material.model = taut::SolidModel::springs;
     body.material.youngs_modulus = 1e6;
     taut::Pin pin;
     pin.faces = {"top"};

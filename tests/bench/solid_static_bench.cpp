@@ -31,7 +31,7 @@ taut::Scene hanging(std::uint32_t cells)
     body.shape.kind = taut::ShapeKind::box;
     body.shape.box_cells = {cells, cells, cells};
     body.material = taut::solid_material();
-    body.material.model = "springs";
+    body.material.model = taut::SolidModel::springs;
     body.material.youngs_modulus = 1e6;
     taut::Pin pin;
     pin.faces = {"top"};
@@ -62,7 +62,7 @@ struct Setting
 taut::Scene with(const taut::Scene& scene, const Setting& setting)
 {
     taut::Scene out = scene;
-    out.method.type = setting.type;
+    out.method.type = taut::named<taut::MethodKind>(setting.type);
     out.method.substeps = setting.substeps;
     out.method.iterations = setting.iterations;
     out.method.spectral_radius = setting.spectral_radius;

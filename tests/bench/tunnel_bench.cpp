@@ -110,8 +110,8 @@ Trial random_trial(Dice& dice)
     }
     scene.bodies = {body};
     scene.colliders = {collider};
-    scene.method.type = kMethods[dice.pick(5)];
-    scene.method.stability = "substep";
+    scene.method.type = named<MethodKind>(kMethods[dice.pick(5)]);
+    scene.method.stability = StabilityRule::substep;
     trial.substeps = 1u << (1 + dice.pick(5));
     scene.method.substeps = 1;
     scene.timestep = kFrame / trial.substeps;
@@ -214,10 +214,10 @@ int main(int argc, char** argv)
             if (list)
                 std::printf("%4d %-14s %-8s %-8s size %5.2f edges, %6.2f m/s, %2u substeps: through %d "
                             "seen %d (passed %d, deep %d) fine %d may %d\n",
-                            k, trial.scene.method.type.c_str(), trial.held, trial.shape, trial.size,
-                            trial.speed, trial.substeps, o.through, int(o.coarse.seen.size()),
-                            int(o.coarse.passed), int(o.coarse.elements), int(o.fine.seen.size()),
-                            int(o.coarse.likely.size()));
+                            k, std::string(to_string(trial.scene.method.type)).c_str(), trial.held,
+                            trial.shape, trial.size, trial.speed, trial.substeps, o.through,
+                            int(o.coarse.seen.size()), int(o.coarse.passed), int(o.coarse.elements),
+                            int(o.fine.seen.size()), int(o.coarse.likely.size()));
         }
         catch (const Error& error)
         {

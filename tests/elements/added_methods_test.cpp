@@ -25,10 +25,10 @@ Scene three(const std::string& method)
     Scene scene;
     scene.timestep = 1.0 / 60;
     scene.gravity = glm::dvec3(0);
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     scene.method.substeps = method == "mass_spring" || method == "pbd" ? 20 : 4;
     if (method == "mass_spring")
-        scene.method.stability = "substep";
+        scene.method.stability = StabilityRule::substep;
     Body body;
     body.shape.kind = ShapeKind::chain;
     body.shape.links = 2;
@@ -115,7 +115,7 @@ TEST_CASE("a free rod of three masses swings with the period of its energy, unde
     Scene scene = three(method);
     scene.timestep = period / 20;
     scene.duration = period * 0.999;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.substeps = 20;
     if (method == "vbd")
         scene.method.iterations = 10;
@@ -144,7 +144,7 @@ TEST_CASE("pbd holds added elements at rest whatever their compliance")
     const std::vector<glm::dvec3> x = ends(scene);
     CHECK(x[1].y == Approx(-1).epsilon(2e-2)); // a cubic constraint halves its stretch in a step
     CHECK(x[2].y == Approx(-2).epsilon(2e-2));
-    scene.method.scheme = "node_centric";
+    scene.method.scheme = ElementScheme::node_centric;
     CHECK_THROWS_WITH(make_plan(resolve(scene)), Contains("use \"coloured\""));
 }
 
@@ -156,9 +156,9 @@ TEST_CASE("a step that is too long for an added element is refused, or cut, by t
     scene.bodies[0].elements.push_back({"thin_rod", {0, 1, 2}, {1e5}});
     scene.bodies[0].start_positions = {{-1, 1e-3, 0}, {0, -2e-3, 0}, {1, 1e-3, 0}};
     scene.method.substeps = 10;
-    scene.method.stability = "refuse";
+    scene.method.stability = StabilityRule::refuse;
     CHECK_THROWS_WITH(make_plan(resolve(scene)), Contains("the longest stable one"));
-    scene.method.stability = "substep";
+    scene.method.stability = StabilityRule::substep;
     const Plan plan = make_plan(resolve(scene));
     const double h = scene.timestep / plan.substeps, bound = 2 / std::sqrt(std::sqrt(3.0) * 4e6);
     CHECK(h < bound); // of a multiple of the identity the Frobenius norm has a root of three

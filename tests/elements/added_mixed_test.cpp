@@ -22,11 +22,11 @@ Scene cloth(const std::string& method)
     scene.timestep = 1.0 / 60;
     scene.duration = 4;
     scene.damping = 6;
-    scene.method.type = method;
-    scene.method.precision = "double";
+    scene.method.type = named<MethodKind>(method);
+    scene.method.precision = Precision::float64;
     scene.method.substeps = 20;
     if (method == "mass_spring")
-        scene.method.stability = "substep";
+        scene.method.stability = StabilityRule::substep;
     if (method == "vbd" || method == "xpbd")
         scene.method.iterations = 4;
     Body body;
@@ -103,10 +103,10 @@ TEST_CASE("cloth with added elements moves with the same bits on every executor"
     const std::string method = GENERATE("xpbd", "pbd", "mass_spring", "implicit_euler", "vbd");
     CAPTURE(method);
     Scene scene = cloth(method);
-    scene.method.precision = "float";
+    scene.method.precision = Precision::float32;
     scene.method.substeps = 2;
     if (method == "implicit_euler")
-        scene.method.linear_operator = "matrix_free";
+        scene.method.linear_operator = LinearOperator::matrix_free;
     std::vector<glm::dvec3> first;
     for (const std::string& selector : test_devices())
     {

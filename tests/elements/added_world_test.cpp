@@ -26,7 +26,7 @@ Scene hanging_mass(const std::string& precision = "float")
     scene.duration = 6;
     scene.damping = 4;
     scene.method.substeps = 20;
-    scene.method.precision = precision;
+    scene.method.precision = named<Precision>(precision);
     Body body;
     body.shape.kind = ShapeKind::chain;
     body.shape.links = 1;
@@ -164,10 +164,10 @@ TEST_CASE("what a scene says wrong of added elements is refused with the place a
     list.values = {1, std::nan("")};
     CHECK(says(refusal(scene), ".values[1] (compliance) is not finite"));
     list.values = {1, 1e-3};
-    scene.method.type = "acad";
+    scene.method.type = MethodKind::acad;
     CHECK(says(refusal(scene), "method \"acad\" has no kernels for elements \"cubic_spring\"; use \"xpbd\""));
-    scene.method.type = "mass_spring";
-    scene.method.stability = "ignore";
+    scene.method.type = MethodKind::mass_spring;
+    scene.method.stability = StabilityRule::ignore;
     CHECK(refusal(scene) == "nothing");
     list.values = {1, 0};
     CHECK(says(refusal(scene), "element 0 has no finite energy where it starts"));

@@ -70,8 +70,9 @@ bool is_run(const std::string& selector, std::size_t scene)
 /// In a short run a third on software drivers for what solves linear systems: hundreds of dispatches a step.
 int steps_on(const Device& device, const std::string& name)
 {
-    const std::string method = golden::scenes().at(name).method.type; // of a map that goes with the line
-    const bool solves = method == "implicit_euler" || method == "implicit_constraints" || method == "acad";
+    const MethodKind method = golden::scenes().at(name).method.type; // of a map that goes with the line
+    const bool solves = method == MethodKind::implicit_euler || method == MethodKind::implicit_constraints ||
+                        method == MethodKind::acad;
     const bool software = !device.info().executor.starts_with("cpu") && !device.info().hardware_gpu;
     return short_run() && solves && software ? kSteps / 3 : kSteps;
 }
@@ -114,7 +115,7 @@ void rewrite()
 
 bool can_run(const Device& device, const std::string& name)
 {
-    return device.limits().float64 || golden::scenes().at(name).method.precision == "float";
+    return device.limits().float64 || golden::scenes().at(name).method.precision == Precision::float32;
 }
 
 } // namespace
@@ -299,7 +300,8 @@ TEST_CASE("running small bodies in one group, or a dispatch a colour, is a choic
         CAPTURE(name);
         const Scene scene = golden::scenes().at(name);
         // A hub needs dispatches of its own; the colours of small solids share one group anyway.
-        if (scene.method.type == "xpbd" && name != "star" && name != "jelly" && !name.starts_with("cube"))
+        if (scene.method.type == MethodKind::xpbd && name != "star" && name != "jelly" &&
+            !name.starts_with("cube"))
             CHECK(World(scene, device, always).plan().passes.size() <
                   World(scene, device, never).plan().passes.size());
         CHECK(hash_on(device, name, always) == serial_hash(name));

@@ -23,9 +23,9 @@ inline Scene swing(const std::string& method)
     ball.radius = 0.25;
     ball.friction = 0.25;
     scene.colliders = {ball};
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     scene.method.substeps = 4;
-    scene.method.stability = "substep";
+    scene.method.stability = StabilityRule::substep;
     return scene;
 }
 
@@ -53,8 +53,8 @@ inline Scene jelly(const std::string& method, const std::string& volume)
     body.shape.box_size = {0.375, 0.25, 0.25};
     body.material = solid_material();
     body.material.youngs_modulus = 2e4;
-    body.material.model = "springs";
-    body.material.volume = volume;
+    body.material.model = SolidModel::springs;
+    body.material.volume = named<HeldVolume>(volume);
     body.velocity = {4, -2, 0};
     scene.bodies = {body};
     Collider ground;
@@ -62,9 +62,9 @@ inline Scene jelly(const std::string& method, const std::string& volume)
     ground.point = {0, -0.25, 0};
     ground.friction = 0.1;
     scene.colliders = {ground};
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     scene.method.substeps = 8;
-    scene.method.stability = "substep";
+    scene.method.stability = StabilityRule::substep;
     return scene;
 }
 
@@ -91,7 +91,7 @@ inline Scene two_levels()
 {
     Scene scene = swing("implicit_euler");
     scene.bodies[0].shape.cells = {16, 16};
-    scene.method.preconditioner = "two_level";
+    scene.method.preconditioner = NewtonPreconditioner::two_level;
     return scene;
 }
 
@@ -99,7 +99,7 @@ inline Scene two_levels()
 inline Scene damped_explicit()
 {
     Scene scene = swing("mass_spring");
-    scene.method.integrator = "explicit";
+    scene.method.integrator = Integrator::explicit_euler;
     scene.method.substeps = 32;
     scene.bodies[0].material.stretch_damping = 0x1p-8;
     return scene;
@@ -126,9 +126,9 @@ inline Scene plate(Scene scene)
 {
     Material& material = scene.bodies[0].material;
     material.bending_stiffness = 0;
-    material.bending_model = "plate";
+    material.bending_model = BendingModel::plate;
     material.bending_poissons_ratio = 0.25;
-    material.fabric.bending = {true, 0.0078125, 0.001953125, 0, "strip"};
+    material.fabric.bending = {true, 0.0078125, 0.001953125, 0, BiasSpecimen::strip};
     return scene;
 }
 
@@ -141,49 +141,51 @@ inline std::map<std::string, Scene> method_scenes()
         {"mass_spring_explicit", damped_explicit()},
         {"mass_spring_verlet_slots", with(swing("mass_spring"),
                                           [](Settings& m) {
-                                              m.integrator = "verlet";
-                                              m.scheme = "spring_centric";
+                                              m.integrator = Integrator::verlet;
+                                              m.scheme = ElementScheme::spring_centric;
                                           })},
         {"mass_spring_jelly", jelly("mass_spring", "surface")},
         {"implicit_euler", swing("implicit_euler")},
         {"implicit_euler_light", light_vertex()},
         {"implicit_euler_two_level", two_levels()},
         {"implicit_euler_matrix_free",
-         with(swing("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
+         with(swing("implicit_euler"), [](Settings& m) { m.linear_operator = LinearOperator::matrix_free; })},
         {"implicit_constraints", swing("implicit_constraints")},
         {"implicit_constraints_structural",
-         with(network("implicit_constraints"), [](Settings& m) { m.constrained = "structural"; })},
+         with(network("implicit_constraints"),
+              [](Settings& m) { m.constrained = ConstrainedSprings::structural; })},
         {"implicit_constraints_matrix_free", with(swing("implicit_constraints"),
                                                   [](Settings& m) {
                                                       m.iterations = 2;
-                                                      m.linear_operator = "matrix_free";
+                                                      m.linear_operator = LinearOperator::matrix_free;
                                                   })},
         {"implicit_constraints_jelly", jelly("implicit_constraints", "tetrahedra")},
         {"cube_matrix_free",
-         with(cube("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
-        {"pbd_star", with(star(), [](Settings& m) { m.type = "pbd"; })},
+         with(cube("implicit_euler"), [](Settings& m) { m.linear_operator = LinearOperator::matrix_free; })},
+        {"pbd_star", with(star(), [](Settings& m) { m.type = MethodKind::pbd; })},
         {"acad", network("acad")},
         {"acad_compress", with(network("acad"),
                                [](Settings& m) {
                                    m.compress = true;
-                                   m.release = "strain";
+                                   m.release = ReleaseRule::strain;
                                    m.release_strain = 0.01;
-                                   m.target = "rest";
+                                   m.target = ConstraintTarget::rest;
                                })},
         {"pbd", with(swing("pbd"), [](Settings& m) { m.bend = 0.5; })},
         {"pbd_node_centric", with(swing("pbd"),
                                   [](Settings& m) {
-                                      m.scheme = "node_centric";
+                                      m.scheme = ElementScheme::node_centric;
                                       m.iterations = 8;
                                       m.spectral_radius = 0.5;
                                   })},
-        {"pbd_constraint_centric", with(swing("pbd"), [](Settings& m) { m.scheme = "constraint_centric"; })},
+        {"pbd_constraint_centric",
+         with(swing("pbd"), [](Settings& m) { m.scheme = ElementScheme::constraint_centric; })},
         {"pbd_jelly", jelly("pbd", "tetrahedra")},
         {"woven", woven("xpbd")},
         {"woven_mass_spring", woven("mass_spring")},
         {"woven_implicit_euler", woven("implicit_euler")},
         {"woven_matrix_free",
-         with(woven("implicit_euler"), [](Settings& m) { m.linear_operator = "matrix_free"; })},
+         with(woven("implicit_euler"), [](Settings& m) { m.linear_operator = LinearOperator::matrix_free; })},
         {"woven_vbd", woven("vbd")},
         {"plate", plate(woven("xpbd"))},
         {"vbd", with(swing("vbd"), [](Settings& m) { m.iterations = 4; })},

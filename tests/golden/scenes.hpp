@@ -45,7 +45,7 @@ inline Scene effects()
     material.attachment_slack = 0.03125;
     Body gas = balloon("gas", {-1.5, 0, 0});
     gas.material.pressure = 100;
-    gas.material.pressure_law = "isothermal";
+    gas.material.pressure_law = PressureLaw::isothermal;
     gas.velocity = {0, 0, 0.5};
     Body wax = bar().bodies[0];
     wax.name = "wax";
@@ -65,7 +65,7 @@ inline Scene effects()
     block.kind = ColliderKind::cuboid;
     block.point = {2.25, -0.5, 0};
     block.half_size = {1, 0.25, 0.25};
-    capsule.meets = block.meets = "vertices"; // faces() has the rest
+    capsule.meets = block.meets = ColliderMeets::vertices; // faces() has the rest
     scene.colliders.insert(scene.colliders.end(), {capsule, block});
     scene = resolve(scene);
     scene.bodies.push_back(gas); // it has its mesh
@@ -141,7 +141,7 @@ inline Scene grouped()
     scene.bodies.push_back(ghost);
     scene.bodies[1].contact.group = "above";
     scene.bodies[1].contact.passes = {"ghost"};
-    scene.contact.friction_mix = "geometric_mean";
+    scene.contact.friction_mix = FrictionMix::geometric_mean;
     return scene;
 }
 
@@ -150,7 +150,7 @@ inline Scene guarded()
 {
     Scene scene = contact();
     scene.bodies[1].velocity = {0, 0, -16};
-    scene.contact.guarantee = "no_crossing";
+    scene.contact.guarantee = Guarantee::no_crossing;
     return scene;
 }
 
@@ -158,8 +158,8 @@ inline Scene guarded()
 inline Scene guarded_by(const std::string& method)
 {
     Scene scene = guarded();
-    scene.method.type = method;
-    scene.method.stability = "substep";
+    scene.method.type = named<MethodKind>(method);
+    scene.method.stability = StabilityRule::substep;
     return scene;
 }
 
@@ -204,7 +204,7 @@ inline Scene tear()
 
 inline Scene in_double(Scene scene)
 {
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.damping = 0;
     return scene;
 }

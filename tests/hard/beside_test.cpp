@@ -24,7 +24,7 @@ Scene damped_curtain()
     scene.bodies[0].material.stretch_stiffness = 1e4;
     scene.bodies[0].material.stretch_damping = 0.1;
     scene.bodies[0].material.bending_stiffness = 0;
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 0; // 20
     return scene;
 }
@@ -50,7 +50,7 @@ Scene level_cloth(const std::string& method, std::uint32_t substeps)
     scene.bodies[0].transform.rotate_degrees = -90;
     scene.bodies[0].material.stretch_stiffness = 1e4;
     scene.damping = 2;
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     scene.method.substeps = substeps;
     return scene;
 }

@@ -44,8 +44,8 @@ Soundness watched(const Scene& scene, std::uint64_t frames)
 TEST_CASE("damping does not hide that explicit steps make energy [hard]")
 {
     Scene scene = crumpled(4);
-    scene.method.type = "mass_spring";
-    scene.method.stability = "substep";
+    scene.method.type = MethodKind::mass_spring;
+    scene.method.stability = StabilityRule::substep;
     const Soundness found = watched(resolve(scene), 360);
     INFO(found.reason);
     CHECK(found.status == Status::diverged);
@@ -57,7 +57,7 @@ TEST_CASE("what is damped to rest is sound all the way [hard]")
         for (const double damping : {0.1, 1.0, 4.0})
         {
             Scene scene = crumpled(damping);
-            scene.method.type = method;
+            scene.method.type = named<MethodKind>(method);
             scene.method.substeps = 40;
             const Soundness found = watched(resolve(scene), 120);
             INFO(method << ", " << damping << " /s: " << found.reason);
@@ -66,7 +66,7 @@ TEST_CASE("what is damped to rest is sound all the way [hard]")
             hung.bodies[0].transform.rotate_axis = {1, 0, 0};
             hung.bodies[0].transform.rotate_degrees = -90;
             hung.damping = damping;
-            hung.method.type = method;
+            hung.method.type = named<MethodKind>(method);
             hung.method.substeps = 10;
             CHECK(watched(resolve(hung), 240).sound());
         }

@@ -151,7 +151,7 @@ TEST_CASE("B18: cloth hangs 10 km from the origin as it does at the origin [hard
     Scene near = test::hanging(6);
     near.bodies[0].material.bending_stiffness = 1e-4;
     Scene exact = near;
-    exact.method.precision = "double";
+    exact.method.precision = Precision::float64;
     World truth(exact, test_device("cpu:serial"));
     run(truth, 60);
     const auto wanted = truth.positions();
@@ -239,7 +239,7 @@ TEST_CASE("B19: millimetres, kilometres and grams give the same motion; powers o
         };
         // Other powers round every input differently; contact and friction make more of it than hanging does.
         note("B19", *device, "mm, km, g, t: difference / D, every effect, float", difference(metres));
-        scene.method.precision = "double";
+        scene.method.precision = Precision::float64;
         const double exact = difference(moved(1, 1));
         scene = test::hanging(6);
         scene.bodies[0].material.bending_stiffness = 1e-5;

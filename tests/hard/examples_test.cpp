@@ -31,7 +31,8 @@ std::uint64_t frames_of(const Scene& scene, const std::string& name)
     for (const Body& body : scene.bodies)
         vertices += body.mesh.positions.size();
     // Of a substep of springs enforced by conjugate gradients some fifty iterations cost a sweep of others.
-    const bool enforced = scene.method.type == "implicit_constraints" || scene.method.type == "acad";
+    const bool enforced =
+        scene.method.type == MethodKind::implicit_constraints || scene.method.type == MethodKind::acad;
     const double sweeps = enforced ? std::max(scene.method.linear_iterations / 50.0, 1.0) : 1;
     const double frame = static_cast<double>(vertices) * std::max(scene.method.substeps, 1u) * sweeps;
     const double pays = name.starts_with("contact/") ? 1e5 : 6e5;

@@ -8,7 +8,7 @@ namespace taut::hard {
 inline Scene implicit(Scene scene, std::uint32_t substeps = 1, std::uint32_t newton = 1)
 {
     scene.method = {};
-    scene.method.type = "implicit_euler";
+    scene.method.type = MethodKind::implicit_euler;
     scene.method.substeps = substeps;
     scene.method.iterations = newton;
     return scene;
@@ -16,7 +16,7 @@ inline Scene implicit(Scene scene, std::uint32_t substeps = 1, std::uint32_t new
 
 inline Scene in_double(Scene scene)
 {
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.linear_tolerance = 1e-10;
     scene.method.linear_iterations = 300;
     return scene;

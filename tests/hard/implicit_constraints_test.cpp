@@ -10,7 +10,7 @@ namespace {
 
 Scene constrained(Scene scene, double compliance = 0)
 {
-    scene.method.type = "implicit_constraints";
+    scene.method.type = MethodKind::implicit_constraints;
     scene.method.substeps = 4;
     scene.method.linear_iterations = 200;
     scene.method.constraint_compliance = compliance;
@@ -76,7 +76,7 @@ TEST_CASE("F02: a pendulum's length does not drift in a million steps", "[long]"
     scene.gravity = {0, -9.81, 0};
     scene.method.linear_iterations = 2;
     scene.method.substeps = 100;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     const auto device = test_device("cpu:serial");
     World world(scene, device);
     double early = 0, late = 0;
@@ -103,9 +103,9 @@ TEST_CASE("F04, C06: every edge twice gives the same places")
                 {
                     Scene scene = constrained(cloth ? stiff_network(6, 0, 0) : alone(level_rope(10)));
                     scene.gravity = {0, -9.81, 0};
-                    scene.method.linear_operator = linear_operator;
+                    scene.method.linear_operator = named<LinearOperator>(linear_operator);
                     scene.method.linear_tolerance = 1e-10;
-                    scene.method.precision = "double";
+                    scene.method.precision = Precision::float64;
                     auto& springs = scene.bodies[0].springs;
                     if (twice)
                         springs.insert(springs.end(), springs.begin(), springs.end());
@@ -186,7 +186,7 @@ TEST_CASE("F05: a rigid lump at the end of a rope is solved, however little it i
             Scene scene = constrained(alone(body));
             scene.gravity = {0, -9.81, 0};
             scene.damping = 0.5;
-            scene.method.precision = precision;
+            scene.method.precision = named<Precision>(precision);
             scene.method.linear_iterations = 1000;
             World world(scene, device);
             run(world, steps_for(*device, 240, 20));
@@ -307,7 +307,7 @@ TEST_CASE("B17: hinges without an angle make no row and are counted; folded ones
         body.material.stretch_stiffness = 1000;
         body.material.bending_stiffness = 1e-2;
         Scene scene = alone(body);
-        scene.method.type = "implicit_constraints";
+        scene.method.type = MethodKind::implicit_constraints;
         scene.method.substeps = 4;
         scene.method.linear_iterations = 200;
         return scene;
@@ -331,7 +331,7 @@ TEST_CASE("B17: hinges without an angle make no row and are counted; folded ones
                 {
                     CAPTURE(c.what, linear_operator, solves);
                     Scene scene = hinge(c.edge1, c.wing0, c.wing1);
-                    scene.method.linear_operator = linear_operator;
+                    scene.method.linear_operator = named<LinearOperator>(linear_operator);
                     scene.method.iterations = solves;
                     World world(scene, device);
                     world.step();

@@ -27,18 +27,18 @@ Scene cube(const Start& s)
     Scene scene;
     Body body;
     body.material = solid_material();
-    body.material.model = "neo_hookean";
+    body.material.model = SolidModel::neo_hookean;
     body.material.youngs_modulus = s.modulus;
     body.material.poissons_ratio = s.ratio;
     body.material.density = 1100;
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {4, 4, 4};
     body.shape.box_size = glm::dvec3(0.1);
-    body.shape.split = "five";
+    body.shape.split = BoxSplit::five;
     scene.bodies = {body};
     scene.gravity = {0, 0, 0};
-    scene.method.type = "implicit_euler";
-    scene.method.precision = s.precision;
+    scene.method.type = MethodKind::implicit_euler;
+    scene.method.precision = named<Precision>(s.precision);
     scene = resolve(scene);
     for (const glm::dvec3& x : scene.bodies[0].mesh.positions)
         scene.bodies[0].start_positions.push_back({x.x, s.scale * x.y, x.z});

@@ -62,7 +62,8 @@ Slide slid(const Scene& scene, const std::shared_ptr<Device>& device, int steps,
 {
     Scene s = scene;
     if (settle &&
-        s.method.type != "pbd") // which has no dampers; springs that swing for ever slip where they should
+        s.method.type !=
+            MethodKind::pbd) // which has no dampers; springs that swing for ever slip where they should
         s.bodies[0].material.stretch_damping = 1e-3; // hold
     if (settle)
     {

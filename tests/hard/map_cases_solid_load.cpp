@@ -208,7 +208,7 @@ Findings redundant(const Scene& scene, const std::shared_ptr<Device>& device, in
 void add_constrained(std::vector<MapCase>& out)
 {
     Body tetrahedron = block(1, 1e9);
-    tetrahedron.material.model = "springs";
+    tetrahedron.material.model = SolidModel::springs;
     Scene s = scene_of(tetrahedron, 0, {0, -9.81, 0});
     Body& body = s.bodies[0];
     body.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -226,7 +226,7 @@ void add_constrained(std::vector<MapCase>& out)
                    0,
                    redundant});
     Body lattice = block(2);
-    lattice.material.model = "springs";
+    lattice.material.model = SolidModel::springs;
     lattice.transform.translate = {0, 0.6, 0};
     s = scene_of(lattice, 0.5, {0, -9.81, 0});
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -262,8 +262,8 @@ double drift(const World& world)
 void add_surfaces(std::vector<MapCase>& out)
 {
     Body cube = block(4, 1e4);
-    cube.material.model = "springs";
-    cube.material.volume = "surface";
+    cube.material.model = SolidModel::springs;
+    cube.material.volume = HeldVolume::surface;
     cube.material.volume_stiffness = kInfinity;
     Scene s = scene_of(cube, 0);
     s.timestep = 1e-3;

@@ -79,7 +79,7 @@ Scene scene_for(const MapCase& c, MethodKind method)
         // Beyond 1,000 the world refuses.
         scene.method.substeps = scene.method.substeps * more->second.substeps;
         scene.method.iterations = scene.method.iterations * more->second.iterations;
-        scene.method.precision = more->second.in_double ? "double" : "float";
+        scene.method.precision = more->second.in_double ? Precision::float64 : Precision::float32;
     }
     return scene;
 }
@@ -209,26 +209,26 @@ Outcome repeated(const MapCase& c, MethodKind method, const std::shared_ptr<Devi
 void set_method(Scene& scene, MethodKind method)
 {
     MethodSettings& m = scene.method;
-    m.type = kMethodNames[static_cast<std::size_t>(method)];
+    m.type = method;
     m.iterations = 1;
     m.substeps = 10;
     switch (method)
     {
     case MethodKind::implicit_euler: m.substeps = 4, m.iterations = 2; break;
     case MethodKind::implicit_constraints:
-        m.substeps = 5, m.iterations = 2, m.linear_operator = "matrix_free";
+        m.substeps = 5, m.iterations = 2, m.linear_operator = LinearOperator::matrix_free;
         break;
     case MethodKind::pbd: m.iterations = 2; break;
     case MethodKind::vbd: m.substeps = 5, m.iterations = 4; break;
     case MethodKind::mass_spring: // as many substeps as they need: what they refuse then is out of reach
-    case MethodKind::acad: m.stability = "substep"; break;
+    case MethodKind::acad: m.stability = StabilityRule::substep; break;
     case MethodKind::xpbd: break;
     }
     for (Body& body : scene.bodies)
     {
         if (!find_method(method).elastic && is_solid(body.shape.kind))
-            body.material.model = "springs";
-        if (!find_method(method).volumes && body.material.volume != "surface")
+            body.material.model = SolidModel::springs;
+        if (!find_method(method).volumes && body.material.volume != HeldVolume::surface)
             body.material.volume_stiffness = 0;
     }
 }

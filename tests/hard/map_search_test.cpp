@@ -46,7 +46,7 @@ void search(MapCase hard_case, MethodKind method, const std::shared_ptr<Device>&
             break;
     }
     std::cout << hard_case.id << " | " << hard_case.what << " | "
-              << kMethodNames[static_cast<std::size_t>(method)] << " | " << best << std::endl;
+              << kWords<MethodKind>[static_cast<std::size_t>(method)] << " | " << best << std::endl;
 }
 
 } // namespace
@@ -57,9 +57,9 @@ TEST_CASE("search for settings at which cells of the map pass", "[.search]")
     const char* only_id = std::getenv("TAUT_MAP_ONLY");
     std::vector<std::pair<MapCase, MethodKind>> wanted;
     for (const MapCase& c : map_cases())
-        for (std::size_t m = 0; m < kMethodNames.size(); ++m)
+        for (std::size_t m = 0; m < kWords<MethodKind>.size(); ++m)
             for (const Row& row : table)
-                if (row.id == c.id && row.what == c.what && row.method == kMethodNames[m] &&
+                if (row.id == c.id && row.what == c.what && row.method == kWords<MethodKind>[m] &&
                     (!only_id || c.id == only_id) &&
                     (row.verdict == "reports" || row.verdict == "FAIL" || row.verdict.starts_with("stops")))
                     wanted.emplace_back(c, static_cast<MethodKind>(m));

@@ -96,7 +96,7 @@ std::string counts_of(const std::vector<Row>& rows)
         rule += "---:|";
     }
     text += rule + "\n";
-    for (const std::string_view method : kMethodNames)
+    for (const std::string_view method : words_of<MethodKind>())
     {
         text += "| " + std::string(method) + " |";
         for (const char* word : kWords)
@@ -118,7 +118,7 @@ Row row_of(const MapCase& c, MethodKind method, const Outcome& outcome)
 {
     Row row{c.id,
             c.what,
-            std::string(kMethodNames[static_cast<std::size_t>(method)]),
+            std::string(words_of<MethodKind>()[static_cast<std::size_t>(method)]),
             outcome.verdict,
             {},
             {},
@@ -207,7 +207,7 @@ void write_table(const std::filesystem::path& path, const std::vector<Row>& rows
 std::string page_of(const std::vector<Row>& rows)
 {
     std::string text = "| case | what |", rule = "\n|---|---|";
-    for (const std::string_view name : kMethodNames)
+    for (const std::string_view name : words_of<MethodKind>())
     {
         text += " " + std::string(name) + " |";
         rule += "---|";

@@ -22,7 +22,7 @@ struct Cell
     std::string name() const
     {
         return hard_case->id + " " + hard_case->what + ", " +
-               std::string(kMethodNames[static_cast<std::size_t>(method)]);
+               std::string(words_of<MethodKind>()[static_cast<std::size_t>(method)]);
     }
 };
 
@@ -58,7 +58,7 @@ std::vector<Cell> run_all()
     std::vector<Cell> cells;
     const std::vector<Row> table = read_table(table_file(short_run()));
     for (const MapCase& c : cases())
-        for (std::size_t m = 0; m < kMethodNames.size(); ++m)
+        for (std::size_t m = 0; m < words_of<MethodKind>().size(); ++m)
             cells.push_back({&c, static_cast<MethodKind>(m)});
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {

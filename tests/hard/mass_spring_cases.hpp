@@ -7,7 +7,7 @@ namespace taut::hard {
 
 inline Scene by_springs(Scene scene, std::uint32_t substeps = 20)
 {
-    scene.method.type = "mass_spring";
+    scene.method.type = MethodKind::mass_spring;
     scene.method.substeps = substeps;
     return scene;
 }
@@ -20,8 +20,8 @@ inline Scene oscillator(double h, const char* integrator = "semi_implicit")
     body.pins = {hold({0})};
     Scene scene = by_springs(alone(body), 1);
     scene.timestep = h;
-    scene.method.integrator = integrator;
-    scene.method.stability = "ignore";
+    scene.method.integrator = named<Integrator>(integrator);
+    scene.method.stability = StabilityRule::ignore;
     return scene;
 }
 

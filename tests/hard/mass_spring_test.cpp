@@ -13,7 +13,7 @@ TEST_CASE(
             for (const char* integrator : {"semi_implicit", "verlet"})
             {
                 Scene scene = oscillator(0.99 * kLimit, integrator);
-                scene.method.precision = precision;
+                scene.method.precision = named<Precision>(precision);
                 World world(scene, device);
                 const double first = kept_by_euler(world);
                 double largest = 0, drift = 0;
@@ -35,11 +35,11 @@ TEST_CASE(
         for (const char* integrator : {"semi_implicit", "verlet", "explicit"})
         {
             Scene outside = oscillator(1.01 * kLimit, integrator);
-            outside.method.stability = "refuse";
+            outside.method.stability = StabilityRule::refuse;
             std::string text;
             CHECK(refusal_of([&] { World refused(outside, device); }, &text) == "unstable_timestep");
             CHECK(text.find("2 substeps") != std::string::npos);
-            outside.method.stability = "substep";
+            outside.method.stability = StabilityRule::substep;
             World cut(outside, device);
             CHECK(cut.plan().substeps == 2);
             CHECK(refusal_of([&] { cut.set_timestep(0.1); }) == "unstable_timestep");
@@ -69,14 +69,14 @@ TEST_CASE("A02: beyond the limit at one's own risk a run ends as diverged or non
             CHECK(finite(world.velocities()));
         }
         Scene still = by_springs(free_cloth(6, 1000, 1e-4)); // rounding is enough for explicit Euler
-        still.method.integrator = "explicit";
+        still.method.integrator = Integrator::explicit_euler;
         World growing(still, device);
         run(growing, steps_for(*device, 1000, 10));
         CHECK(finite(growing.positions()));
         CHECK(finite(growing.velocities()));
         Scene cloth = by_springs(test::everything(6), 1);
         cloth.bodies[0].material.stretch_stiffness = 1e6;
-        cloth.method.stability = "ignore";
+        cloth.method.stability = StabilityRule::ignore;
         World world(cloth, device);
         run(world, 200);
         const std::string status(to_string(measure(world).status));
@@ -94,7 +94,7 @@ TEST_CASE("A04: stiff cloth is refused with the number of substeps that it would
     const auto device = test_device("cpu:serial");
     CHECK(refusal_of([&] { World refused(scene, device); }, &text) == "unstable_timestep");
     CHECK(text.find("substeps") != std::string::npos);
-    scene.method.stability = "substep"; // more than 1000 of them
+    scene.method.stability = StabilityRule::substep; // more than 1000 of them
     CHECK(refusal_of([&] { World refused(scene, device); }) == "unstable_timestep");
     scene.bodies[0].material.stretch_stiffness = kInfinity;
     CHECK(refusal_of([&] { World refused(scene, device); }, &text) == "unsupported");
@@ -120,7 +120,7 @@ TEST_CASE("A12: a step that changes on the way makes no jump of the velocity [ha
         {
             Scene scene = by_springs(test::chain(1, 1000, 1), 10);
             scene.bodies[0].start_positions = {{0, 0, 0}, {0.5, -std::sqrt(0.75), 0}};
-            scene.method.integrator = integrator;
+            scene.method.integrator = named<Integrator>(integrator);
             World world(scene, device);
             double jump = 0;
             for (const double h : {1.0 / 60, 1.0 / 240, 1.0 / 30, 1.0 / 60})

@@ -28,7 +28,7 @@ Scene strip_on_capsule(std::uint32_t substeps, double bending, double friction, 
     capsule.friction = friction;
     scene.colliders = {capsule};
     scene.damping = 3;
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = substeps;
     return resolve(scene);
 }

@@ -70,7 +70,7 @@ inline void check_far_and_in_units(const Scene& near)
 {
     const glm::dvec3 away(1e4, -1e4, 1e4);
     Scene exact = near, far = near, large = near;
-    exact.method.precision = "double";
+    exact.method.precision = Precision::float64;
     World truth(exact, test_device("cpu:serial"));
     run(truth, 60);
     for (glm::dvec3& x : far.bodies[0].mesh.positions)

@@ -15,14 +15,18 @@ constexpr double kEdge = 0.1; // m, of the body
 
 struct Setting
 {
-    std::string mesh = "five", start = "rest", model = "neo_hookean", method = "xpbd", precision = "float";
+    std::string mesh = "five", start = "rest";
+    SolidModel model = SolidModel::neo_hookean;
+    MethodKind method = MethodKind::xpbd;
+    Precision precision = Precision::float32;
     double modulus = 1e6, ratio = 0.45;
 
     std::string name() const
     {
         char numbers[60];
         std::snprintf(numbers, sizeof numbers, "%.0e | %g", modulus, ratio);
-        return method + " | " + precision + " | " + model + " | " + mesh + " | " + start + " | " + numbers;
+        return std::string(to_string(method)) + " | " + std::string(to_string(precision)) + " | " +
+               std::string(to_string(model)) + " | " + mesh + " | " + start + " | " + numbers;
     }
 };
 
@@ -61,7 +65,7 @@ Body body_of(const Setting& s)
     body.shape.kind = s.mesh == "ball" ? ShapeKind::ball : ShapeKind::box;
     body.shape.box_cells = {4, 4, 4};
     body.shape.box_size = glm::dvec3(kEdge);
-    body.shape.split = s.mesh == "six" ? "six" : "five";
+    body.shape.split = s.mesh == "six" ? BoxSplit::six : BoxSplit::five;
     body.shape.ball_cells = 5;
     body.shape.radius = kEdge / 2;
     return body;
@@ -128,7 +132,7 @@ double stiffness_of(const Scene& scene, const Setting& s)
 /// in a sliver of a hundredth of the height, and a speed of one digit a substep.
 double rounding_of(const Scene& scene, const Setting& s)
 {
-    const bool floats = s.precision == "float";
+    const bool floats = s.precision == Precision::float32;
     const double strain = (floats ? 1e-6 : 1e-14) * (s.mesh == "slivers" ? 100 : 1);
     const double h = scene.timestep / scene.method.substeps;
     const double speed = (floats ? 6e-8 : 1e-16) * kEdge / h;
@@ -201,7 +205,7 @@ void check_end(const Setting& s, const Outcome& out)
 {
     const bool floor = s.start == "floor" || s.start == "falling";
     if (s.start == "rest")
-        CHECK(out.fastest < (s.precision == "float" ? 1e-4 : 1e-10));
+        CHECK(out.fastest < (s.precision == Precision::float32 ? 1e-4 : 1e-10));
     if (s.modulus < 1e4)
         return;
     CHECK(out.inverted == 0);
@@ -218,7 +222,7 @@ void check_end(const Setting& s, const Outcome& out)
 /// 1e8 Pa where they are of other tetrahedra than five to a cell.
 bool finds_its_shape(const Setting& s)
 {
-    const bool may_collapse = s.model == "neo_hookean_simple" && s.ratio < 0.3;
+    const bool may_collapse = s.model == SolidModel::neo_hookean_simple && s.ratio < 0.3;
     if (s.start == "random")
         return s.modulus > 1e4 && s.modulus < (s.mesh == "five" ? 1e10 : 1e8) && !may_collapse;
     if (s.start == "inside out" && s.modulus <= 1e4)
@@ -275,15 +279,15 @@ TEST_CASE("neo-Hookean bodies make no energy, at rest and far from it, soft and 
     judge_all(s, kStarts);
     const char* gentle[] = {"rest", "squeezed", "inside out"};
     for (const char* mesh : {"six", "ball", "slivers"})
-        for (const char* model : {"neo_hookean", "neo_hookean_simple"})
-            for (const char* precision : {"float", "double"})
+        for (const SolidModel model : {SolidModel::neo_hookean, SolidModel::neo_hookean_simple})
+            for (const Precision precision : {Precision::float32, Precision::float64})
             {
                 s.mesh = mesh;
                 s.model = model;
                 s.precision = precision;
                 if (!short_run())
                     judge_all(s, kStarts);
-                else if (s.model == "neo_hookean" && s.precision == "float")
+                else if (s.model == SolidModel::neo_hookean && s.precision == Precision::float32)
                     judge_all(s, gentle);
             }
 }
@@ -293,7 +297,7 @@ TEST_CASE("neo-Hookean bodies near their shape make no energy under vbd and impl
     Setting s;
     const char* near[] = {"rest", "free", "perturbed", "squeezed"};
     const char* furthest[] = {"squeezed"};
-    for (const char* method : {"vbd", "implicit_euler"})
+    for (const MethodKind method : {MethodKind::vbd, MethodKind::implicit_euler})
     {
         s.method = method;
         if (short_run())

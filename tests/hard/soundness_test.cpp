@@ -23,8 +23,8 @@ double between(Random& random, double low, double high) // even in the logarithm
     return std::exp(random.uniform(std::log(low), std::log(high)));
 }
 
-template <std::size_t N>
-const char* one_of(Random& random, const char* const (&words)[N])
+template <typename T, std::size_t N>
+T one_of(Random& random, const T (&words)[N])
 {
     return words[static_cast<std::size_t>(random.uniform(0, static_cast<double>(N) - 1e-6))];
 }
@@ -64,7 +64,7 @@ Scene random_cloth(Random& random)
     Scene scene;
     Body body;
     body.shape.cells = glm::uvec2(random.uniform(0, 1) < 0.7 ? 4u : 7u);
-    body.shape.diagonals = one_of(random, {"alternating", "uniform"});
+    body.shape.diagonals = one_of(random, {Diagonals::alternating, Diagonals::uniform});
     body.material.stretch_stiffness = between(random, 1, 1e9);
     body.material.bending_stiffness = random.uniform(0, 1) < 0.5 ? 0 : between(random, 1e-6, 1e3);
     body.material.stretch_damping = random.uniform(0, 1) < 0.7 ? 0 : between(random, 1e-4, 1);
@@ -111,7 +111,7 @@ Scene random_solid(Random& random)
     const bool ball = random.uniform(0, 1) < 0.3;
     body.shape.kind = ball ? ShapeKind::ball : ShapeKind::box;
     body.shape.box_cells = glm::uvec3(random.uniform(0, 1) < 0.7 ? 2u : 3u);
-    body.shape.split = one_of(random, {"five", "six"});
+    body.shape.split = one_of(random, {BoxSplit::five, BoxSplit::six});
     const double size = between(random, 0.02, 1); // of an edge, or across
     body.shape.box_size = glm::dvec3(size);
     body.shape.ball_cells = 4;
@@ -121,7 +121,7 @@ Scene random_solid(Random& random)
     body.material.poissons_ratio = random.uniform(0, 1) < 0.7 ? random.uniform(0, 0.499) : 0.499;
     if (random.uniform(0, 1) < 0.3)
     {
-        body.material.model = "springs";
+        body.material.model = SolidModel::springs;
         body.material.stretch_stiffness = between(random, 1, 1e7);
     }
     if (!ball && random.uniform(0, 1) < 0.2)
@@ -151,15 +151,16 @@ std::string random_method(Random& random, const Scene& scene)
     if (!is_solid(body.shape.kind))
         return one_of(random, {"xpbd", "vbd", "implicit_euler", "pbd", "mass_spring", "mass_spring",
                                "implicit_constraints", "acad"});
-    if (body.material.model == "springs")
+    if (body.material.model == SolidModel::springs)
         return one_of(random,
                       {"xpbd", "vbd", "implicit_euler", "pbd", "mass_spring", "implicit_constraints"});
     return one_of(random, {"xpbd", "vbd", "implicit_euler"});
 }
 
-bool can_flow(const std::string& method)
+bool can_flow(MethodKind method)
 {
-    return method == "xpbd" || method == "vbd" || method == "implicit_euler" || method == "mass_spring";
+    return method == MethodKind::xpbd || method == MethodKind::vbd || method == MethodKind::implicit_euler ||
+           method == MethodKind::mass_spring;
 }
 
 /// A plastic sheet far away: what is said of the other body must not depend on it.
@@ -180,13 +181,15 @@ Scene random_scene(Random& random)
     const bool solid = random.uniform(0, 1) < 0.4;
     Scene scene = solid ? random_solid(random) : random_cloth(random);
     MethodSettings& m = scene.method;
-    m.type = random_method(random, scene);
-    m.stability = "ignore";
-    m.integrator = one_of(random, {"semi_implicit", "verlet", "explicit"});
+    m.type = named<MethodKind>(random_method(random, scene));
+    m.stability = StabilityRule::ignore;
+    m.integrator =
+        one_of(random, {Integrator::semi_implicit, Integrator::verlet, Integrator::explicit_euler});
     m.substeps = static_cast<std::uint32_t>(between(random, 1, 50));
-    m.iterations =
-        m.type == "mass_spring" || m.type == "acad" ? 1 : static_cast<std::uint32_t>(between(random, 1, 8));
-    m.spectral_radius = m.type == "vbd" && random.uniform(0, 1) < 0.3 ? 0.95 : 0;
+    m.iterations = m.type == MethodKind::mass_spring || m.type == MethodKind::acad
+                       ? 1
+                       : static_cast<std::uint32_t>(between(random, 1, 8));
+    m.spectral_radius = m.type == MethodKind::vbd && random.uniform(0, 1) < 0.3 ? 0.95 : 0;
     scene.timestep = between(random, 1.0 / 240, 1.0 / 15);
     if (random.uniform(0, 1) < 0.1 && can_flow(m.type))
         scene.bodies[0].material.plastic_yield = between(random, 0.01, 1);
@@ -199,8 +202,8 @@ Scene random_scene(Random& random)
 Scene solved(Scene scene)
 {
     scene.method = {};
-    scene.method.type = "implicit_euler";
-    scene.method.precision = "double";
+    scene.method.type = MethodKind::implicit_euler;
+    scene.method.precision = Precision::float64;
     scene.method.substeps = 20;
     scene.method.iterations = 3;
     scene.method.line_search = 4;
@@ -313,10 +316,11 @@ Verdict verdict_of(int k, const std::shared_ptr<Device>& device)
         out.truth = truth_of(scene, run, solution);
         out.word = std::string(to_string(run.report.status));
         std::ostringstream line;
-        line << "case " << k << " | " << scene.method.type << " | " << out.truth << " | " << out.word
-             << " | kinetic energy a kg " << shown(run.most, 3) << " of " << shown(solution.most, 3)
-             << ", load residual " << shown(run.report.load_residual, 3) << ", strain "
-             << shown(run.strain, 3) << " of " << shown(solution.strain, 3) << " | " << run.report.reason;
+        line << "case " << k << " | " << to_string(scene.method.type) << " | " << out.truth << " | "
+             << out.word << " | kinetic energy a kg " << shown(run.most, 3) << " of "
+             << shown(solution.most, 3) << ", load residual " << shown(run.report.load_residual, 3)
+             << ", strain " << shown(run.strain, 3) << " of " << shown(solution.strain, 3) << " | "
+             << run.report.reason;
         out.line = line.str();
     }
     catch (const Error& error)

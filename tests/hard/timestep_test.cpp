@@ -140,7 +140,7 @@ TEST_CASE("A11: steps of a microsecond fall as far as they should, 100 m from th
     note("A11", *device, "fall, error at 100 km", error_after(far, device, 20000));
     REQUIRE(make_plan(far).warnings.size() == 1);
     CHECK(make_plan(far).warnings[0].word == "precision");
-    far.method.precision = "double";
+    far.method.precision = Precision::float64;
     CHECK(make_plan(far, measure_traits(*device)).warnings.empty());
     CHECK(error_after(far, device, 20000) < 0.01);
 }

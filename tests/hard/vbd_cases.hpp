@@ -7,7 +7,7 @@ namespace taut::hard {
 
 inline Scene by_vbd(Scene scene, std::uint32_t substeps = 10, std::uint32_t iterations = 2)
 {
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return scene;

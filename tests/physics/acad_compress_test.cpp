@@ -22,9 +22,9 @@ Scene acad(const Body& body, double h, bool compress)
 {
     Scene scene = alone(body);
     scene.timestep = h;
-    scene.method.type = "acad";
+    scene.method.type = MethodKind::acad;
     scene.method.substeps = 1;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.constraint_compliance = 0;
     scene.method.activate_strain = scene.method.release_strain = kThreshold;
     scene.method.compress = compress;
@@ -106,7 +106,7 @@ Scene loaded_column(const char* release, bool compress)
     Scene scene = acad(column(kSprings, 80, kLoad), kColumnStep, compress);
     scene.gravity = {0, -kGravity, 0};
     scene.damping = 16; // 1/s, about critical
-    scene.method.release = release;
+    scene.method.release = named<ReleaseRule>(release);
     if (std::string(release) == "strain")
         scene.method.release_strain = kThreshold / 2;
     return scene;
@@ -177,7 +177,7 @@ TEST_CASE("a spring that is pressed moves as the mirror image of one that is pul
             body.springs = {{0, 1, 1, 1.0 / 50}};
             body.pins = {hold({0})};
             Scene pull = acad(body, 1.0 / 240, true);
-            pull.method.release = release;
+            pull.method.release = named<ReleaseRule>(release);
             pull.method.release_strain = kThreshold / 2;
             pull.gravity = {0, 4, 0}; // 8 % of strain at rest
             Scene push = pull;
@@ -229,7 +229,7 @@ Closing close_cloth(const std::shared_ptr<Device>& device, double h, double rate
     body.vertex_masses.assign(64, 1.0 / 64);
     cloth.bodies = {body};
     Scene scene = acad(resolve(cloth).bodies[0], h, compress);
-    scene.method.constrained = "structural";
+    scene.method.constrained = ConstrainedSprings::structural;
     scene.bodies[0].velocity = {0.3, -0.2, 0.1};
     World world(scene, device);
     close_in(world, rate);

@@ -14,7 +14,7 @@ namespace {
 
 Scene acad(Scene scene)
 {
-    scene.method.type = "acad";
+    scene.method.type = MethodKind::acad;
     scene.method.substeps = 1;
     scene.method.constraint_compliance = 0;
     return scene;
@@ -29,7 +29,7 @@ Scene one_spring(double h)
     Scene scene = acad(alone(body));
     scene.gravity = {0, -9.81, 0};
     scene.timestep = h;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.activate_strain = scene.method.release_strain = 0.1;
     return scene;
 }
@@ -78,7 +78,7 @@ TEST_CASE("a weight beyond its spring's threshold settles there, without chatter
         for (const char* release : {"multiplier", "strain"})
         {
             Scene scene = one_spring(1.0 / 60);
-            scene.method.release = release;
+            scene.method.release = named<ReleaseRule>(release);
             if (std::string(release) == "strain")
                 scene.method.release_strain = 0.05;
             World world(scene, device);
@@ -131,11 +131,11 @@ TEST_CASE("with no constraint it is mass-spring, bit for bit (F11)")
         {
             Scene scene = square(10, 100, 1e-3);
             scene.bodies[0].material.stretch_damping = 1e-3;
-            scene.method.precision = precision;
+            scene.method.precision = named<Precision>(precision);
             Scene free = acad(scene);
             free.method.activate_strain = free.method.release_strain = 1e6;
             Scene plain = free;
-            plain.method.type = "mass_spring";
+            plain.method.type = MethodKind::mass_spring;
             World a(free, device), b(plain, device);
             run(a, 40);
             run(b, 40);
@@ -156,18 +156,18 @@ TEST_CASE("with every spring a constraint it is implicit constraints, bit for bi
                 scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
                 for (glm::dvec3& x : scene.bodies[0].start_positions)
                     x *= 1.002;
-                scene.method.precision = precision;
+                scene.method.precision = named<Precision>(precision);
                 scene.method.iterations = solves;
                 Scene all = acad(scene);
                 all.method.constraint_compliance = 1e-4; // the network has more springs than freedom
                 all.method.activate_strain = 1e-3; // all stay stretched by about that; none is released
                 all.method.release_strain = 0;
-                all.method.release = "strain";
+                all.method.release = ReleaseRule::strain;
                 Scene plain = all;
                 for (Body::Spring& s : plain.bodies[0].springs)
                     s.rest_length *= 1 + all.method.activate_strain;
-                plain.method.type = "implicit_constraints";
-                plain.method.linear_operator = "matrix_free";
+                plain.method.type = MethodKind::implicit_constraints;
+                plain.method.linear_operator = LinearOperator::matrix_free;
                 World a(all, device), b(plain, device);
                 for (int step = 0; step < 15; ++step)
                 {
@@ -220,11 +220,11 @@ TEST_CASE("strain stays near the threshold where mass-spring stretches on (seed 
     for (const double stiffness : {20.0, 100.0, 500.0})
     {
         Scene scene = acad(square(16, stiffness, 1e-3));
-        scene.method.stability = "ignore";
-        scene.method.constrained = "structural";
+        scene.method.stability = StabilityRule::ignore;
+        scene.method.constrained = ConstrainedSprings::structural;
         Scene plain = scene, at_three = scene, at_five = scene;
-        plain.method.type = "mass_spring";
-        at_three.method.release = at_five.method.release = "strain";
+        plain.method.type = MethodKind::mass_spring;
+        at_three.method.release = at_five.method.release = ReleaseRule::strain;
         at_three.method.release_strain = 0.03;
         const double springs = hang(plain, device).strain;
         note("3.4", *device, "k", stiffness);
@@ -249,8 +249,8 @@ TEST_CASE("the system has as many rows as springs are constraints (F12)")
 {
     on_every_device([](const auto& device) {
         Scene scene = acad(square(12, 60, 1e-3));
-        scene.method.constrained = "structural";
-        scene.method.release = "strain"; // flags then stay as they were in the substep
+        scene.method.constrained = ConstrainedSprings::structural;
+        scene.method.release = ReleaseRule::strain; // flags then stay as they were in the substep
         scene.method.release_strain = 0.01;
         World world(scene, device);
         bool some = false;
@@ -280,7 +280,7 @@ TEST_CASE("a continuation from a saved state is the same to the last bit, flags 
 {
     on_every_device([](const auto& device) {
         Scene scene = acad(square(8, 40, 1e-3));
-        scene.method.constrained = "structural";
+        scene.method.constrained = ConstrainedSprings::structural;
         World whole(scene, device), first(scene, device), second(scene, device);
         run(whole, 160);
         run(first, 150);

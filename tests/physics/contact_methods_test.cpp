@@ -37,7 +37,8 @@ Scene meeting(std::vector<Body> bodies)
 /// Every method, acad too: contact does not ask for what it holds by itself.
 std::string any_method()
 {
-    return GENERATE(from_range(std::vector<std::string>(kMethodNames.begin(), kMethodNames.end())));
+    return GENERATE(
+        from_range(std::vector<std::string>(kWords<MethodKind>.begin(), kWords<MethodKind>.end())));
 }
 
 glm::dvec3 mean(std::span<const glm::dvec3> values)

@@ -30,7 +30,7 @@ Scene two_sheets(double apart)
 /// Nothing crosses from the start on, nothing moves but by what lengths are still off, and the run is sound.
 void check_apart(const Scene& scene)
 {
-    REQUIRE(scene.contact.start == "separate");
+    REQUIRE(scene.contact.start == ContactStart::separate);
     JudgedRun run(scene);
     run.verdict = run.judge.look(run.before);
     CHECK(run.verdict.intersecting == 0);
@@ -49,7 +49,7 @@ TEST_CASE("a sheet that stands in another one, a tenth of it through, is taken o
 {
     Scene scene = suite("49_crossing_sheets");
     check_apart(scene);
-    scene.contact.start = "ignore";
+    scene.contact.start = ContactStart::ignore;
     JudgedRun run(scene);
     CHECK(run.judge.look(run.before).intersecting > 0);
 }
@@ -67,7 +67,7 @@ TEST_CASE("sheets that start nearer than their gap are taken apart by what is mi
 {
     Scene scene = two_sheets(0.25 * kGap);
     scene.bodies[1].material.density *= 3;
-    scene.contact.start = "separate";
+    scene.contact.start = ContactStart::separate;
     check_apart(scene);
     const SeparatedStart found = separate_start(resolve(scene));
     CHECK(found.crossed.empty());
@@ -91,7 +91,7 @@ TEST_CASE("sheets that start in one plane are laid on each other, not beside eac
         for (Body& body : scene.bodies)
             body.transform.rotate_degrees += turn;
         scene.bodies[1].transform.translate = {0, 0, 0};
-        scene.contact.start = "separate";
+        scene.contact.start = ContactStart::separate;
         check_apart(scene);
         CHECK(separate_start(resolve(scene)).farthest < 3 * kGap);
     }
@@ -125,7 +125,7 @@ TEST_CASE("panels that springs sew together go as one, and what touches nothing 
     upper.shape.kind = ShapeKind::mesh;
     upper.mesh.grid_columns = upper.mesh.grid_rows = 0;
     upper.springs = {{0, count, 0.5, 0.001}, {7, count + 7, 0.5, 0.001}};
-    scene.contact.start = "separate";
+    scene.contact.start = ContactStart::separate;
     const SeparatedStart found = separate_start(scene);
     const std::vector<glm::dvec3>& start = start_of(found.scene.bodies[1]);
     for (std::uint32_t v = 0; v < count; ++v)
@@ -153,7 +153,7 @@ TEST_CASE("a scene that is no scene is refused before its surfaces are looked at
     Scene scene = resolve(two_sheets(0));
     for (const char* start : {"separate", "refuse"})
     {
-        scene.contact.start = start;
+        scene.contact.start = named<ContactStart>(start);
         scene.bodies[0].pins = {Pin{}};
         scene.bodies[0].pins[0].vertices = {100000};
         CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")), Catch::Contains("pins[0].vertices"));
@@ -174,7 +174,7 @@ TEST_CASE("what is held stays where it is, and what is loose goes all the way")
 {
     Scene scene = two_sheets(0.5 * kGap);
     test::hold_all(scene.bodies[0]);
-    scene.contact.start = "separate";
+    scene.contact.start = ContactStart::separate;
     check_apart(scene);
     const SeparatedStart found = separate_start(resolve(scene));
     CHECK(start_of(found.scene.bodies[0]) == found.scene.bodies[0].mesh.positions);
@@ -191,7 +191,7 @@ TEST_CASE("cloth that is folded through itself is taken apart")
     for (glm::dvec3& x : scene.bodies[0].start_positions)
         if (x.x > 0.02)
             x = {0.04 - x.x, 0.02 - 0.6 * (x.x - 0.02), x.z};
-    scene.contact.start = "separate";
+    scene.contact.start = ContactStart::separate;
     const StartSurfaces before(resolve(scene));
     REQUIRE(!before.crossings(before.places()).empty());
     JudgedRun run(scene);
@@ -208,7 +208,7 @@ TEST_CASE("what cannot be taken apart is refused, and named")
     scene.bodies[1].transform.rotate_degrees = -80;
     for (Body& body : scene.bodies)
         test::hold_all(body);
-    scene.contact.start = "separate";
+    scene.contact.start = ContactStart::separate;
     CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")),
                       Catch::Contains("could not be taken apart") && Catch::Contains("(\"first\")"));
 }

@@ -66,7 +66,7 @@ TEST_CASE("a strip that falls on itself does not cross itself, however far its s
     Scene scene = strip_on_itself();
     scene.bodies[0].contact.self = true;
     scene.contact.searches = GENERATE(1u, 2u, 5u, 20u);
-    scene.contact.guarantee = GENERATE("none", "no_crossing");
+    scene.contact.guarantee = GENERATE(Guarantee::none, Guarantee::no_crossing);
     CAPTURE(scene.contact.searches, scene.contact.guarantee);
     CHECK(crossed_in(scene, 90) == 0);
 }

@@ -176,7 +176,7 @@ TEST_CASE("surfaces that start within each other are named, or refused where the
     scene.bodies[1].transform.translate.y = 0.02;
     scene.bodies[1].transform.rotate_degrees = -80;
     CHECK_NOTHROW(World(scene, test_device("cpu:serial")));
-    scene.contact.start = "refuse";
+    scene.contact.start = ContactStart::refuse;
     CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")),
                       Contains("go through each other at the start") &&
                           Contains("of bodies[0] (\"first\") and"));

@@ -193,8 +193,8 @@ TEST_CASE("a list lasts while vertices are where they were expected, and not whe
     CAPTURE(guarded, doubles);
     scene.gravity = glm::dvec3(0);
     scene.contact.searches = 2;
-    scene.contact.guarantee = guarded ? "no_crossing" : "none";
-    scene.method.precision = doubles ? "double" : "float";
+    scene.contact.guarantee = guarded ? Guarantee::no_crossing : Guarantee::none;
+    scene.method.precision = doubles ? Precision::float64 : Precision::float32;
     World world(scene, test_device("cpu:serial"));
     const auto searches_of = [&](int steps) {
         const std::uint64_t before = world.contacts().searches;
@@ -276,12 +276,12 @@ TEST_CASE("contact is the same bit for bit on every executor")
     scene.contact.friction = 0.4;
     scene.bodies[1].contact.self = true;
     scene.bodies[1].velocity = {0.3, -0.5, 0.1};
-    scene.method.precision = GENERATE("float", "double");
+    scene.method.precision = GENERATE(Precision::float32, Precision::float64);
     std::uint64_t hash = 0;
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
-        if (scene.method.precision == "double" && !device->limits().float64)
+        if (scene.method.precision == Precision::float64 && !device->limits().float64)
             continue;
         World world(scene, device);
         for (int step = 0; step < 8; ++step)

@@ -21,11 +21,11 @@ Scene square(const std::string& method, double warp, double weft, double shear, 
     scene.gravity = glm::dvec3(0);
     scene.damping = 3;
     scene.duration = 4;
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     scene.method.substeps = 40;
     scene.method.iterations = method == "vbd" || method == "xpbd" ? 4 : 1;
     if (method == "mass_spring")
-        scene.method.stability = "substep";
+        scene.method.stability = StabilityRule::substep;
     Body body;
     body.shape.cells = {8, 8};
     body.material.stretch_stiffness = 0;
@@ -53,7 +53,7 @@ TEST_CASE("a fabric whose vertices start anywhere comes back to its shape, under
     const std::string precision = GENERATE("float", "double");
     CAPTURE(method, precision);
     Scene scene = square(method, 3000, 1000, 30, {0, 1, 0});
-    scene.method.precision = precision;
+    scene.method.precision = named<Precision>(precision);
     scene.bodies[0].material.bending_stiffness = 1e-4;
     conformance::Random random(3);
     for (std::size_t v = 0; v < scene.bodies[0].mesh.positions.size(); ++v)
@@ -76,7 +76,7 @@ TEST_CASE("yarns a million times as stiff as their shear leave a bias as soft as
     CAPTURE(method);
     const double stiff = 1e4, shear = 0.01, bias = 4 / (1 / shear + 2 / stiff), strain = 0.01;
     Scene scene = square(method, stiff, stiff, shear, {1, 1, 0});
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.substeps = 100;
     scene.damping = 1;
     scene.duration = 12;

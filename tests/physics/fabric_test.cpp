@@ -57,12 +57,12 @@ Scene sheet(const std::string& method, const Fabric& fabric)
     scene.gravity = glm::dvec3(0);
     scene.damping = 10;
     scene.duration = 2;
-    scene.method.type = method;
-    scene.method.precision = "double";
+    scene.method.type = named<MethodKind>(method);
+    scene.method.precision = Precision::float64;
     scene.method.substeps = method == "xpbd" ? 400 : 20; // its error falls as h^2
     scene.method.iterations = method == "vbd" || method == "xpbd" ? 4 : 1;
     if (method == "mass_spring")
-        scene.method.stability = "substep";
+        scene.method.stability = StabilityRule::substep;
     Body body;
     body.shape.kind = ShapeKind::mesh;
     body.shape.file = uneven_mesh();
@@ -184,7 +184,7 @@ TEST_CASE("implicit_euler leaves next to nothing of the forces of a stretched fa
     scene.damping = 0;
     scene.method.substeps = 1;
     scene.method.iterations = 6; // of Newton
-    scene.method.linear_operator = GENERATE("assembled", "matrix_free");
+    scene.method.linear_operator = GENERATE(LinearOperator::assembled, LinearOperator::matrix_free);
     CAPTURE(scene.method.linear_operator);
     scene = resolve(scene);
     scene.bodies[0].start_positions = changed(scene, [](const glm::dvec3& x) { return 1.05 * x; });
@@ -220,7 +220,7 @@ TEST_CASE("a fabric with hinges moves with the same bits on every executor")
     CAPTURE(method);
     Scene scene = sheet(method, woven(20));
     scene.gravity = {0, -9.81, 0};
-    scene.method.precision = "float";
+    scene.method.precision = Precision::float32;
     scene.method.substeps = 2;
     scene.bodies[0].material.bending_stiffness = 1e-4;
     Pin pin;
@@ -269,7 +269,7 @@ TEST_CASE("strips along warp, weft and bias hang alike over an edge by what the 
         Scene scene;
         scene.damping = 6;
         scene.duration = 3;
-        scene.method.type = "implicit_euler";
+        scene.method.type = MethodKind::implicit_euler;
         scene.method.substeps = 4;
         scene.method.linear_iterations = 400;
         Body body;

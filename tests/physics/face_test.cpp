@@ -131,7 +131,7 @@ glm::dvec3 mean_place(const World& world)
 TEST_CASE("what would fit through triangles is held up by them, under every method", "[face]")
 {
     for (const auto& [name, scene] : drapes())
-        for (const std::string_view method : kMethodNames)
+        for (const std::string_view method : kWords<MethodKind>)
         {
             CAPTURE(name, method);
             World world(test::under(scene, std::string(method)), test_device("cpu:serial"));
@@ -147,7 +147,7 @@ TEST_CASE("without triangles it comes through between vertices", "[face]")
     for (auto [name, scene] : drapes())
     {
         CAPTURE(name);
-        scene.colliders[0].meets = "vertices";
+        scene.colliders[0].meets = ColliderMeets::vertices;
         World world(scene, test_device("cpu:serial"));
         CHECK(deepest_in(world, 60).solid > 0.9 * kThickness);
     }
@@ -168,7 +168,7 @@ TEST_CASE("cloths that are thrown at colliders which may move and turn do not en
         scene.bodies[0].velocity = {random.uniform(-1, 1), random.uniform(-4, 0), random.uniform(-1, 1)};
         Collider& collider = scene.colliders[0];
         collider.friction = random.uniform(0, 1);
-        collider.meets = "surface";
+        collider.meets = ColliderMeets::surface;
         if (random.chance(0.5))
         {
             Keyframe end{1, {random.uniform(-1, 1), random.uniform(-1, 1), 0}};

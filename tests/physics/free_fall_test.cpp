@@ -15,28 +15,30 @@ const glm::dvec3 kGravity(0.5, -9.81, 0.25);
 
 struct Way
 {
-    std::string method, integrator = "semi_implicit";
+    std::string method;
+    Integrator integrator = Integrator::semi_implicit;
 };
 
 std::vector<Way> all_ways()
 {
     std::vector<Way> out;
-    for (const std::string_view name : kMethodNames)
+    for (const std::string_view name : kWords<MethodKind>)
         out.push_back({std::string(name)});
-    out.push_back({"mass_spring", "explicit"});
-    out.push_back({"mass_spring", "verlet"});
+    out.push_back({"mass_spring", Integrator::explicit_euler});
+    out.push_back({"mass_spring", Integrator::verlet});
     return out;
 }
 
 /// A thrown cloth at rest in itself, under a method.
 Scene thrown(const Way& way, const char* precision, std::uint32_t substeps)
 {
-    const double soft = way.integrator == "explicit" ? 0.01 : 1; // whose rounding would grow with the rest
+    const double soft =
+        way.integrator == Integrator::explicit_euler ? 0.01 : 1; // whose rounding would grow with the rest
     Scene scene = test::under(free_cloth(3, 5 * soft, 1e-6 * soft), way.method);
     scene.method.integrator = way.integrator;
-    scene.method.precision = precision;
+    scene.method.precision = named<Precision>(precision);
     scene.method.substeps = substeps;
-    scene.method.stability = "refuse";
+    scene.method.stability = StabilityRule::refuse;
     scene.gravity = kGravity;
     scene.bodies[0].velocity = {1, 2, -0.5};
     return scene;
@@ -73,7 +75,7 @@ double rounding_of_elements(const char* precision, double h) { return unit(preci
 
 Words warnings(const Way& way)
 {
-    return way.integrator == "explicit" ? Words{"energy_growth"} : Words{};
+    return way.integrator == Integrator::explicit_euler ? Words{"energy_growth"} : Words{};
 }
 
 template <typename AnyWorld>
@@ -97,7 +99,7 @@ void on_ways_and_devices(F&& f)
     for (const std::string& selector : test_devices())
         for (const Way& way : all_ways())
             if (selector == "cpu:serial" || way.method == "xpbd" || way.method == "vbd" ||
-                way.integrator == "explicit")
+                way.integrator == Integrator::explicit_euler)
             {
                 CAPTURE(selector, way.method, way.integrator);
                 f(way, test_device(selector));
@@ -187,7 +189,7 @@ TEST_CASE("bodies fall along the parabola on two devices, and while others sleep
 {
     Scene scene = free_cloth(3, 5, 1e-6);
     scene.gravity = kGravity;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.bodies.push_back(scene.bodies[0]);
     scene.bodies[0].velocity = scene.bodies[1].velocity = {1, 2, -0.5};
     HybridOptions options;
@@ -243,7 +245,7 @@ TEST_CASE("what lies or hangs at rest has no speed, before and after a change of
                 for (glm::dvec3& x : scene.bodies[0].mesh.positions)
                     x = {x.x, scene.bodies[0].material.thickness, x.y};
             scene.method.integrator = way.integrator;
-            scene.method.precision = "double";
+            scene.method.precision = Precision::float64;
             scene.method.stretch = 1; // of pbd
             scene.damping = hangs ? 10 : 0;
             if (!hangs)
@@ -274,7 +276,7 @@ TEST_CASE("what slides from rest gains speed and way as friction leaves it, from
     on_ways_and_devices([](const Way& way, const auto& device) {
         Scene scene = test::under(alone(particles({{0, 0, 0}})), way.method);
         scene.method.integrator = way.integrator;
-        scene.method.precision = "double";
+        scene.method.precision = Precision::float64;
         scene.gravity = {0, -9.81, 0};
         Collider plane = floor_of({0, 0, 0}, glm::normalize(glm::dvec3(slope, 1, 0)));
         plane.friction = friction;
@@ -298,7 +300,7 @@ TEST_CASE("gravity that turns round lifts what lies, along the parabola")
     on_ways_and_devices([](const Way& way, const auto& device) {
         Scene scene = test::under(alone(particles({{0, 0, 0}})), way.method);
         scene.method.integrator = way.integrator;
-        scene.method.precision = "double";
+        scene.method.precision = Precision::float64;
         scene.gravity = {0, -9.81, 0};
         scene.colliders = {floor_of()};
         scene.bodies[0].mesh.positions[0].y = scene.bodies[0].material.thickness;
@@ -316,7 +318,7 @@ TEST_CASE("a blow is no acceleration: what has landed is at rest but for half a 
     on_ways_and_devices([](const Way& way, const auto& device) {
         Scene scene = test::under(alone(particles({{0, 0.5, 0}})), way.method);
         scene.method.integrator = way.integrator;
-        scene.method.precision = "double";
+        scene.method.precision = Precision::float64;
         scene.gravity = {0, -9.81, 0};
         scene.bodies[0].velocity = {0, -50, 0};
         scene.colliders = {floor_of()};

@@ -37,9 +37,9 @@ Scene bar(const std::string& model, bool held, const glm::uvec3& cells, const gl
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = cells;
     body.shape.box_size = size;
-    body.shape.split = "six";
+    body.shape.split = BoxSplit::six;
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     body.material.density = 1000;
     body.material.youngs_modulus = 1e6;
     body.material.poissons_ratio = 0.3;
@@ -132,10 +132,10 @@ TEST_CASE("a neo-Hookean bar swings at the frequency of its lowest mode, held or
     const bool held = GENERATE(true, false);
     CAPTURE(way.type, material, held);
     Scene scene = bar(material, held, {6, 2, 2}, {1, 0.25, 0.2});
-    scene.method.type = way.type;
+    scene.method.type = named<MethodKind>(way.type);
     scene.method.substeps = way.substeps;
     scene.method.iterations = way.iterations;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.linear_iterations = 500;
     scene.method.linear_tolerance = 1e-10;
     const PhysicalModel model = make_model(scene);

@@ -64,7 +64,7 @@ TEST_CASE("a skirt of 20,000 triangles, with edges of many lengths, falls alike 
     Scene scene;
     scene.timestep = 1.0 / 60;
     scene.damping = 0.5;
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 20;
     Body& skirt = scene.bodies.emplace_back();
     skirt.shape.kind = ShapeKind::mesh;

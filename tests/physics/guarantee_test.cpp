@@ -32,7 +32,7 @@ TEST_CASE("thrown sheets never cross with the guarantee, and do without")
     {
         Scene scene = test::thrown_sheets(1000 + seed, {1, 1, origin, speed, false});
         met += test::run_thrown(scene, 30, true).met;
-        scene.contact.guarantee = "no_crossing";
+        scene.contact.guarantee = Guarantee::no_crossing;
         const test::Crossed guarded = test::run_thrown(scene, 30, true);
         CAPTURE(seed, guarded.counts.filtered, guarded.counts.held, guarded.counts.pinched);
         CHECK(guarded.met == 0);
@@ -57,7 +57,7 @@ TEST_CASE("thrown sheets never cross with the guarantee, under every other metho
         // Ways are straight where a step is one substep: explicit methods take several.
         const bool ways = World(scene, test_device("cpu:serial")).plan().substeps == 1;
         met += test::run_thrown(scene, 20, ways).met;
-        scene.contact.guarantee = "no_crossing";
+        scene.contact.guarantee = Guarantee::no_crossing;
         const test::Crossed guarded = test::run_thrown(scene, 20, ways);
         CAPTURE(seed, guarded.counts.filtered, guarded.counts.held, guarded.counts.pinched);
         CHECK(guarded.met == 0);
@@ -129,7 +129,7 @@ TEST_CASE("what a stretched strip throws further than its search looked stops at
     const test::Crossed guarded = test::run_thrown(scene, 10, true);
     CHECK(guarded.met == 0);
     CHECK(guarded.counts.filtered > 0);
-    scene.contact.guarantee = "none";
+    scene.contact.guarantee = Guarantee::none;
     CHECK(test::run_thrown(scene, 10, true).met > 0);
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("layers that fall together are not held up by the guarantee")
         scene.bodies.push_back(sheet);
     }
     World guarded(scene, test_device("cpu:serial"));
-    scene.contact.guarantee = "none";
+    scene.contact.guarantee = Guarantee::none;
     World free(scene, test_device("cpu:serial"));
     for (int step = 0; step < 10; ++step)
     {
@@ -185,7 +185,7 @@ TEST_CASE("a sheet that strikes a held one at any speed ends above it, and gains
     CAPTURE(counts.filtered, counts.held);
     CHECK(counts.pinched == 0);
     CHECK((speed > 100 || counts.cut + counts.crowded + counts.held == 0));
-    scene.contact.guarantee = "none";
+    scene.contact.guarantee = Guarantee::none;
     World free(scene, test_device("cpu:serial"));
     std::size_t met = 0;
     for (int step = 0; step < 12; ++step)
@@ -206,7 +206,7 @@ TEST_CASE("a held sheet that moves pushes a free one before it")
     const test::Crossed guarded = test::run_thrown(resolve(scene), 12, false);
     CHECK(guarded.met == 0);
     CHECK((guarded.counts.pinched > 0) == (speed > 5)); // from rest it may not follow at once
-    scene.contact.guarantee = "none";
+    scene.contact.guarantee = Guarantee::none;
     CHECK((test::run_thrown(resolve(scene), 12, true).met > 0) == (speed > 5));
 }
 
@@ -264,13 +264,13 @@ TEST_CASE("with the guarantee a step whose lists are too short is done again, bi
 TEST_CASE("the guarantee is the same bit for bit on every executor")
 {
     Scene scene = test::thrown_sheets(1003, {2, 1, 1, 10, false});
-    scene.contact.guarantee = "no_crossing";
-    scene.method.precision = GENERATE("float", "double");
+    scene.contact.guarantee = Guarantee::no_crossing;
+    scene.method.precision = GENERATE(Precision::float32, Precision::float64);
     std::uint64_t hash = 0, filtered = 0;
     for (const std::string& selector : test_devices())
     {
         const auto device = test_device(selector);
-        if (scene.method.precision == "double" && !device->limits().float64)
+        if (scene.method.precision == Precision::float64 && !device->limits().float64)
             continue;
         World world(scene, device);
         for (int step = 0; step < 10; ++step)
@@ -299,7 +299,7 @@ TEST_CASE("the guarantee is refused by name where it cannot be given")
     torn.bodies[0].material.tear_strain = 0.2;
     CHECK_THAT(refusal_of(torn), Contains("contact.guarantee") && Contains("tear_strain"));
     Scene wrong = alone;
-    wrong.contact.guarantee = "never";
+    wrong.contact.guarantee = static_cast<Guarantee>(2);
     CHECK_THAT(refusal_of(wrong), Contains("guarantee") && Contains("no_crossing"));
     Scene thin = alone;
     thin.bodies[0].transform.translate = {1000, 0, 0};
@@ -331,7 +331,7 @@ TEST_CASE("no scene of many crosses with the guarantee", "[.fuzz]")
     {
         const test::Throw how = any_throw(seed);
         Scene scene = test::thrown_sheets(seed, how);
-        scene.contact.guarantee = "no_crossing";
+        scene.contact.guarantee = Guarantee::no_crossing;
         if (seed % 3 == 0)
             scene.contact.searches = 1;
         const test::Crossed guarded = test::run_thrown(scene, 20, how.substeps == 1);

@@ -65,7 +65,7 @@ TEST_CASE("200 springs at one vertex hold its weight under pbd", "[hub]")
 {
     on_every_device([](const auto& device) {
         Scene scene = wheel();
-        scene.method.type = "pbd";
+        scene.method.type = MethodKind::pbd;
         scene.method.substeps = 20;
         World world(scene, device);
         run(world, 240);

@@ -15,8 +15,8 @@ namespace {
 Scene implicit(Scene scene)
 {
     scene.method = {};
-    scene.method.type = "implicit_euler";
-    scene.method.precision = "double";
+    scene.method.type = MethodKind::implicit_euler;
+    scene.method.precision = Precision::float64;
     scene.method.substeps = scene.method.iterations = 1;
     scene.method.linear_tolerance = 1e-13;
     scene.method.linear_iterations = 400;
@@ -65,7 +65,7 @@ Scene clamped_net(std::uint32_t n, double density)
 Scene crumpled(std::uint32_t n, std::string linear_operator)
 {
     Scene scene = implicit(free_cloth(n, 300, 1e-2));
-    scene.method.linear_operator = std::move(linear_operator);
+    scene.method.linear_operator = named<LinearOperator>(std::move(linear_operator));
     scene.bodies[0].material.stretch_damping = 1e-3;
     scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
     for (glm::dvec3& x : scene.bodies[0].start_positions)
@@ -83,7 +83,7 @@ TEST_CASE("one Newton step on a spring along its line is backward Euler to the l
         for (const char* linear_operator : {"assembled", "matrix_free"})
         {
             Scene scene = oscillator();
-            scene.method.linear_operator = linear_operator;
+            scene.method.linear_operator = named<LinearOperator>(linear_operator);
             World world(scene, device);
             run(world, 120);
             const double x = world.positions()[1].x - 1, v = world.velocities()[1].x;
@@ -147,7 +147,7 @@ TEST_CASE("both preconditioners take the same steps, and two levels take fewer i
         blocks.method.linear_tolerance = 1e-8;
         blocks.method.linear_iterations = 4000;
         Scene levels = blocks;
-        levels.method.preconditioner = "two_level";
+        levels.method.preconditioner = NewtonPreconditioner::two_level;
         World a(blocks, device), b(levels, device);
         run(a, 3);
         run(b, 3);
@@ -166,7 +166,7 @@ TEST_CASE("two levels hold what stands still, and what colliders hold in further
     // Light vertices among heavy ones: where a ball pushes them their rows leave the system between two
     // Newton steps.
     Scene scene = implicit(test::hanging(12));
-    scene.method.preconditioner = "two_level";
+    scene.method.preconditioner = NewtonPreconditioner::two_level;
     scene.method.iterations = 3;
     scene.method.linear_iterations = 4000;
     scene.bodies[0].vertex_masses.assign(169, 0.002);
@@ -177,7 +177,7 @@ TEST_CASE("two levels hold what stands still, and what colliders hold in further
     ball.radius = 0.3;
     scene.colliders = {ball};
     Scene blocks = scene;
-    blocks.method.preconditioner = "block_jacobi";
+    blocks.method.preconditioner = NewtonPreconditioner::block_jacobi;
     World a(blocks, test_device("cpu:serial")), b(scene, test_device("cpu:serial"));
     run(a, 12);
     run(b, 12);
@@ -196,7 +196,7 @@ TEST_CASE("free fall is exact with one iteration of the solver, however stiff th
         {
             Scene scene = implicit(free_cloth(6, stiffness, 1e-2));
             scene.gravity = {0, -9.81, 0};
-            scene.method.precision = "float";
+            scene.method.precision = Precision::float32;
             scene.method.linear_iterations = 1;
             scene.method.linear_tolerance = 1e-5;
             World world(scene, device);
@@ -242,7 +242,7 @@ TEST_CASE("a clamped net settles to the static answer with four iterations a sol
     // Methods, finding 1: at rest the right-hand side is zero, so a truncated solve has no error.
     Scene scene = clamped_net(17, 2);
     scene.method.linear_iterations = 4;
-    scene.method.linear_operator = GENERATE("assembled", "matrix_free");
+    scene.method.linear_operator = GENERATE(LinearOperator::assembled, LinearOperator::matrix_free);
     scene.damping = 5;
     World world(scene, test_device("cpu"));
     run(world, 600);

@@ -20,7 +20,7 @@ TEST_CASE("a heavy vertex stands on a light one where statics says", "[implicit_
             Collider floor;
             floor.kind = ColliderKind::plane;
             scene.colliders = {floor};
-            scene.method.type = "implicit_euler";
+            scene.method.type = MethodKind::implicit_euler;
             scene.method.iterations = 3;
             World world(scene, device);
             run(world, 120);

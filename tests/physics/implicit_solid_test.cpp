@@ -20,18 +20,18 @@ Scene solid(const std::string& model, glm::uvec3 cells, glm::dvec3 size, double 
 {
     Scene scene;
     scene.gravity = {0, 0, 0};
-    scene.method.type = "implicit_euler";
+    scene.method.type = MethodKind::implicit_euler;
     scene.method.substeps = 1;
     scene.method.iterations = 1;
     scene.method.linear_iterations = 400;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     Body body;
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = cells;
     body.shape.box_size = size;
-    body.shape.split = "six";
+    body.shape.split = BoxSplit::six;
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     body.material.density = 1000;
     body.material.youngs_modulus = modulus;
     body.material.poissons_ratio = ratio;
@@ -85,7 +85,7 @@ TEST_CASE("the neo-Hookean cantilever comes to rest at the golden drop", "[solid
         Scene scene = solid("neo_hookean_simple", cells, {1, 0.25, 0.25}, 1e7, 0.3);
         scene.gravity = {0, 0, -9.81};
         scene.damping = 5;
-        scene.method.linear_operator = way;
+        scene.method.linear_operator = named<LinearOperator>(way);
         hold(scene, "left");
         World world(resolve(scene), test_device("cpu:serial"));
         settle(world, 600);
@@ -104,7 +104,7 @@ TEST_CASE("solids at rest stay at rest under implicit Euler", "[solid][implicit_
     {
         CAPTURE(model, ratio, selector);
         Scene scene = solid(model, {3, 3, 3}, {1, 1, 1}, 1e6, ratio);
-        scene.method.precision = "float";
+        scene.method.precision = Precision::float32;
         scene.method.linear_iterations = 20;
         World world(resolve(scene), test_device(selector));
         for (int frame = 0; frame < 60; ++frame)
@@ -127,7 +127,7 @@ TEST_CASE("a stretched block under implicit Euler comes back, with a line search
     scene.damping = 2;
     scene.method.iterations = 3;
     scene.method.line_search = search;
-    scene.method.linear_operator = way;
+    scene.method.linear_operator = named<LinearOperator>(way);
     scene = resolve(scene);
     scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
     for (glm::dvec3& x : scene.bodies[0].start_positions)
@@ -157,7 +157,7 @@ TEST_CASE("the two operators take the same steps of solids", "[solid][implicit_e
     {
         Scene scene = solid(model, {4, 2, 2}, {1, 0.5, 0.5}, 1e5, 0.3);
         scene.gravity = {0, 0, -9.81};
-        scene.method.linear_operator = k == 0 ? "assembled" : "matrix_free";
+        scene.method.linear_operator = k == 0 ? LinearOperator::assembled : LinearOperator::matrix_free;
         scene.method.linear_tolerance = 1e-12;
         hold(scene, "left");
         World world(resolve(scene), test_device("cpu:serial"));
@@ -176,7 +176,7 @@ TEST_CASE("one scene of Young's moduli from 1e2 to 1e11 Pa stays finite", "[soli
 {
     Scene scene = solid("neo_hookean", {2, 2, 2}, {0.5, 0.5, 0.5}, 1e2, 0.3);
     scene.gravity = {0, 0, -9.81};
-    scene.method.precision = GENERATE("float", "double");
+    scene.method.precision = GENERATE(Precision::float32, Precision::float64);
     scene.method.linear_iterations = 100;
     hold(scene, "left");
     for (int power = 3; power <= 11; ++power)

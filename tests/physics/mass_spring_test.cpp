@@ -19,10 +19,10 @@ Scene oscillator(const char* integrator, double h, double rest = 0)
     body.pins = {hold({0})};
     Scene scene = alone(body);
     scene.timestep = h;
-    scene.method.type = "mass_spring";
-    scene.method.integrator = integrator;
+    scene.method.type = MethodKind::mass_spring;
+    scene.method.integrator = named<Integrator>(integrator);
     scene.method.substeps = 1;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     return scene;
 }
 
@@ -42,8 +42,8 @@ Scene swinging(bool network)
     body.pins = {pin};
     scene.bodies = {body};
     scene.duration = 0.3;
-    scene.method.type = "mass_spring";
-    scene.method.stability = "substep";
+    scene.method.type = MethodKind::mass_spring;
+    scene.method.stability = StabilityRule::substep;
     return resolve(scene);
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("the integrators give the golden numbers of the oscillator (methods A3
                     CHECK(std::abs(world.velocities()[1].x - g.v) < (rest > 0 ? 1e-11 : 1e-13));
             }
         Scene single = oscillator("semi_implicit", 1.0 / 120);
-        single.method.precision = "float";
+        single.method.precision = Precision::float32;
         World world(single, device);
         run(world, 120);
         CHECK(world.positions()[1].x == Approx(0.091644687561376753).epsilon(1e-4));
@@ -120,10 +120,10 @@ TEST_CASE("node-centric and spring-centric forces move cloth to the same bits")
             {
                 Scene scene = swinging(true);
                 scene.bodies[0].material.stretch_damping = damping;
-                scene.method.integrator = integrator;
-                scene.method.scheme = "node_centric";
+                scene.method.integrator = named<Integrator>(integrator);
+                scene.method.scheme = ElementScheme::node_centric;
                 World node(scene, device);
-                scene.method.scheme = "spring_centric";
+                scene.method.scheme = ElementScheme::spring_centric;
                 World spring(scene, device);
                 run(node, 30);
                 run(spring, 30);
@@ -145,14 +145,14 @@ TEST_CASE("cloth that starts at rest converges to the reference with order 2, by
     for (const bool network : {false, true})
     {
         Scene scene = swinging(network);
-        scene.method.precision = "double";
+        scene.method.precision = Precision::float64;
         const PhysicalModel model = make_model(scene);
         const DynamicReference exact = solve_dynamic(model);
         REQUIRE(exact.verified);
         const ErrorWeights weights = error_weights(model);
         for (const char* integrator : {"semi_implicit", "verlet"})
         {
-            scene.method.integrator = integrator;
+            scene.method.integrator = named<Integrator>(integrator);
             double before = 0;
             for (const std::uint32_t substeps : {20u, 40u, 80u})
             {
@@ -200,7 +200,7 @@ TEST_CASE("a hanging chain comes to the length of the sum of its weights")
 {
     on_every_device([](const auto& device) {
         Scene scene = test::chain(10, 1000, 0.01);
-        scene.method.type = "mass_spring";
+        scene.method.type = MethodKind::mass_spring;
         scene.method.substeps = 20;
         scene.damping = 8;
         World world(scene, device);
@@ -217,7 +217,7 @@ TEST_CASE("springs and hinges keep the momentum of a sheet that turns and falls"
     on_every_device([](const auto& device) {
         Scene scene = free_cloth(6, 200, 1e-3);
         scene.gravity = {0, -9.81, 0};
-        scene.method.type = "mass_spring";
+        scene.method.type = MethodKind::mass_spring;
         scene.method.substeps = 20;
         scene.bodies[0].material.stretch_damping = 1e-3;
         conformance::Random random(3);
@@ -225,7 +225,7 @@ TEST_CASE("springs and hinges keep the momentum of a sheet that turns and falls"
             scene.bodies[0].start_positions.push_back(x + glm::dvec3(0, 0, random.uniform(-0.05, 0.05)));
         for (const char* integrator : {"semi_implicit", "verlet"})
         {
-            scene.method.integrator = integrator;
+            scene.method.integrator = named<Integrator>(integrator);
             World world(scene, device);
             run(world, 60);
             const StepReport report = check_sound(world);

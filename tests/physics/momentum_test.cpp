@@ -31,10 +31,10 @@ Scene free_cube(const std::string& method)
     body.shape.box_size = {0.1, 0.1, 0.1};
     body.material = solid_material();
     if (method == "pbd")
-        body.material.model = "springs";
+        body.material.model = SolidModel::springs;
     scene.bodies = {body};
     scene.gravity = glm::dvec3(0);
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     return scene;
 }
 

@@ -98,7 +98,7 @@ TEST_CASE("one spring with one iteration is implicit Euler (methods A3)")
             Scene scene = alone(body);
             scene.timestep = 1.0 / 120;
             scene.method.substeps = 1;
-            scene.method.precision = precision;
+            scene.method.precision = named<Precision>(precision);
             World world(scene, device);
             run(world, 120);
             const double dx = std::abs(world.positions()[1].x - 1 - x_exact);
@@ -125,7 +125,7 @@ TEST_CASE("many substeps do not lose to rounding: 256 in float are as right as i
             const int steps = steps_for(*device, 120, 60);
             World world(scene, device);
             run(world, steps);
-            scene.method.precision = "double";
+            scene.method.precision = Precision::float64;
             World exact(scene, test_device("cpu:serial"));
             run(exact, steps);
             const double extension = 0.01 * 9.81 * 36 / 2000;
@@ -176,7 +176,7 @@ TEST_CASE("a spring with a damper and one iteration is implicit Euler with that 
         scene.method.substeps = 4;
         for (const char* precision : {"float", "double"})
         {
-            scene.method.precision = precision;
+            scene.method.precision = named<Precision>(precision);
             World world(scene, device);
             run(world, 30);
             double x = 0.1, v = 0;

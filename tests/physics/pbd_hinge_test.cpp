@@ -22,9 +22,9 @@ Scene held_by_an_edge(std::uint32_t cells, const char* edge, const char* scheme,
     body.velocity = {0, 0, 0.1};
     scene.bodies = {body};
     scene.gravity = glm::dvec3(0);
-    scene.method.type = "pbd";
-    scene.method.scheme = scheme;
-    scene.method.precision = precision;
+    scene.method.type = MethodKind::pbd;
+    scene.method.scheme = named<ElementScheme>(scheme);
+    scene.method.precision = named<Precision>(precision);
     return scene;
 }
 

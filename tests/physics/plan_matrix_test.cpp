@@ -13,8 +13,8 @@ Scene with_method(Scene scene, const char* type)
 {
     scene.timestep = 1.0 / 60;
     scene.method = {};
-    scene.method.type = type;
-    scene.method.precision = "double";
+    scene.method.type = named<MethodKind>(type);
+    scene.method.precision = Precision::float64;
     scene.method.substeps = 1;
     return scene;
 }
@@ -104,6 +104,6 @@ TEST_CASE("the matrix of rigid rods in a line is known", "[plan_matrix]")
 TEST_CASE("a plan that stores no matrix is refused in words", "[plan_matrix]")
 {
     Scene scene = with_method(test::hanging(2), "implicit_euler");
-    scene.method.linear_operator = "matrix_free";
+    scene.method.linear_operator = LinearOperator::matrix_free;
     CHECK_THROWS_WITH(test::matrix_of(scene, 1), Contains("stores no matrix"));
 }

@@ -31,7 +31,7 @@ Scene held_spring(const std::string& method, double strain)
 {
     Scene scene;
     scene.gravity = {0, 0, 0};
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     Body body;
     body.shape.kind = ShapeKind::mesh;
     body.mesh.positions = {{0, 0, 0}, {1, 0, 0}};
@@ -85,7 +85,7 @@ Scene bent_bar(const std::string& method, const std::string& model, double yield
     body.shape.box_cells = {12, 2, 2};
     body.shape.box_size = {0.6, 0.1, 0.1};
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     body.material.youngs_modulus = 1e6;
     body.material.plastic_yield = yield;
     body.material.plastic_creep = kAtOnce;
@@ -234,7 +234,7 @@ TEST_CASE("a tetrahedron drawn out flows by the exponential law, at constant vol
             CAPTURE(method, limit);
             Scene scene;
             scene.gravity = {0, 0, 0};
-            scene.method.precision = "double";
+            scene.method.precision = Precision::float64;
             scene.bodies.resize(1);
             Body& body = scene.bodies[0];
             body.shape.kind = ShapeKind::tetrahedra;
@@ -254,7 +254,7 @@ TEST_CASE("a tetrahedron drawn out flows by the exponential law, at constant vol
             Pin pin;
             pin.vertices = {0, 1, 2};
             body.pins = {pin};
-            scene.method.type = method;
+            scene.method.type = named<MethodKind>(method);
             World world(scene, test_device("cpu:serial"));
             run(world, 60);
             const WorldState state = world.state();

@@ -25,7 +25,7 @@ Scene level(const Shape& shape, double rigidity, double modulus, double nu, cons
     scene.gravity = {0, -kGravity, 0};
     scene.damping = 6;
     scene.duration = 2;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.substeps = 400;
     Body body;
     body.shape = shape;
@@ -38,7 +38,7 @@ Scene level(const Shape& shape, double rigidity, double modulus, double nu, cons
     body.material.fabric.poissons_ratio = nu;
     body.material.fabric.shear = modulus / (2 * (1 + nu));
     body.material.bending_stiffness = rigidity;
-    body.material.bending_model = model;
+    body.material.bending_model = named<BendingModel>(model);
     body.material.bending_poissons_ratio = nu;
     scene.bodies.push_back(body);
     return scene;
@@ -67,7 +67,7 @@ Shape grid(glm::uvec2 cells, glm::dvec2 size, const std::string& diagonals)
     shape.kind = ShapeKind::grid;
     shape.cells = cells;
     shape.size = size;
-    shape.diagonals = diagonals;
+    shape.diagonals = named<Diagonals>(diagonals);
     return shape;
 }
 
@@ -184,10 +184,10 @@ TEST_CASE("stiff, woven and free plates do not gain energy", "[plate]")
                             random.uniform(-0.5, 0.8), "plate");
         scene.damping = 0;
         scene.gravity = {0, 0, 0};
-        scene.method.precision = "float";
+        scene.method.precision = Precision::float32;
         scene.method.substeps = 30;
         FabricBending& bending = scene.bodies[0].material.fabric.bending;
-        bending = {true, std::pow(10, random.uniform(-6, 0)), 0, 0, "strip"};
+        bending = {true, std::pow(10, random.uniform(-6, 0)), 0, 0, BiasSpecimen::strip};
         bending.weft = bending.warp * std::pow(10, random.uniform(-2, 2));
         scene.bodies[0].velocity = {0.1, 0.2, 0.3};
         World world(scene, test_device("cpu:serial"));
@@ -218,11 +218,11 @@ TEST_CASE("plates of one scene move as each does alone, beside hinges and with s
     Scene all = level(grid({4, 5}, {0.2, 0.25}, "alternating"), 1e-4, 500, 0.25, "plate");
     all.method.substeps = 10;
     all.method.iterations = 2;
-    all.method.precision = "float";
+    all.method.precision = Precision::float32;
     hold(all, {-1, -1, -1}, {-0.0999, 1, 1});
     all.bodies.push_back(all.bodies[0]);
     all.bodies.push_back(all.bodies[0]);
-    all.bodies[1].material.bending_model = "hinge";
+    all.bodies[1].material.bending_model = BendingModel::hinge;
     all.bodies[1].material.bending_poissons_ratio = 0;
     all.bodies[2].material.bending_stiffness = 1e-3;
     all.duration = 0.5;
@@ -262,7 +262,7 @@ TEST_CASE("what has no plate refuses it by name", "[plate]")
 {
     Scene torn = level(grid({2, 2}, {1, 1}, "alternating"), 1e-4, 100, 0, "plate");
     torn.bodies.push_back(torn.bodies[0]);
-    torn.bodies[1].material.bending_model = "hinge";
+    torn.bodies[1].material.bending_model = BendingModel::hinge;
     torn.bodies[1].material.fabric.used = false;
     torn.bodies[1].material.stretch_stiffness = 100;
     torn.bodies[1].material.tear_strain = 0.5;
@@ -272,7 +272,7 @@ TEST_CASE("what has no plate refuses it by name", "[plate]")
         Scene scene = level(grid({2, 2}, {1, 1}, "alternating"), 1e-4, 100, 0, "plate");
         scene.bodies[0].material.fabric.used = false;
         scene.bodies[0].material.stretch_stiffness = 100;
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         CAPTURE(method);
         CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")),
                           Contains("bending_model is \"plate\", but method"));

@@ -148,7 +148,7 @@ TEST_CASE("a solid dropped onto cloth is caught, and never crosses it with the g
     scene.bodies = {sheet, block};
     scene.contact.between = true;
     scene.contact.friction = 0.3;
-    scene.contact.guarantee = "no_crossing";
+    scene.contact.guarantee = Guarantee::no_crossing;
     scene.method.substeps = 20;
     World caught(scene, test_device("cpu:serial"));
     CHECK(test::crossed_in(caught, 90) == 0);
@@ -158,7 +158,7 @@ TEST_CASE("a solid dropped onto cloth is caught, and never crosses it with the g
     World thrown(scene, test_device("cpu:serial"));
     CHECK(test::crossed_in(thrown, 30) == 0);
     CHECK(thrown.contacts().filtered > 0);
-    scene.contact.guarantee = "none";
+    scene.contact.guarantee = Guarantee::none;
     World crossing(scene, test_device("cpu:serial"));
     CHECK(test::crossed_in(crossing, 30) > 0);
 }
@@ -206,7 +206,7 @@ TEST_CASE("solids that hit each other do not go through each other by default")
         body.material.thickness = 0.001;
     scene.gravity = {0, 0, 0};
     scene.contact.between = true;
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     World world(resolve(scene), test_device("cpu:serial"));
     CHECK(test::crossed_in(world, 30) == 0);
     glm::dvec3 momentum[2] = {};

@@ -20,7 +20,7 @@ Body soft(ShapeKind shape, std::uint32_t cells, double size)
     body.shape.box_cells = {cells, cells, cells};
     body.shape.box_size = {size, size, size};
     body.material = solid_material();
-    body.material.model = "springs";
+    body.material.model = SolidModel::springs;
     return body;
 }
 
@@ -29,9 +29,9 @@ Scene as_pbd(const Body& body, const char* scheme, std::uint32_t iterations, dou
 {
     Scene scene;
     scene.gravity = {0, 0, 0};
-    scene.method.type = "pbd";
+    scene.method.type = MethodKind::pbd;
     scene.accept.stretch = 2; // tests of what sweeps do, not of what they solve
-    scene.method.scheme = scheme;
+    scene.method.scheme = named<ElementScheme>(scheme);
     scene.method.substeps = 1;
     scene.method.iterations = iterations;
     scene.method.stretch = stretch;

@@ -64,15 +64,15 @@ Scene squeezed(bool same_volume)
     Scene scene;
     scene.gravity = {0, 0, 0};
     scene.timestep = 1e-3;
-    scene.method.type = "mass_spring";
+    scene.method.type = MethodKind::mass_spring;
     scene.method.substeps = 1;
     Body body;
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {4, 4, 4};
     body.material = solid_material();
-    body.material.model = "springs";
+    body.material.model = SolidModel::springs;
     body.material.youngs_modulus = 1e4;
-    body.material.volume = "surface";
+    body.material.volume = HeldVolume::surface;
     body.material.volume_stiffness = kRigid;
     scene.bodies = {body};
     scene.accept.inverted = 1000; // springs do not know the inside of a tetrahedron
@@ -123,8 +123,8 @@ TEST_CASE("every integrator holds the volume, in float and double", "[surface_vo
     const std::string precision = GENERATE("float", "double");
     CAPTURE(integrator, precision);
     Scene scene = dropped(200, kRigid);
-    scene.method.integrator = integrator;
-    scene.method.precision = precision;
+    scene.method.integrator = named<Integrator>(integrator);
+    scene.method.precision = named<Precision>(precision);
     scene.bodies[0].material.stretch_damping = 2e-3; // or explicit Euler gains energy from every spring
     World world(scene, test_device("cpu:serial"));
     const Range range = run(world, 1500);
@@ -210,7 +210,7 @@ TEST_CASE("pressure of a compliant volume carries the load that its bulk modulus
     // of a step find the same multiplier as one does where the volume is linear enough.
     Scene scene = test::ball_of_springs(8, 1, 1e-3, 1e3);
     scene.gravity = {0, 0, 0};
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.timestep = 1e-5;
     scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
     for (glm::dvec3& x : scene.bodies[0].start_positions)

@@ -25,8 +25,8 @@ Scene level(std::uint32_t cells, const std::string& method)
     body.transform.rotate_axis = {1, 0, 0};
     body.transform.rotate_degrees = -90;
     scene.bodies = {body};
-    scene.method.type = method;
-    scene.method.stability = "substep";
+    scene.method.type = named<MethodKind>(method);
+    scene.method.stability = StabilityRule::substep;
     return scene;
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("a small ball slips through a coarse grid without touching a vertex, a
         scene.gravity = glm::dvec3(0);
         scene.colliders.resize(1);
         scene.colliders[0].radius = 0.04;
-        scene.colliders[0].meets = "vertices";
+        scene.colliders[0].meets = ColliderMeets::vertices;
         scene.colliders[0].point = {0.08, 0.3, 0.15}; // over a triangle
         scene.colliders[0].motion = {{0, {}}, {1, {0, -0.6, 0}}};
         REQUIRE(passes(scene, 60));

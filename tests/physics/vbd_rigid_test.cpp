@@ -34,7 +34,7 @@ Scene block_on_plane(double youngs_modulus, double slope_degrees, std::uint32_t 
     const double angle = glm::radians(slope_degrees);
     scene.gravity = {9.81 * std::sin(angle), -9.81 * std::cos(angle),
                      0}; // the plane is level, gravity is not
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     scene.method.substeps = 10;
     scene.method.iterations = iterations;
     return scene;

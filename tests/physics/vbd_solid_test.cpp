@@ -12,15 +12,15 @@ Scene solid(const glm::uvec3& cells, const glm::dvec3& size, const std::string& 
             const std::string& model, double modulus, const std::string& face = {})
 {
     Scene scene;
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     scene.method.substeps = 1;
     Body body;
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = cells;
     body.shape.box_size = size;
-    body.shape.split = split;
+    body.shape.split = named<BoxSplit>(split);
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     if (!face.empty())
     {
@@ -66,12 +66,12 @@ TEST_CASE("a neo-Hookean cantilever drops as the golden numbers say (methods A5)
             Scene scene = solid(g.cells, {1, 0.25, 0.25}, "six", "neo_hookean_simple", 1e7, "left");
             scene.damping = 5;
             scene.method.iterations = 60;
-            scene.method.precision = precision;
+            scene.method.precision = named<Precision>(precision);
             World world(scene, device);
             run(world, 300);
             const double drop = mean_drop(world, 0, 1);
             note("A5", *device, "tip drop / golden - 1", drop / g.drop - 1);
-            CHECK(drop == Approx(g.drop).epsilon(scene.method.precision == "double" ? 1e-5 : 1e-3));
+            CHECK(drop == Approx(g.drop).epsilon(scene.method.precision == Precision::float64 ? 1e-5 : 1e-3));
             check_sound(world);
         }
 }
@@ -83,7 +83,7 @@ TEST_CASE("a bar hung by its upper face is as long as the golden number says (me
     Scene scene = solid({2, 50, 2}, {0.04, 1, 0.04}, "five", "neo_hookean_simple", 1e5, "top");
     scene.damping = 3;
     scene.method.iterations = 60;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     World world(scene, device);
     run(world, 400);
     const double drop = mean_drop(world, 1, -1);
@@ -106,7 +106,7 @@ TEST_CASE("a hung box comes nearer to balance than xpbd brings it, in fewer pass
     }();
     /// Largest force on a free vertex over its share of the weight.
     const auto residual = [&](const char* type, std::uint32_t substeps, std::uint32_t iterations) {
-        scene.method.type = type;
+        scene.method.type = named<MethodKind>(type);
         scene.method.substeps = substeps;
         scene.method.iterations = iterations;
         World world(scene, device);

@@ -13,7 +13,7 @@ namespace {
 
 Scene by_vbd(Scene scene, std::uint32_t substeps, std::uint32_t iterations)
 {
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return scene;
@@ -68,7 +68,7 @@ TEST_CASE(
             {
                 Scene scene = by_vbd(free_cloth(6, stiffness, 1e-3), 1, 4);
                 scene.gravity = {0, -9.81, 0};
-                scene.method.start = start;
+                scene.method.start = named<SweepStart>(start);
                 World world(scene, device);
                 run(world, 60);
                 const double fall = 9.81 / 2;
@@ -87,7 +87,7 @@ TEST_CASE("the start from where it was hardly falls: why the adaptive start is t
 {
     Scene scene = by_vbd(free_cloth(6, 1e6), 1, 4);
     scene.gravity = {0, -9.81, 0};
-    scene.method.start = "previous";
+    scene.method.start = SweepStart::previous;
     World world(scene, test_device("cpu:serial"));
     run(world, 60);
     CHECK(-world.positions()[0].y + world.scene().bodies[0].mesh.positions[0].y < 0.5 * 4.905);
@@ -108,8 +108,8 @@ TEST_CASE("the heavy rope has the strains of the golden table (methods A6)")
         INFO(g.ratio << ", " << g.substeps << " x " << g.iterations);
         Scene scene = by_vbd(test::chain(20, 1e5, 0.01), g.substeps, g.iterations);
         scene.bodies[0].vertex_masses[20] = 0.01 * g.ratio;
-        scene.method.start = "inertial";
-        scene.method.precision = "double";
+        scene.method.start = SweepStart::inertial;
+        scene.method.precision = Precision::float64;
         scene.damping = 2;
         World world(scene, device);
         run(world, 600);
@@ -132,7 +132,7 @@ TEST_CASE(
                                 Golden{17, 0.2, 0.003024773044504}})
         {
             Scene scene = by_vbd(net(g.n, g.sigma), 1, 4);
-            scene.method.precision = "double";
+            scene.method.precision = Precision::float64;
             World world(scene, device);
             run(world, steps_for(*device, 1200, 600));
             const double error = sag(world) / g.sag - 1;
@@ -150,8 +150,8 @@ TEST_CASE("the adaptive start rests where the inertial one is biased (methods fi
     for (const bool adaptive : {false, true})
     {
         Scene scene = by_vbd(net(17, 0.2), 1, 4);
-        scene.method.precision = "double";
-        scene.method.start = adaptive ? "adaptive" : "inertial";
+        scene.method.precision = Precision::float64;
+        scene.method.start = adaptive ? SweepStart::adaptive : SweepStart::inertial;
         World world(scene, device);
         run(world, 1200);
         error[adaptive] = std::abs(sag(world) / 0.003024773044504 - 1);
@@ -170,7 +170,7 @@ TEST_CASE("with iterations that converge, vertex block descent is implicit Euler
         body.pins = {hold({0})};
         Scene scene = by_vbd(alone(body), 1, 1);
         scene.timestep = 1.0 / 120;
-        scene.method.precision = "double";
+        scene.method.precision = Precision::float64;
         World world(scene, device);
         run(world, 120);
         CHECK(std::abs(world.positions()[1].x - 1 - 0.001565729438841746) < 1e-14);
@@ -184,10 +184,10 @@ namespace {
 /// Returns the largest stretch at the end.
 double stretch_beside_newton(Scene scene, std::uint32_t substeps, int steps)
 {
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene = by_vbd(resolve(scene), substeps, 60); // its pins are named by edges
     World vbd(scene, test_device("cpu:serial"));
-    scene.method.type = "implicit_euler";
+    scene.method.type = MethodKind::implicit_euler;
     scene.method.iterations = 4;
     scene.method.linear_tolerance = 1e-12;
     World newton(scene, test_device("cpu:serial"));
@@ -226,7 +226,10 @@ TEST_CASE("what limits move is no energy that sweeps make: led cloth keeps up wi
     scene.timestep = 0.01;
     Body& body = scene.bodies[0];
     body.material.stretch_stiffness = 30;
-    (limit == "slack" ? body.material.attachment_slack : body.material.strain_limit) = 0.02;
+    if (limit == "slack")
+        body.material.attachment_slack = 0.02;
+    else
+        body.material.strain_limit = 0.02;
     Pin top;
     top.edges = {"top"};
     top.motion = {{0, {0, 0, 0}}, {0.2, {0.4, 0.3, 0}}};
@@ -251,7 +254,7 @@ TEST_CASE("cloth by vertex block descent converges to the reference with order 1
     scene.bodies = {body};
     scene.duration = 0.2;
     scene = resolve(scene);
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     const PhysicalModel model = make_model(scene);
     const DynamicReference exact = solve_dynamic(model);
     REQUIRE(exact.verified);
@@ -289,7 +292,7 @@ TEST_CASE("hinges settle where the static reference does")
     scene.bodies = {body};
     scene.damping = 4;
     scene = resolve(scene);
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     const PhysicalModel model = make_model(scene);
     const StaticReference exact = solve_static(model, model.start);
     REQUIRE(exact.converged);
@@ -308,8 +311,8 @@ TEST_CASE("Chebyshev acceleration takes a stiff net further in the same sweeps, 
     const auto device = test_device("cpu:serial");
     const auto residual = [&](double radius, std::uint32_t iterations) {
         Scene scene = by_vbd(net(17, 0.2, 1e4), 1, iterations);
-        scene.method.precision = "double";
-        scene.method.start = "inertial";
+        scene.method.precision = Precision::float64;
+        scene.method.start = SweepStart::inertial;
         scene.method.spectral_radius = radius;
         World world(scene, device);
         run(world, 1);

@@ -25,8 +25,8 @@ Scene dropped(std::uint32_t cells)
     Scene scene;
     scene.timestep = 0.01;
     scene.damping = 0.5;
-    scene.method.type = "implicit_constraints";
-    scene.method.linear_operator = "matrix_free";
+    scene.method.type = MethodKind::implicit_constraints;
+    scene.method.linear_operator = LinearOperator::matrix_free;
     scene.method.linear_iterations = 300;
     scene.method.linear_tolerance = 1e-4;
     Body body;
@@ -35,7 +35,7 @@ Scene dropped(std::uint32_t cells)
     body.transform.translate = {0, 1, 0};
     body.material = solid_material();
     body.material.density = 100;
-    body.material.model = "springs";
+    body.material.model = SolidModel::springs;
     body.material.youngs_modulus = 2e4;
     body.material.volume_stiffness = kRigid;
     body.material.stretch_damping = 0.002;
@@ -88,7 +88,7 @@ TEST_CASE("one tetrahedron of six rigid edges moves the same with and without it
     Scene scene = dropped(1);
     scene.colliders.clear();
     scene.damping = 0;
-    scene.method.precision = precision;
+    scene.method.precision = named<Precision>(precision);
     scene.method.linear_tolerance = precision == "double" ? 1e-10 : 1e-5;
     scene.method.constraint_compliance = 0;
     scene = resolve(scene);
@@ -139,12 +139,12 @@ TEST_CASE("executors agree on rows of tetrahedra, with compliance and further so
 TEST_CASE("an assembled matrix holds the same volumes", "[volume_rows]")
 {
     Scene scene = dropped(2);
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.linear_tolerance = 1e-10;
     scene.method.substeps = 2;
     scene.bodies[0].material.volume_stiffness = 1e5;
     World free(resolve(scene), test_device("cpu:serial"));
-    scene.method.linear_operator = "assembled";
+    scene.method.linear_operator = LinearOperator::assembled;
     World stored(resolve(scene), test_device("cpu:serial"));
     for (int k = 0; k < 20; ++k)
     {

@@ -71,7 +71,8 @@ TEST_CASE("a lying sheet falls at the speed at which drag is its weight", "[wind
             CHECK(v.y == Approx(-exact).epsilon(0.01));
             // The corners fall behind for a moment; explicit springs do not dissipate the swing that this
             // starts within the sheet.
-            CHECK(std::abs(v.x) + std::abs(v.z) < (scene.method.type == "mass_spring" ? 3e-3 : 1e-3));
+            CHECK(std::abs(v.x) + std::abs(v.z) <
+                  (scene.method.type == MethodKind::mass_spring ? 3e-3 : 1e-3));
         }
         note("physics", *device, "terminal speed / exact", -mean(world.velocities()).y / exact);
     });

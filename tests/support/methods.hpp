@@ -17,8 +17,8 @@ namespace taut::test {
 /// The scene under another method. Explicit ones take as many substeps as they need; pbd has no dampers.
 inline Scene under(Scene scene, const std::string& method)
 {
-    scene.method.type = method;
-    scene.method.stability = "substep";
+    scene.method.type = named<MethodKind>(method);
+    scene.method.stability = StabilityRule::substep;
     for (Body& body : scene.bodies)
         if (method == "pbd")
             body.material.stretch_damping = 0;
@@ -29,7 +29,7 @@ inline Scene under(Scene scene, const std::string& method)
 /// cloth does not hold under it.
 inline std::vector<std::string> methods()
 {
-    std::vector<std::string> out(kMethodNames.begin(), kMethodNames.end());
+    std::vector<std::string> out(kWords<MethodKind>.begin(), kWords<MethodKind>.end());
     std::erase(out, "acad");
     return out;
 }

@@ -149,7 +149,7 @@ inline linear::SparseMatrix matrix_of(const Scene& resolved, int steps)
         throw std::runtime_error("the matrix has rows that csr stores elsewhere");
     if (const Dispatch* rows = run.pass("spmv_csr"))
         return in_use(row_entries(run, *rows));
-    throw std::runtime_error("method " + resolved.method.type + " stores no matrix here");
+    throw std::runtime_error("method " + quoted(resolved.method.type) + " stores no matrix here");
 }
 
 } // namespace taut::test

@@ -30,7 +30,7 @@ inline Scene guarded_scene(std::vector<Body> bodies)
     Scene scene;
     scene.bodies = std::move(bodies);
     scene.contact.between = true;
-    scene.contact.guarantee = "no_crossing";
+    scene.contact.guarantee = Guarantee::no_crossing;
     scene.method.substeps = 10;
     return scene;
 }

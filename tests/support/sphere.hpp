@@ -62,7 +62,7 @@ inline Scene ball_of_springs(int n, double radius, double stiffness, double volu
                      1 / stiffness});
     Scene scene;
     scene.timestep = 1e-3;
-    scene.method.type = "mass_spring";
+    scene.method.type = MethodKind::mass_spring;
     scene.method.substeps = 1;
     scene.bodies = {body};
     return scene;

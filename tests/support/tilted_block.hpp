@@ -20,7 +20,7 @@ inline Body tilted_block(double degrees, std::uint32_t cells)
     block.shape.box_cells = {cells, 1, cells};
     block.shape.box_size = {0.6, 0.2, 0.6};
     block.material.youngs_modulus = 1e6;
-    block.material.model = "neo_hookean";
+    block.material.model = SolidModel::neo_hookean;
     block.material.density = 1000;
     const double tilt = glm::radians(degrees);
     block.transform.rotate_axis = {0, 0, 1};

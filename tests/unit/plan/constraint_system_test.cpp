@@ -53,9 +53,9 @@ std::optional<Scene> real_scene(double bending)
         p /= high - low;
     scene.bodies[0].pins = {pin};
     scene.timestep = kStep;
-    scene.method.type = "implicit_constraints";
+    scene.method.type = MethodKind::implicit_constraints;
     scene.method.substeps = 1;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.linear_iterations = 3000;
     scene.method.linear_tolerance = 1e-9;
     return scene;
@@ -168,7 +168,7 @@ TEST_CASE("the matrix of constraints on a real mesh is Eigen's J W J^T", "[const
     std::optional<Scene> scene = real_scene(bending);
     if (!scene)
         return;
-    scene->method.linear_operator = "assembled";
+    scene->method.linear_operator = LinearOperator::assembled;
     const EigenRows exact = system_of(*scene);
     const linear::SparseMatrix pattern = pattern_of(*scene);
     REQUIRE(int(pattern.rows) == exact.rows());
@@ -200,7 +200,7 @@ TEST_CASE("what constraints on a real mesh are solved to solves Eigen's system, 
     std::optional<Scene> scene = real_scene(bending);
     if (!scene)
         return;
-    scene->method.linear_operator = linear_operator;
+    scene->method.linear_operator = named<LinearOperator>(linear_operator);
     const EigenRows exact = system_of(*scene);
     for (const std::string& selector : test_devices())
     {

@@ -195,7 +195,7 @@ TEST_CASE(
     scene.contact.between = true;
     const Plan plain = make_plan(scene);
     CHECK(find_effect(plain, "guarantee") == nullptr);
-    scene.contact.guarantee = "no_crossing";
+    scene.contact.guarantee = Guarantee::no_crossing;
     const Plan guarded = make_plan(scene);
     REQUIRE(find_effect(guarded, "guarantee") != nullptr);
     CHECK(!plain.contact.guarded);
@@ -217,11 +217,11 @@ TEST_CASE(
 TEST_CASE("under every method the guarantee writes last", "[contact]")
 {
     const std::string method =
-        GENERATE(from_range(std::vector<std::string>(kMethodNames.begin(), kMethodNames.end())));
+        GENERATE(from_range(std::vector<std::string>(kWords<MethodKind>.begin(), kWords<MethodKind>.end())));
     CAPTURE(method);
     Scene scene = test::under(two(), method);
     scene.contact.between = true;
-    scene.contact.guarantee = "no_crossing";
+    scene.contact.guarantee = Guarantee::no_crossing;
     const Plan plan = make_plan(scene);
     std::uint32_t ends = 0;
     for (std::size_t k = 1; k < plan.passes.size(); ++k)

@@ -13,7 +13,7 @@ namespace {
 
 Scene by(Scene scene, const char* method, std::uint32_t substeps, std::uint32_t iterations = 1)
 {
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return scene;
@@ -53,14 +53,14 @@ TEST_CASE("mass-spring is one gather, one kick and the two passes of motion in a
     CHECK(plan.passes.size() == 20 * 6 + 1); // hinges into slots, and their sum
     scene.method.iterations = 7; // means nothing here
     CHECK(make_plan(scene).passes.size() == 20 * 6 + 1);
-    scene.method.integrator = "explicit";
+    scene.method.integrator = Integrator::explicit_euler;
     CHECK(make_plan(scene).passes.size() == 20 * 7);
-    scene.method.integrator = "verlet";
+    scene.method.integrator = Integrator::verlet;
     CHECK(make_plan(scene).passes.size() == 20 * 10);
     scene.bodies[0].material.stretch_stiffness = 0;
     scene.bodies[0].material.bending_stiffness = 0;
     CHECK(make_plan(scene).passes.size() == 20 * 4); // Verlet's own gravity
-    scene.method.integrator = "semi_implicit";
+    scene.method.integrator = Integrator::semi_implicit;
     CHECK(effects(make_plan(scene)) == Words{"motion"});
 }
 
@@ -79,12 +79,12 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     CHECK(plan.constraint_counts().at("vbd_solve") == 81 - 2);
     CHECK(plan.kept.size() == 2); // shares of gravity, lost energy
 
-    scene.method.start = "inertial";
+    scene.method.start = SweepStart::inertial;
     plan = make_plan(scene, apart);
     CHECK(plan.passes.size() == 3 * (2 + 1 + 4 * colours));
     CHECK(plan.kept.empty());
 
-    scene.method.start = "adaptive";
+    scene.method.start = SweepStart::adaptive;
     Collider floor;
     floor.kind = ColliderKind::plane;
     floor.friction = 0.3;

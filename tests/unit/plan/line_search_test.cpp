@@ -15,11 +15,11 @@ Scene cube()
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {1, 1, 1};
     body.material.stretch_stiffness = 0;
-    body.material.model = "neo_hookean";
+    body.material.model = SolidModel::neo_hookean;
     body.material.youngs_modulus = 1e6;
     body.material.density = 1000;
     scene.bodies = {body};
-    scene.method.type = "implicit_euler";
+    scene.method.type = MethodKind::implicit_euler;
     scene.method.substeps = 1;
     return resolve(scene);
 }

@@ -31,8 +31,8 @@ Scene pbd(std::uint32_t n, const char* scheme, std::uint32_t substeps, std::uint
 {
     Scene scene = test::hanging(n);
     scene.bodies[0].material.bending_stiffness = bending ? 1e-4 : 0;
-    scene.method.type = "pbd";
-    scene.method.scheme = scheme;
+    scene.method.type = MethodKind::pbd;
+    scene.method.scheme = named<ElementScheme>(scheme);
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return scene;
@@ -46,7 +46,7 @@ Scene network(std::uint32_t columns, std::uint32_t rows, const char* type = "xpb
     body.shape.cells = {columns, rows};
     body.shape.network = {true, 1000, 500, 100};
     scene.bodies = {body};
-    scene.method.type = type;
+    scene.method.type = named<MethodKind>(type);
     return resolve(scene);
 }
 
@@ -171,11 +171,11 @@ Scene soft_block(const char* scheme, std::uint32_t substeps, std::uint32_t itera
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {3, 3, 3};
     body.material = solid_material();
-    body.material.model = "springs";
+    body.material.model = SolidModel::springs;
     body.material.bending_stiffness = bending;
     scene.bodies = {body};
-    scene.method.type = "pbd";
-    scene.method.scheme = scheme;
+    scene.method.type = MethodKind::pbd;
+    scene.method.scheme = named<ElementScheme>(scheme);
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return resolve(scene);
@@ -306,8 +306,8 @@ TEST_CASE("a star beyond the loop limit of an invocation is refused by Jacobi, n
     for (std::uint32_t v = 1; v <= 40000; ++v)
         body.springs.push_back({0, v, 1.0, 0.0});
     scene.bodies = {body};
-    scene.method.type = "pbd";
-    scene.method.scheme = "node_centric";
+    scene.method.type = MethodKind::pbd;
+    scene.method.scheme = ElementScheme::node_centric;
     scene = resolve(scene);
     std::string text;
     CHECK(refusal(scene, &text) == "limit");

@@ -140,7 +140,7 @@ TEST_CASE("a scene that asks for more substeps than there may be is told, with t
 {
     Scene scene = test::hanging(16);
     scene.method.substeps = 0;
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     scene.bodies[0].material.stretch_stiffness = 1e8;
     const auto warned = [](const Scene& s) {
         const Plan plan = make_plan(s);
@@ -167,12 +167,12 @@ TEST_CASE("constraint enforcement and ACAD take no integrator but their own")
     for (const std::string method : {"implicit_constraints", "acad"})
         for (const std::string integrator : {"explicit", "verlet"})
         {
-            scene.method.type = method;
+            scene.method.type = named<MethodKind>(method);
             scene.method.substeps = 100;
-            scene.method.integrator = integrator;
+            scene.method.integrator = named<Integrator>(integrator);
             CAPTURE(method, integrator);
             CHECK_THROWS_WITH(make_plan(scene), Contains("\"semi_implicit\" only"));
-            scene.method.integrator = "semi_implicit";
+            scene.method.integrator = Integrator::semi_implicit;
             CHECK_NOTHROW(make_plan(scene));
         }
 }
@@ -247,12 +247,12 @@ TEST_CASE("limits and wrong settings are refused in words")
     CHECK(code_of(scene, tiny) == "limit");
     DeviceTraits single;
     single.float64 = false;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     CHECK(code_of(scene, single) == "unsupported");
-    scene.method.precision = "float";
-    scene.method.type = "magic";
+    scene.method.precision = Precision::float32;
+    scene.method.type = static_cast<MethodKind>(7);
     CHECK(code_of(scene, {}) == "unsupported");
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     for (const double h : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e30})
     {
         scene.timestep = h;

@@ -12,7 +12,7 @@ namespace {
 Scene ball(double pressure)
 {
     Scene scene = test::ball_of_springs(3, 0.5, 100, 0);
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.bodies[0].material.pressure = pressure;
     return scene;
 }
@@ -29,11 +29,11 @@ const EffectCost* effect_of(const Plan& plan)
 
 TEST_CASE("pressure costs two dispatches a substep where a body has it, and nothing elsewhere", "[pressure]")
 {
-    for (const std::string_view method : kMethodNames)
+    for (const std::string_view method : kWords<MethodKind>)
     {
         CAPTURE(method);
         Scene scene = ball(5);
-        scene.method.type = std::string(method);
+        scene.method.type = named<MethodKind>(std::string(method));
         scene.method.substeps = 3;
         Scene without = scene;
         without.bodies[0].material.pressure = 0;
@@ -85,6 +85,6 @@ TEST_CASE("the plan warns of a gas that substeps cannot follow, with a number th
     CHECK(!warns(make_plan(scene)));
     // An isothermal gas is stiffer.
     Scene isothermal = ball(5);
-    isothermal.bodies[0].material.pressure_law = "isothermal";
+    isothermal.bodies[0].material.pressure_law = PressureLaw::isothermal;
     CHECK(pressure_rate(isothermal.bodies[0]) > rate);
 }

@@ -16,7 +16,7 @@ Body corner(const std::string& model, double modulus, double ratio)
     Body body;
     body.shape.kind = ShapeKind::box;
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     body.material.poissons_ratio = ratio;
     body.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -109,14 +109,14 @@ TEST_CASE("a material that the method does not have is refused, with the methods
 {
     Scene scene;
     scene.bodies = {corner("neo_hookean", 1e5, 0.3)};
-    scene.method.type = "mass_spring";
+    scene.method.type = MethodKind::mass_spring;
     CHECK_THROWS_WITH(make_plan(scene), Contains("bodies[0].material.model is \"neo_hookean\"") &&
                                             Contains("\"xpbd\""));
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     const Plan plan = make_plan(scene);
     REQUIRE(plan.constraints.size() == 1);
     CHECK(plan.constraints[0].kind == "neo_hookean");
-    scene.bodies[0].material.model = "springs";
+    scene.bodies[0].material.model = SolidModel::springs;
     CHECK(make_plan(scene).constraints.size() == 2); // distance and volume
     scene.bodies[0].material.volume_stiffness = 0;
     CHECK(make_plan(scene).constraints.size() == 1);

@@ -20,7 +20,7 @@ namespace {
 Scene oscillator(double stiffness, double damping, double mass = 1)
 {
     Scene scene;
-    scene.method.type = "mass_spring";
+    scene.method.type = MethodKind::mass_spring;
     scene.gravity = {0, 0, 0};
     Body body;
     body.shape.kind = ShapeKind::mesh;
@@ -112,9 +112,9 @@ TEST_CASE("a step that is too long is refused with the numbers, or cut as often 
     scene.method.substeps = 13;
     CHECK(refusal(scene) == "none");
     scene.method.substeps = 2;
-    scene.method.stability = "substep";
+    scene.method.stability = StabilityRule::substep;
     CHECK(stable_substeps(scene).count == 13);
-    scene.method.stability = "ignore";
+    scene.method.stability = StabilityRule::ignore;
     CHECK(stable_substeps(scene).count == 2);
     CHECK(stable_substeps(scene).largest == 0);
 }
@@ -129,7 +129,7 @@ TEST_CASE("damping shortens the stable step; more than 1000 substeps and rigid s
           }())
               .largest < 0.9 * 2 / std::sqrt(2000.0));
     scene = oscillator(1e12, 0);
-    scene.method.stability = "substep";
+    scene.method.stability = StabilityRule::substep;
     std::string text;
     CHECK(refusal(scene, &text) == "unstable_timestep");
     CHECK(text.find("1000") != std::string::npos);

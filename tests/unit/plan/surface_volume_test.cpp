@@ -108,7 +108,7 @@ TEST_CASE("methods that do not hold volumes of surfaces say which do")
     for (const std::string method : {"implicit_euler", "implicit_constraints", "acad", "pbd", "xpbd", "vbd"})
     {
         Scene scene = ball();
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         CHECK_THROWS_WITH(make_plan(scene), Contains("bodies[0].material.volume_stiffness is not 0") &&
                                                 Contains("\"" + method + "\"") &&
                                                 Contains("\"mass_spring\""));
@@ -117,12 +117,12 @@ TEST_CASE("methods that do not hold volumes of surfaces say which do")
     solid.bodies.resize(1);
     solid.bodies[0].shape.kind = ShapeKind::ball;
     solid.bodies[0].material = solid_material();
-    solid.bodies[0].material.model = "springs";
-    solid.bodies[0].material.volume = "surface";
-    solid.method.type = "xpbd";
+    solid.bodies[0].material.model = SolidModel::springs;
+    solid.bodies[0].material.volume = HeldVolume::surface;
+    solid.method.type = MethodKind::xpbd;
     CHECK_THROWS_WITH(make_plan(resolve(solid)), Contains("bodies[0].material.volume is \"surface\""));
-    solid.method.type = "mass_spring";
-    solid.method.stability = "substep";
+    solid.method.type = MethodKind::mass_spring;
+    solid.method.stability = StabilityRule::substep;
     CHECK(effect_of(make_plan(resolve(solid))) != nullptr);
 }
 

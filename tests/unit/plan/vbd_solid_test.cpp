@@ -18,15 +18,15 @@ namespace {
 Scene solid(const std::string& model, const std::string& split, const glm::uvec3& cells = {4, 4, 4})
 {
     Scene scene;
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     scene.method.substeps = 2;
     scene.method.iterations = 3;
     Body body;
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = cells;
-    body.shape.split = split;
+    body.shape.split = named<BoxSplit>(split);
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     scene.bodies = {body};
     return resolve(scene);
 }
@@ -144,6 +144,6 @@ TEST_CASE("rigid volumes are refused as rigid springs are, with the word that wo
     Scene scene = solid("springs", "five");
     scene.bodies[0].material.volume_stiffness = std::numeric_limits<double>::infinity();
     CHECK_THROWS_WITH(make_plan(scene), Contains("volume_stiffness is infinite") && Contains("xpbd"));
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     CHECK_NOTHROW(make_plan(scene));
 }

@@ -20,7 +20,7 @@ Scene hanging(const std::string& method)
                     "pins": [{"corners": ["top_left"]},
                              {"corners": ["top_right"],
                               "motion": [{"time": 0}, {"time": 0.5, "translate": [0.02, 0, 0]}]}]}]})"));
-    scene.method.stability = "substep";
+    scene.method.stability = StabilityRule::substep;
     return scene;
 }
 

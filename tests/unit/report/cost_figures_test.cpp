@@ -19,7 +19,8 @@ std::shared_ptr<Device> serial() { return Device::open("cpu:serial"); }
 CostPoint made(const std::string& method, std::uint32_t substeps, std::uint32_t iterations, double error)
 {
     CostPoint point;
-    point.method = point.settings.type = method;
+    point.method = method;
+    point.settings.type = named<MethodKind>(method);
     point.substeps = point.settings.substeps = substeps;
     point.iterations = point.settings.iterations = iterations;
     point.error = error;

@@ -55,7 +55,8 @@ TEST_CASE("floors are named, drawn, and told apart", "[cost]")
 {
     CostStudy study = table({made(1, 0.05, 1), made(2, 5e-6, 2)}, 1e-8);
     study.kind = CostKind::at_rest;
-    study.points[1].method = study.points[1].settings.type = "implicit_euler";
+    study.points[1].method = "implicit_euler";
+    study.points[1].settings.type = MethodKind::implicit_euler;
     study.points[1].settings.linear_tolerance = 1e-4;
     rank(study);
     CHECK(study.points[0].floor.empty());

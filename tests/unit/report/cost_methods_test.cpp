@@ -28,7 +28,8 @@ Scene damped_chain()
 CostPoint made(const std::string& method, std::optional<double> error, double ms, double sweeps = 60)
 {
     CostPoint point;
-    point.method = point.settings.type = method;
+    point.method = method;
+    point.settings.type = named<MethodKind>(method);
     point.error = error;
     point.ms = ms;
     point.sweeps = sweeps;
@@ -71,18 +72,18 @@ TEST_CASE("a design has at most 20 settings, all different, of at most 256 sweep
 {
     for (const MethodKind kind : all_methods())
     {
-        INFO(method_name(kind));
+        INFO(to_string(kind));
         const std::vector<MethodSettings> design = method_design(kind, Precision::float32);
         CHECK(design.size() <= 20);
         std::set<std::string> blocks;
         std::set<std::uint32_t> substeps;
         for (const MethodSettings& settings : design)
         {
-            CHECK(settings.type == method_name(kind));
+            CHECK(settings.type == kind);
             CHECK(settings.substeps * settings.iterations <= 256);
             CHECK(settings.substeps <= 128);
             CHECK(settings.iterations <= 64);
-            CHECK(settings.stability == "refuse");
+            CHECK(settings.stability == StabilityRule::refuse);
             blocks.insert(settings_block(settings));
             substeps.insert(settings.substeps);
         }
@@ -102,7 +103,7 @@ TEST_CASE("a block is what a scene takes as its method, and gives the same setti
             CHECK(settings_block(scene.method) == block);
             CHECK(check(scene).empty());
             CHECK(scene.method.substeps == settings.substeps);
-            CHECK(scene.method.precision == "double");
+            CHECK(scene.method.precision == Precision::float64);
             if (kind == MethodKind::mass_spring)
                 CHECK(scene.method.integrator == settings.integrator);
             if (kind == MethodKind::acad)
@@ -113,16 +114,16 @@ TEST_CASE("a block is what a scene takes as its method, and gives the same setti
 TEST_CASE("details name what a method reads and is not as usual, and nothing else", "[methods]")
 {
     MethodSettings settings;
-    settings.type = "vbd";
-    settings.start = "inertial";
-    settings.integrator = "verlet"; // not vbd's
+    settings.type = MethodKind::vbd;
+    settings.start = SweepStart::inertial;
+    settings.integrator = Integrator::verlet; // not vbd's
     CHECK(settings_details(settings) == "start inertial");
     CHECK(settings_text(settings) == "vbd, automatic substeps x 1 iteration in float, start inertial");
-    settings.type = "mass_spring";
+    settings.type = MethodKind::mass_spring;
     CHECK(settings_text(settings) == "mass_spring, automatic substeps in float, integrator verlet");
     settings.compress = true; // not mass_spring's
     CHECK(settings_details(settings) == "integrator verlet");
-    settings.type = "acad";
+    settings.type = MethodKind::acad;
     CHECK(settings_details(settings) == "integrator verlet, compress true");
     CHECK(parse_scene(R"({"taut": 1, "method": )" + settings_block(settings) + "}").method.compress);
 }
@@ -131,7 +132,7 @@ TEST_CASE("methods are listed once, in one order; a wrong name says which there 
 {
     CHECK(methods_listed({"xpbd", "pbd", "xpbd"}) ==
           std::vector<MethodKind>{MethodKind::pbd, MethodKind::xpbd});
-    CHECK(all_methods().size() == kMethodNames.size());
+    CHECK(all_methods().size() == kWords<MethodKind>.size());
     try
     {
         methods_listed({"xpdb"});
@@ -269,7 +270,7 @@ TEST_CASE("every method of a study has points or says why not", "[methods]")
     rigid.bodies[0].velocity = {1, 0, 0};
     rigid.bodies[0].material.stretch_stiffness = std::numeric_limits<double>::infinity();
     const CostStudy study = run_cost(rigid, Device::open("cpu:serial"), options);
-    CHECK(study.methods.size() == kMethodNames.size());
+    CHECK(study.methods.size() == kWords<MethodKind>.size());
     for (const CostPoint& point : study.points)
     {
         INFO(point.method << ": " << point.reason);

@@ -30,7 +30,7 @@ TEST_CASE("a collider that fits through the triangles of a body is warned of, by
     plane.kind = ColliderKind::plane;
     CHECK(issues_of(8, ball).empty()); // by itself it meets triangles that it would fit through
     CHECK(issues_of(1, box).empty());
-    ball.meets = box.meets = "vertices";
+    ball.meets = box.meets = ColliderMeets::vertices;
     // The hole of a cell of length l is half its diagonal, 0.707 l.
     CHECK(issues_of(16, ball).empty());
     const std::vector<SceneIssue> found = issues_of(8, ball);

@@ -288,7 +288,7 @@ TEST_CASE("worlds in double precision and chains are drawn")
 {
     TAUT_DRAWING(device);
     Scene scene = test::chain(5, 1000, 0.01);
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     World world(scene, device);
     world.step();
     const PictureMoment moment = {world.time(), world.positions()};

@@ -34,7 +34,7 @@ Body sheet(std::uint32_t cells, double nu, const FabricBending& bending = {}, do
     body.shape.kind = ShapeKind::mesh;
     body.shape.file = folder.path / "sheet.obj";
     write_obj(body.shape.file, mesh);
-    body.material.bending_model = "plate";
+    body.material.bending_model = BendingModel::plate;
     body.material.bending_poissons_ratio = nu;
     if (bending.used)
     {
@@ -145,8 +145,8 @@ TEST_CASE("turns within triangles go down to the energy of the plate, from anywh
     check_descent(sheet(6, 0));
     check_descent(sheet(6, 0.45));
     check_descent(sheet(6, -0.6));
-    check_descent(sheet(6, 0.2, {true, 40, 1, 15, "sheet"}));
-    check_descent(sheet(6, 0, {true, 1, 100, 0, "strip"}));
+    check_descent(sheet(6, 0.2, {true, 40, 1, 15, BiasSpecimen::sheet}));
+    check_descent(sheet(6, 0, {true, 1, 100, 0, BiasSpecimen::strip}));
 }
 
 TEST_CASE("thin triangles keep stiffnesses above 0, and compliances")

@@ -26,7 +26,7 @@ Scene box(const std::string& model, glm::uvec3 cells, double size, double modulu
     body.shape.box_cells = {cells.x, cells.y, cells.z};
     body.shape.box_size = {size, size, size};
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     body.material.poissons_ratio = 0.35;
     scene.bodies = {body};
@@ -90,13 +90,13 @@ double square(double a) { return a * a; }
 /// The trajectory of a scene under implicit Euler in double.
 Frames implicit(Scene scene, std::uint32_t substeps, std::size_t frames)
 {
-    scene.method.type = "implicit_euler";
+    scene.method.type = MethodKind::implicit_euler;
     scene.method.substeps = substeps;
     scene.method.iterations = 2;
     scene.method.linear_iterations = 400;
     scene.method.linear_tolerance = 1e-10;
-    scene.method.linear_operator = "matrix_free";
-    scene.method.precision = "double";
+    scene.method.linear_operator = LinearOperator::matrix_free;
+    scene.method.precision = Precision::float64;
     World world(scene, Device::open("cpu:serial"));
     Frames out{world.positions()};
     for (std::size_t f = 0; f < frames; ++f)
@@ -136,7 +136,7 @@ TEST_CASE("the bound covers springs with volumes of tetrahedra, and a volume wit
         for (const double shake : {0.0, 0.01, 0.05})
         {
             Scene scene = box("springs", {2, 2, 2}, 0.5, 1e5);
-            scene.bodies[0].material.volume = volume;
+            scene.bodies[0].material.volume = named<HeldVolume>(volume);
             scene.bodies[0].material.volume_stiffness = 1e7; // so that the springs do not hide it
             const PhysicalModel made = make_model(resolve(scene));
             REQUIRE(made.volumes.size() + made.surfaces.size() > 0);
@@ -151,7 +151,7 @@ TEST_CASE("the bound covers springs with volumes of tetrahedra, and a volume wit
 TEST_CASE("volumes do not change what a plan takes for the stable step of its springs", "[solid]")
 {
     Scene scene = box("springs", {2, 2, 2}, 0.5, 1e5);
-    scene.method.type = "mass_spring";
+    scene.method.type = MethodKind::mass_spring;
     const auto with = [&](double stiffness) {
         scene.bodies[0].material.volume_stiffness = stiffness;
         return rate_bounds(resolve(scene)).stiffness;
@@ -242,9 +242,9 @@ TEST_CASE("R2 finds the golden drop of the neo-Hookean cantilever (A5)", "[refer
         body.shape.kind = ShapeKind::box;
         body.shape.box_cells = cells;
         body.shape.box_size = {1, 0.25, 0.25};
-        body.shape.split = "six";
+        body.shape.split = BoxSplit::six;
         body.material = solid_material();
-        body.material.model = "neo_hookean_simple";
+        body.material.model = SolidModel::neo_hookean_simple;
         body.material.density = 1000;
         body.material.youngs_modulus = 1e7;
         body.material.poissons_ratio = 0.3;
@@ -275,7 +275,7 @@ TEST_CASE("the Hessian of tetrahedra is the derivative of their gradient", "[ref
         body.shape.kind = ShapeKind::box;
         body.shape.box_cells = {1, 1, 1};
         body.material = solid_material();
-        body.material.model = model_name;
+        body.material.model = named<SolidModel>(model_name);
         body.material.youngs_modulus = 10;
         body.pins.emplace_back().vertices = {0};
         scene.bodies = {body};

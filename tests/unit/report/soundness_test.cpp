@@ -128,7 +128,7 @@ TEST_CASE("what pins hold drawn moves nothing until they let it go")
 TEST_CASE("constraint enforcement that leaves springs changing their length has not solved them")
 {
     Scene scene = sheet();
-    scene.method.type = "implicit_constraints";
+    scene.method.type = MethodKind::implicit_constraints;
     const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
     const double substep = state_of(scene, x, x, 1).drive.substep;
     std::vector<glm::dvec3> v;
@@ -144,7 +144,7 @@ TEST_CASE("constraint enforcement that leaves springs changing their length has 
     const Soundness found = judged(0.2);
     CHECK(found.status == Status::unconverged);
     CHECK_THAT(found.reason, Contains("change their length by 20 %"));
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     CHECK(judged(0.2).sound());
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("cloth that is bent without the energy for it is unconverged, under pb
     const std::vector<glm::dvec3> still(x.size(), glm::dvec3(0));
     scene.bodies[0].material.stretch_stiffness = 1e-3;
     const auto judged = [&](const char* method) {
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         return judge_state(EnergyBudget(scene), state_of(scene, x, still, 1));
     };
     CHECK_FALSE(judged("xpbd").sound());
@@ -230,7 +230,7 @@ TEST_CASE("a body that flows is left out of strained energy, not those beside it
 TEST_CASE("pbd answers for its springs, and tetrahedra for their inside")
 {
     Scene scene = sheet();
-    scene.method.type = "pbd";
+    scene.method.type = MethodKind::pbd;
     std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions, v(x.size(), glm::dvec3(0));
     for (glm::dvec3& p : x)
         p.x *= 1.2;
@@ -264,12 +264,12 @@ TEST_CASE("a volume that is rigid, or that pbd keeps, is as large as at rest")
         box.shape.kind = ShapeKind::box;
         box.shape.box_cells = {2, 2, 2};
         box.material = solid_material();
-        box.material.model = "springs";
-        box.material.volume = volume;
+        box.material.model = SolidModel::springs;
+        box.material.volume = named<HeldVolume>(volume);
         box.material.volume_stiffness = stiffness;
         box.material.youngs_modulus = 1e-3; // next to no energy
         scene.bodies = {box};
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         scene.method.stretch = 0; // only the volume is judged
         scene = resolve(scene);
         std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
@@ -333,7 +333,7 @@ TEST_CASE("a clamp that the scene did not ask for is a blow-up")
 TEST_CASE("constraint enforcement whose springs turn too far again and again is not solved")
 {
     Scene scene = sheet();
-    scene.method.type = "implicit_constraints";
+    scene.method.type = MethodKind::implicit_constraints;
     const auto springs = static_cast<double>(stretch_elements(scene.bodies[0]).size());
     const auto vertices = static_cast<double>(scene.bodies[0].mesh.positions.size());
     const auto judged = [&](double share) { // of all springs, in each of 100 substeps
@@ -351,9 +351,9 @@ TEST_CASE("constraint enforcement whose springs turn too far again and again is 
 TEST_CASE("explicit springs beyond their stable step are diverged, long before 1e12 m")
 {
     Scene scene = test::hanging(8);
-    scene.method.type = "mass_spring";
+    scene.method.type = MethodKind::mass_spring;
     scene.method.substeps = 1;
-    scene.method.stability = "ignore";
+    scene.method.stability = StabilityRule::ignore;
     World world(scene, Device::open("cpu:serial"));
     for (int k = 0; k < 30; ++k)
         world.step();
@@ -367,7 +367,7 @@ TEST_CASE("dear steps are looked at often, cheap ones eight times a run")
     Scene scene = test::hanging(16);
     scene.method.substeps = 10;
     const auto every = [&](const char* method, std::uint64_t frames) {
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         return frames_between_looks(make_plan(scene), frames);
     };
     CHECK(every("xpbd", 80) == 10);

@@ -138,8 +138,9 @@ TEST_CASE("what fell in float is not tried in double while something else is fou
     options.methods = {MethodKind::xpbd};
     const TuneResult result = tune(resting(6, 200, 0.05), serial(), options);
     REQUIRE(result.found);
-    const auto doubles = std::count_if(result.tried.begin(), result.tried.end(),
-                                       [](const MethodSettings& s) { return s.precision == "double"; });
+    const auto doubles = std::count_if(result.tried.begin(), result.tried.end(), [](const MethodSettings& s) {
+        return s.precision == Precision::float64;
+    });
     CHECK(doubles == 0);
     CHECK(std::any_of(result.not_tried.begin(), result.not_tried.end(),
                       [](const TuneLeft& l) { return l.reason == "it fell in float"; }));
@@ -147,7 +148,7 @@ TEST_CASE("what fell in float is not tried in double while something else is fou
     const TuneResult none = tune(resting(6, 200, 0.05), serial(), options);
     CHECK_FALSE(none.found);
     CHECK(std::count_if(none.tried.begin(), none.tried.end(),
-                        [](const MethodSettings& s) { return s.precision == "double"; }) >= 10);
+                        [](const MethodSettings& s) { return s.precision == Precision::float64; }) >= 10);
 }
 
 TEST_CASE("methods of another material are left out unless they are named, and then it is said", "[tune]")
@@ -156,11 +157,11 @@ TEST_CASE("methods of another material are left out unless they are named, and t
     TuneOptions options = by_prior(0.3);
     const TuneResult usual = tune(scene, serial(), options);
     REQUIRE(usual.found);
-    CHECK(usual.settings.type != "pbd");
+    CHECK(usual.settings.type != MethodKind::pbd);
     for (const MethodSettings& tried : usual.tried)
-        CHECK(tried.type != "pbd");
+        CHECK(tried.type != MethodKind::pbd);
     const auto left_out = [](const TuneRejection& r) {
-        return r.settings.type == "pbd" && r.stage == "material" &&
+        return r.settings.type == MethodKind::pbd && r.stage == "material" &&
                r.reason.find("--methods") != std::string::npos;
     };
     CHECK(std::any_of(usual.rejected.begin(), usual.rejected.end(), left_out));
@@ -171,23 +172,23 @@ TEST_CASE("methods of another material are left out unless they are named, and t
     CHECK(std::any_of(named.notes.begin(), named.notes.end(), [](const std::string& note) {
         return note.find("another material: pbd") != std::string::npos;
     }));
-    scene.method.type = "pbd"; // the scene itself names it
+    scene.method.type = MethodKind::pbd; // the scene itself names it
     options.methods = {};
     const TuneResult own = tune(scene, serial(), options);
     CHECK(std::any_of(own.tried.begin(), own.tried.end(),
-                      [](const MethodSettings& s) { return s.type == "pbd"; }));
+                      [](const MethodSettings& s) { return s.type == MethodKind::pbd; }));
 }
 
 TEST_CASE("acad is of another material beyond the strain that it holds springs at", "[tune]")
 {
     MethodSettings acad;
-    acad.type = "acad";
+    acad.type = MethodKind::acad;
     acad.activate_strain = 0.05;
     tuning::SceneFacts facts;
     facts.stiff = true;
     facts.strain = 0.06;
     CHECK(tuning::other_material(facts, acad).find("0.06") != std::string::npos);
-    acad.constrained = "structural"; // the stretched ones are not held
+    acad.constrained = ConstrainedSprings::structural; // the stretched ones are not held
     facts.structural_strain = 0.04;
     CHECK(tuning::other_material(facts, acad).empty());
     facts.shortening = 0.5;
@@ -198,13 +199,13 @@ TEST_CASE("acad is of another material beyond the strain that it holds springs a
     facts.structural_shortening = 0.04;
     CHECK(tuning::other_material(facts, acad).empty());
     MethodSettings rows;
-    rows.type = "implicit_constraints";
+    rows.type = MethodKind::implicit_constraints;
     CHECK(tuning::other_material(facts, rows).empty());
     rows.constraint_compliance = 0;
     CHECK(tuning::other_material(facts, rows).find("compliance") != std::string::npos);
-    rows.type = "xpbd"; // which does not read it
+    rows.type = MethodKind::xpbd; // which does not read it
     CHECK(tuning::other_material(facts, rows).empty());
-    rows.type = "pbd";
+    rows.type = MethodKind::pbd;
     facts.stiff = false; // nothing but rigid springs: pbd keeps them as well as anybody
     CHECK(tuning::other_material(facts, rows).empty());
 }
@@ -217,9 +218,9 @@ TEST_CASE("free fall does not judge what pins hold up to its rest", "[tune]")
     for (const glm::dvec3& x : scene.bodies[0].mesh.positions)
         scene.bodies[0].start_positions.push_back(1.5 * x);
     MethodSettings settings;
-    settings.type = "mass_spring";
+    settings.type = MethodKind::mass_spring;
     settings.substeps = 1;
-    settings.stability = "ignore";
+    settings.stability = StabilityRule::ignore;
     const auto broken = [&](CostKind kind) {
         return *tuning::broken_law(scene, serial(), settings, kind, 18);
     };
@@ -245,15 +246,15 @@ TEST_CASE("a scene that pins would hold but nothing damps is said never to rest"
 TEST_CASE("a scene of one method is tuned over all: what they read differently is put back", "[tune]")
 {
     Scene scene = resting(6, 200, 0.05);
-    scene.method.type = "pbd";
-    scene.method.scheme = "coloured"; // a word that mass_spring does not know
+    scene.method.type = MethodKind::pbd;
+    scene.method.scheme = ElementScheme::coloured; // a word that mass_spring does not know
     TuneOptions options = by_prior(0.05);
     const TuneResult result = tune(scene, serial(), options);
     CHECK(result.found);
     MethodSettings settings = settings_for(MethodKind::mass_spring, scene.method);
-    CHECK(settings.type == "mass_spring");
-    CHECK(settings.scheme == "automatic");
-    CHECK(settings_for(MethodKind::pbd, scene.method).scheme == "coloured");
+    CHECK(settings.type == MethodKind::mass_spring);
+    CHECK(settings.scheme == ElementScheme::automatic);
+    CHECK(settings_for(MethodKind::pbd, scene.method).scheme == ElementScheme::coloured);
 }
 
 TEST_CASE("tried settings are listed by method, precision and choices", "[tune]")
@@ -263,9 +264,9 @@ TEST_CASE("tried settings are listed by method, precision and choices", "[tune]"
     all[1].substeps = 1;
     all[2].substeps = 2;
     all[2].iterations = 16;
-    all[3].type = "mass_spring";
+    all[3].type = MethodKind::mass_spring;
     all[3].substeps = 8;
-    all[3].integrator = "verlet";
+    all[3].integrator = Integrator::verlet;
     CHECK(listed_settings(all) ==
           std::vector<std::string>{"xpbd in float: 1, 4 substeps x 1 iteration; 2 substeps x 16 iterations",
                                    "mass_spring in float, integrator verlet: 8 substeps"});

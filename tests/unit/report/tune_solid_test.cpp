@@ -25,7 +25,7 @@ Body box(const std::string& model, double modulus, const glm::dvec3& at)
     body.shape.box_cells = {2, 2, 2};
     body.shape.box_size = {0.3, 0.3, 0.3};
     body.material = solid_material();
-    body.material.model = model;
+    body.material.model = named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     body.transform.translate = at;
     return body;
@@ -119,7 +119,8 @@ TEST_CASE("cloth and solids in one scene are tuned together: what cannot move bo
     REQUIRE(result.found);
     CHECK(result.reference.name == "R3");
     CHECK(result.confirmed_error <= 0.08);
-    for (const char* method : {"mass_spring", "implicit_constraints", "acad", "pbd"})
+    for (const MethodKind method :
+         {MethodKind::mass_spring, MethodKind::implicit_constraints, MethodKind::acad, MethodKind::pbd})
     {
         CHECK(result.settings.type != method);
         const auto out = [&](const TuneRejection& r) {

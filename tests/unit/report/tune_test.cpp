@@ -22,7 +22,7 @@ double measured(const Scene& scene, const TuneResult& result)
     Scene same = scene;
     same.method = result.settings;
     CostOptions options;
-    options.methods = {method_named(result.settings.type)};
+    options.methods = {result.settings.type};
     options.substeps = {result.settings.substeps};
     options.iterations = {result.settings.iterations};
     options.precisions = {Precision::float32};
@@ -111,11 +111,11 @@ TEST_CASE("a method that is not there or refuses the scene is rejected before an
     INFO(result.reference.text);
     REQUIRE(result.reference.verified);
     for (const TuneRejection& rejection : result.rejected)
-        if (rejection.settings.type == "mass_spring")
+        if (rejection.settings.type == MethodKind::mass_spring)
             CHECK(rejection.stage == "filter");
     CHECK(std::any_of(result.rejected.begin(), result.rejected.end(),
-                      [](const TuneRejection& r) { return r.settings.type == "mass_spring"; }));
-    CHECK(result.settings.type != "mass_spring");
+                      [](const TuneRejection& r) { return r.settings.type == MethodKind::mass_spring; }));
+    CHECK(result.settings.type != MethodKind::mass_spring);
 }
 
 TEST_CASE("the scene's own setting stays while nothing is 10 % cheaper", "[tune]")
@@ -151,12 +151,12 @@ TEST_CASE("the filter knows mass ratios, steps longer than a spring, and too man
     const Scene scene = resting(6, 200, 0.05);
     const DeviceTraits traits;
     tuning::Candidate candidate;
-    candidate.settings.type = "xpbd";
+    candidate.settings.type = MethodKind::xpbd;
     tuning::SceneFacts facts{0, 0.1, 1e4, 18, 6, 0};
     CHECK(tuning::filtered(scene, facts, traits, 0.005, candidate).find("mass ratio") == 0);
     CHECK(tuning::filtered(scene, facts, traits, 0.05, candidate).empty());
     CHECK(candidate.prior > 0);
-    candidate.settings.type = "implicit_constraints";
+    candidate.settings.type = MethodKind::implicit_constraints;
     candidate.settings.substeps = 1;
     facts = {30, 0.1, 1, 18, 6, 0};
     CHECK(tuning::filtered(scene, facts, traits, 0.05, candidate).find("shortest spring") !=
@@ -164,8 +164,8 @@ TEST_CASE("the filter knows mass ratios, steps longer than a spring, and too man
     facts = {0, 0.1, 1, 5, 6, 6};
     CHECK(tuning::filtered(scene, facts, traits, 0.05, candidate).find("without compliance") !=
           std::string::npos);
-    candidate.settings.type = "xpbd";
-    candidate.settings.precision = "double";
+    candidate.settings.type = MethodKind::xpbd;
+    candidate.settings.precision = Precision::float64;
     DeviceTraits single;
     single.float64 = false;
     CHECK(tuning::filtered(scene, facts, single, 0.05, candidate) == "the device has no double");

@@ -55,7 +55,7 @@ TEST_CASE("readings of FAST and of the cantilever become moduli and rigidities w
     CHECK(peirce.bending.warp == Approx(fast.bending.warp).epsilon(1e-3));
     CHECK(peirce.bending.weft == Approx(fast.bending.weft).epsilon(1e-3));
     CHECK(peirce.bending.bias == Approx(0.25 * 9.80665 * std::pow(0.038, 3) / 8.0042));
-    CHECK(peirce.bending.bias_of == "strip");
+    CHECK(peirce.bending.bias_of == BiasSpecimen::strip);
 }
 
 TEST_CASE("keys beside readings stay, and a program's readings count when the scene is resolved")
@@ -76,29 +76,29 @@ TEST_CASE("keys beside readings stay, and a program's readings count when the sc
 
 TEST_CASE("rigidities by direction: isotropic, of a strip and of a sheet")
 {
-    const FabricRigidity even = fabric_rigidity({true, 2, 2, 0, "strip"});
+    const FabricRigidity even = fabric_rigidity({true, 2, 2, 0, BiasSpecimen::strip});
     for (const double square : {0.0, 0.3, 0.5, 1.0})
         CHECK(even.along(square) == Approx(2));
-    CHECK(fabric_rigidity({true, 2, 2, 2, "strip"}).d33 == Approx(4)); // as an even sheet twists
-    CHECK(fabric_rigidity({true, 2, 2, 2, "sheet"}).d33 == Approx(4));
-    const FabricRigidity woven = fabric_rigidity({true, 4, 1, 1.5, "sheet"});
+    CHECK(fabric_rigidity({true, 2, 2, 2, BiasSpecimen::strip}).d33 == Approx(4)); // as an even sheet twists
+    CHECK(fabric_rigidity({true, 2, 2, 2, BiasSpecimen::sheet}).d33 == Approx(4));
+    const FabricRigidity woven = fabric_rigidity({true, 4, 1, 1.5, BiasSpecimen::sheet});
     CHECK(woven.along(1) == 4);
     CHECK(woven.along(0) == 1);
     CHECK(woven.along(0.5) == Approx(1.5));
-    CHECK(fabric_rigidity({true, 4, 1, 1.5, "sheet"}, 0.2).along(0.5) == Approx(1.5));
+    CHECK(fabric_rigidity({true, 4, 1, 1.5, BiasSpecimen::sheet}, 0.2).along(0.5) == Approx(1.5));
     // A strip at 45 degrees twists as it bends, and so is softer than the sheet.
-    const FabricRigidity strip = fabric_rigidity({true, 4, 1, 1.2, "strip"});
+    const FabricRigidity strip = fabric_rigidity({true, 4, 1, 1.2, BiasSpecimen::strip});
     CHECK(1 / (1 / strip.d33 + (1 / 4.0 + 1) / 4) == Approx(1.2));
     CHECK(strip.along(0.5) > 1.2);
     // Strips curve across as they bend: compliances of strips are those that were measured.
-    const FabricRigidity wide = fabric_rigidity({true, 4, 1, 1.2, "strip"}, 0.3);
+    const FabricRigidity wide = fabric_rigidity({true, 4, 1, 1.2, BiasSpecimen::strip}, 0.3);
     const double det = wide.d11 * wide.d22 - wide.d12 * wide.d12;
     CHECK(det / wide.d22 == Approx(4));
     CHECK(det / wide.d11 == Approx(1));
     const double across = -wide.d12 / det, s11 = wide.d22 / det, s22 = wide.d11 / det;
     CHECK(1 / ((s11 + s22 + 2 * across) / 4 + 1 / wide.d33) == Approx(1.2));
-    CHECK(std::isfinite(fabric_rigidity({true, 4, 1, 100, "strip"}).d33));
-    CHECK(fabric_rigidity({true, 4, 1, 100, "strip"}).d33 > 0);
+    CHECK(std::isfinite(fabric_rigidity({true, 4, 1, 100, BiasSpecimen::strip}).d33));
+    CHECK(fabric_rigidity({true, 4, 1, 100, BiasSpecimen::strip}).d33 > 0);
 }
 
 TEST_CASE("readings and rigidities that cannot be are refused with the key and what would be right")

@@ -48,9 +48,9 @@ TEST_CASE("a collider that says what it meets meets that", "[face]")
     const Body fine = sheet(64);
     Collider ball = of_kind(ColliderKind::sphere), box = of_kind(ColliderKind::cuboid);
     CHECK(!meets_surface(fine, ball));
-    ball.meets = "surface";
+    ball.meets = ColliderMeets::surface;
     CHECK(meets_surface(fine, ball));
-    box.meets = "vertices";
+    box.meets = ColliderMeets::vertices;
     CHECK(!meets_surface(fine, box));
     Body led = fine;
     led.kinematic.used = true;
@@ -61,11 +61,9 @@ TEST_CASE("what a collider meets is told in the scene file by one of three words
 {
     const std::string scene = R"({"taut": 1, "duration": 1, "bodies": [{"grid": {"cells": [2, 2]}}],
         "colliders": [{"sphere": {}, "meets": ")";
-    CHECK(parse_scene(scene + "surface\"}]}").colliders[0].meets == "surface");
-    const std::vector<SceneIssue> issues = check(parse_scene(scene + "faces\"}]}"));
-    REQUIRE(issues.size() == 1);
-    CHECK(issues[0].field == "colliders[0].meets");
-    CHECK_THAT(issues[0].text, Catch::Contains("\"vertices\""));
+    CHECK(parse_scene(scene + "surface\"}]}").colliders[0].meets == ColliderMeets::surface);
+    CHECK_THROWS_WITH(parse_scene(scene + "faces\"}]}"),
+                      Catch::Contains("colliders[0].meets is \"faces\"") && Catch::Contains("\"vertices\""));
 }
 
 TEST_CASE("a distance field cannot be told to meet triangles", "[face]")
@@ -73,7 +71,7 @@ TEST_CASE("a distance field cannot be told to meet triangles", "[face]")
     Scene scene;
     Collider field = of_kind(ColliderKind::distance_field);
     field.field_file = "ring.sdf";
-    field.meets = "surface";
+    field.meets = ColliderMeets::surface;
     scene.colliders = {field};
     const std::vector<SceneIssue> issues = check(scene);
     REQUIRE(issues.size() == 1);

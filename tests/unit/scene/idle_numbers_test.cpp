@@ -35,7 +35,7 @@ TEST_CASE("numbers of plasticity, gas and attachments that nothing switches on a
          [](Body& b) { b.material.plastic_yield = 0.1; }},
         {"plastic_limit", "plastic_yield", [](Body& b) { b.material.plastic_limit = 0.5; },
          [](Body& b) { b.material.plastic_yield = 0.1; }},
-        {"pressure_law", "pressure", [](Body& b) { b.material.pressure_law = "isothermal"; },
+        {"pressure_law", "pressure", [](Body& b) { b.material.pressure_law = PressureLaw::isothermal; },
          [](Body& b) { b.material.pressure = 100; }},
         {"attachment_slack", "no pins", [](Body& b) { b.material.attachment_slack = 0; },
          [](Body& b) { b.pins.emplace_back().vertices = {0}; }},

@@ -91,7 +91,7 @@ TEST_CASE("a kinematic solid keeps its surface alone")
     CHECK(scene.bodies[0].mesh.tetrahedra.empty());
     CHECK(scene.bodies[0].mesh.triangles.size() == 48);
     CHECK(scene.bodies[0].pins[0].vertices.size() == 27);
-    CHECK(scene.bodies[0].material.model == "neo_hookean");
+    CHECK(scene.bodies[0].material.model == SolidModel::neo_hookean);
 }
 
 TEST_CASE("a sequence of files moves the vertices that welding has left, by the body's transform")

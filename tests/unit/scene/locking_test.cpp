@@ -49,7 +49,7 @@ TEST_CASE("solids that are few tetrahedra across, or hardly give way, are warned
     CHECK_THAT(rubber[0].text, Catch::Contains("0.49") && Catch::Contains("at least 8"));
     CHECK(locking_issues(box_of(8, 8, 8, 0.49)).empty());
     Scene springs = box_of(8, 4, 4);
-    springs.bodies[0].material.model = "springs";
+    springs.bodies[0].material.model = SolidModel::springs;
     REQUIRE(locking_issues(springs).size() == 1);
     CHECK(locking_issues(springs)[0].field == "bodies[0].material.model");
     springs.bodies[0].kinematic.used = true; // does not bend

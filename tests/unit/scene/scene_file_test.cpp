@@ -73,7 +73,7 @@ TEST_CASE("every value of a scene file arrives in its place")
     CHECK(scene.external_forces);
     CHECK(scene.method.substeps == 7);
     CHECK(scene.method.iterations == 8);
-    CHECK(scene.method.precision == "double");
+    CHECK(scene.method.precision == Precision::float64);
 }
 
 TEST_CASE("every value of a body arrives in its place")
@@ -92,7 +92,7 @@ TEST_CASE("every value of a body arrives in its place")
     CHECK(b.shape.kind == ShapeKind::grid);
     CHECK(b.shape.cells == glm::uvec2(2, 3));
     CHECK(b.shape.size == glm::dvec2(4, 5));
-    CHECK(b.shape.diagonals == "uniform");
+    CHECK(b.shape.diagonals == Diagonals::uniform);
     CHECK(b.material.density == 1);
     CHECK(b.material.stretch_stiffness == std::numeric_limits<double>::infinity());
     CHECK(b.material.bending_stiffness == 2);
@@ -194,6 +194,22 @@ TEST_CASE("an unknown key is refused with the nearest known one")
                Contains("unknown key \"youngs_modulus\"; cloth is as stiff as \"stretch_stiffness\""));
     CHECK_THAT(refusal_of_body("\"box\": {}, \"material\": {\"stretch_stiffness\": 1}"),
                Contains("unknown key \"stretch_stiffness\"; a solid is as stiff as \"youngs_modulus\""));
+}
+
+TEST_CASE("an unknown word of an option is refused with all that there are, and the nearest")
+{
+    CHECK(refusal_of("\"method\": {\"type\": \"xpdb\"}") ==
+          "my.json: method.type is \"xpdb\"; it must be \"mass_spring\", \"implicit_euler\", "
+          "\"implicit_constraints\", \"acad\", \"pbd\", \"xpbd\" or \"vbd\" (did you mean \"xpbd\"?)");
+    CHECK_THAT(refusal_of("\"method\": {\"precision\": \"flaot\"}"),
+               Contains("method.precision is \"flaot\"; it must be \"float\" or \"double\" (did you mean "
+                        "\"float\"?)"));
+    CHECK_THAT(refusal_of("\"method\": {\"type\": \"implicit_euler\", \"preconditioner\": \"jacobi\"}"),
+               Contains("\"block_jacobi\" or \"two_level\""));
+    CHECK_THAT(refusal_of("\"method\": {\"type\": 6}"),
+               Contains("method.type is 6; it must be a text in quotes"));
+    CHECK_THAT(refusal_of_body("\"grid\": {\"diagonals\": \"both\"}"),
+               Contains("bodies[0].grid.diagonals is \"both\""));
 }
 
 TEST_CASE("a missing or doubled choice is refused")

@@ -32,7 +32,7 @@ TEST_CASE("settings change single values of a scene, and make objects that are m
                                                "bodies[1].chain.links=9", "bodies[0].grid.network.bend=4",
                                                "method.volume=0.25"};
     const Scene scene = parse_scene(kScene, {}, "my.json", settings);
-    CHECK(scene.method.type == "acad");
+    CHECK(scene.method.type == MethodKind::acad);
     CHECK(scene.method.substeps == 7);
     CHECK(scene.method.volume == 0.25);
     CHECK(scene.bodies[0].material.drag == 1.5);

@@ -11,7 +11,7 @@ TEST_CASE("methods that sweep take the substeps that mesh and weight ask for, ot
 {
     Scene scene = test::hanging(32);
     const auto substeps = [&](const char* method) {
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         scene.method.substeps = 0;
         return resolve(scene).method.substeps;
     };
@@ -28,7 +28,7 @@ TEST_CASE("methods that sweep take the substeps that mesh and weight ask for, ot
 TEST_CASE("what pins on all sides carry takes more substeps than what hangs from an edge", "[substeps]")
 {
     Scene scene = test::hanging(12);
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 0;
     const std::uint32_t hanging = resolve(scene).method.substeps;
     Body& body = scene.bodies[0];
@@ -44,7 +44,7 @@ TEST_CASE("cloth that begins beside its pins takes more substeps than cloth that
           "[substeps]")
 {
     Scene scene = test::hanging(20);
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 0;
     scene.bodies[0].pins = {Pin{}};
     const auto substeps = [&](const char* edge) {
@@ -69,7 +69,7 @@ TEST_CASE("a held solid takes what its stiffness asks for, up to where nobody se
     pin.faces = {"left"};
     body.pins = {pin};
     scene.bodies = {body};
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 0;
     const auto substeps = [&](double modulus) {
         scene.bodies[0].material.youngs_modulus = modulus;
@@ -88,7 +88,7 @@ TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[su
     Scene scene = test::hanging(12);
     scene.method.substeps = 0;
     const auto substeps = [&](const char* method, double stiffness) {
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         scene.bodies[0].material.stretch_stiffness = stiffness;
         return resolve(scene).method.substeps;
     };
@@ -104,7 +104,7 @@ TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[su
 TEST_CASE("the waves of a network go by its own springs", "[substeps]")
 {
     Scene scene = test::hanging(12);
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     scene.method.substeps = 0;
     const auto substeps = [&](double edges, const SpringNetwork& network) {
         scene.bodies[0].material.stretch_stiffness = edges;
@@ -126,7 +126,7 @@ TEST_CASE("the waves of a network go by its own springs", "[substeps]")
 TEST_CASE("plastic cloth that its pins draw takes substeps by its stiffness under xpbd", "[substeps]")
 {
     Scene scene = test::hanging(12);
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 0;
     scene.bodies[0].material.stretch_stiffness = 1e4;
     const std::uint32_t elastic = resolve(scene).method.substeps;
@@ -145,7 +145,7 @@ TEST_CASE("plastic cloth that its pins draw takes substeps by its stiffness unde
 TEST_CASE("membranes take three times the substeps of springs under xpbd", "[substeps]")
 {
     Scene scene = test::hanging(20);
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 0;
     const double springs = resolve(scene).method.substeps;
     scene.bodies[0].material.stretch_stiffness = 0;
@@ -176,9 +176,9 @@ TEST_CASE("a gas asks for substeps, also without gravity", "[substeps]")
     CHECK(drawn_in > 30);
     CHECK(substeps(-40) == drawn_in);
     CHECK(substeps(-1e-3) == 10); // not by so little
-    scene.method.type = "pbd";
+    scene.method.type = MethodKind::pbd;
     CHECK(substeps(-1000) == strong);
-    scene.method.type = "implicit_euler";
+    scene.method.type = MethodKind::implicit_euler;
     CHECK(substeps(1000) == 10);
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("a mesh that is led asks for no substeps", "[substeps]")
     cloth.transform.translate = {0, 0, 1};
     scene.bodies = {cloth, led};
     scene.contact.between = true;
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     CHECK(resolve(scene).method.substeps == 10);
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("where contacts come after the solve a ball takes more substeps on a f
     Collider floor;
     floor.kind = ColliderKind::plane;
     const auto substeps = [&](const char* method, const std::vector<Collider>& colliders) {
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         scene.colliders = colliders;
         return resolve(scene).method.substeps;
     };
@@ -235,7 +235,7 @@ TEST_CASE("a free solid that stands on a point takes more substeps than one on a
     body.shape.radius = 0.05;
     body.material.density = 1100;
     body.material.youngs_modulus = 1e8;
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     scene.method.substeps = 0;
     const auto substeps = [&] { return resolve(scene).method.substeps; };
     const std::uint32_t falling = substeps();
@@ -271,7 +271,7 @@ TEST_CASE("a sail that is held all round takes what the wind asks for, a flag do
     const auto substeps = [&](const char* method, std::vector<std::string> edges) {
         body.pins.clear();
         body.pins.emplace_back().edges = std::move(edges);
-        scene.method.type = method;
+        scene.method.type = named<MethodKind>(method);
         return resolve(scene).method.substeps;
     };
     const std::uint32_t sail = substeps("xpbd", {"top", "bottom", "left", "right"});
@@ -299,7 +299,7 @@ TEST_CASE("without gravity held cloth under vbd takes the substeps of its waves"
     scene.bodies[0].shape.cells = {6, 6};
     scene.bodies[0].material.stretch_stiffness = 1e4;
     scene.bodies[0].pins.emplace_back().edges = {"left"};
-    scene.method.type = "vbd";
+    scene.method.type = MethodKind::vbd;
     const auto substeps = [&](double g) {
         scene.method.substeps = 0;
         scene.gravity = {0, -g, 0};
@@ -319,7 +319,7 @@ TEST_CASE("cloth that stands out by its bending stiffness takes substeps by its 
     body.material.density = 0.2;
     body.material.bending_stiffness = 0.003;
     body.pins.emplace_back().vertices = {0, 1, 2, 3, 4, 5}; // two rows
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     const auto substeps = [&] {
         scene.method.substeps = 0;
         return resolve(scene).method.substeps;
@@ -337,9 +337,9 @@ TEST_CASE("cloth that stands out by its bending stiffness takes substeps by its 
     body.material.stretch_stiffness = 10;
     body.material.bending_stiffness = 0.3;
     CHECK(substeps() == standing);
-    scene.method.type = "vbd"; // whose steps at a vertex are in balance with its hinges
+    scene.method.type = MethodKind::vbd; // whose steps at a vertex are in balance with its hinges
     CHECK(substeps() < standing / 2);
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     body.pins[0].vertices = {0, 1, 2}; // an axle
     CHECK(substeps() < standing / 2);
     body.pins[0].vertices = {0, 1, 2, 3, 4, 5};
@@ -359,7 +359,7 @@ TEST_CASE("cloth that is too limp to stand out takes the substeps of its weight"
     body.material.density = 0.2;
     body.pins.emplace_back().vertices = {0, 1, 2, 3, 4, 5};
     scene.gravity = {0, 0, -9.81};
-    scene.method.type = "xpbd";
+    scene.method.type = MethodKind::xpbd;
     const auto substeps = [&](double rigidity) -> double {
         body.material.bending_stiffness = rigidity;
         scene.method.substeps = 0;

@@ -98,9 +98,9 @@ TEST_CASE("a hybrid world works beside every device")
 TEST_CASE("a hybrid world counts the solves of both sides, without those of its timed steps")
 {
     Scene scene = several_cloths();
-    scene.method.type = "implicit_euler";
+    scene.method.type = MethodKind::implicit_euler;
     scene.method.substeps = 2;
-    scene.method.precision = "double";
+    scene.method.precision = Precision::float64;
     scene.method.linear_tolerance = 1e-9;
     scene.method.linear_iterations = 1000;
     for (const std::uint64_t every : {0, 3})
@@ -138,8 +138,8 @@ TEST_CASE("a hybrid world counts the solves of both sides, without those of its 
 TEST_CASE("both sides of a hybrid world take the substeps of the stiffest body")
 {
     Scene scene = several_cloths();
-    scene.method.type = "mass_spring";
-    scene.method.stability = "substep";
+    scene.method.type = MethodKind::mass_spring;
+    scene.method.stability = StabilityRule::substep;
     scene.method.substeps = 1;
     scene.bodies[2].material.stretch_stiffness = 50;
     for (const std::size_t body : {0, 1, 3})

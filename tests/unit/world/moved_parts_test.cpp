@@ -155,7 +155,7 @@ TEST_CASE("a split world moves what the program moves as one world does")
     options.share = 0.4;
     Scene scene = two_cloths(false);
     for (Collider& c : scene.colliders)
-        c.meets = "vertices";
+        c.meets = ColliderMeets::vertices;
     SplitWorld split(scene, test_device("cpu:serial"), test_device("cpu:serial"), options);
     World whole(scene, test_device("cpu:serial"));
     for (std::size_t k = 1; k <= 12; ++k)

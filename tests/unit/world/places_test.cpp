@@ -42,7 +42,7 @@ Scene two_sheets(const std::string& method = "xpbd")
     Collider ball;
     ball.point = {0, -1000, 0};
     scene.colliders = {ball};
-    scene.method.type = method;
+    scene.method.type = named<MethodKind>(method);
     scene.method.substeps = 8;
     return resolve(scene);
 }
@@ -129,7 +129,7 @@ TEST_CASE("places wait for the next step, where the later ones hold, and a resto
 
 TEST_CASE("velocities that are set are those at the step, and lead to the parabola, under every method")
 {
-    const auto method = GENERATE(from_range(kMethodNames));
+    const auto method = GENERATE(from_range(kWords<MethodKind>));
     CAPTURE(method);
     World world(two_sheets(std::string(method)), test_device("cpu:serial"));
     run(world, 4);

@@ -62,7 +62,7 @@ TEST_CASE("what the program moves is bit-equal to the same motion by keyframes, 
 
 TEST_CASE("the program moves things under every method and in double as keyframes do")
 {
-    const auto method = GENERATE(from_range(kMethodNames));
+    const auto method = GENERATE(from_range(kWords<MethodKind>));
     const std::string precision = GENERATE("float", "double");
     CAPTURE(method, precision);
     const WorldState keys =

@@ -133,26 +133,26 @@ TEST_CASE("a world that sleeps gives its state to a whole one, and refuses metho
     CHECK(whole.positions() == world.positions());
     CHECK(whole.steps() == 400);
     Scene other = scene;
-    other.method.type = "vbd";
+    other.method.type = MethodKind::vbd;
     for (Body& body : other.bodies)
     {
-        body.material.model = "springs";
+        body.material.model = SolidModel::springs;
         body.material.volume_stiffness = 0;
     }
     CHECK_THROWS_WITH(SleepWorld(other, test_device("cpu:serial")), Contains("cannot sleep"));
     Scene linear = scene;
-    linear.method.type = "implicit_euler";
+    linear.method.type = MethodKind::implicit_euler;
     CHECK_THROWS_WITH(SleepWorld(linear, test_device("cpu:serial")), Contains("as one system"));
 }
 
 TEST_CASE("the others keep the substeps of the stiffest body when it sleeps")
 {
     Scene scene = blocks(2);
-    scene.method.type = "mass_spring";
-    scene.method.stability = "substep";
+    scene.method.type = MethodKind::mass_spring;
+    scene.method.stability = StabilityRule::substep;
     for (Body& body : scene.bodies)
     {
-        body.material.model = "springs";
+        body.material.model = SolidModel::springs;
         body.material.volume_stiffness = 0;
     }
     scene.bodies[0].material.youngs_modulus = 4e6;

@@ -97,7 +97,7 @@ TEST_CASE("what methods and materials do is cut without a difference", "[split]"
     }
     SECTION("double precision, dampers and strain limits")
     {
-        scene.method.precision = "double";
+        scene.method.precision = Precision::float64;
         scene.method.iterations = 2;
         scene.bodies[0].material.stretch_damping = 0.01;
         scene.bodies[0].material.strain_limit = 0.02;
@@ -105,8 +105,8 @@ TEST_CASE("what methods and materials do is cut without a difference", "[split]"
     }
     SECTION("pbd, whose friction is kept over the iterations")
     {
-        scene.method.type = "pbd";
-        scene.method.scheme = "coloured";
+        scene.method.type = MethodKind::pbd;
+        scene.method.scheme = ElementScheme::coloured;
         scene.method.iterations = 4;
         scene.method.substeps = 2;
         compare_cuts(scene);
@@ -262,13 +262,13 @@ TEST_CASE("what cannot be cut is refused in words", "[split]")
     CHECK_THROWS_AS(SplitWorld(scene, serial(), nullptr), Error);
     SECTION("methods")
     {
-        scene.method.type = "vbd";
+        scene.method.type = MethodKind::vbd;
         CHECK_THROWS_WITH(make(scene), Contains("\"vbd\"") && Contains("\"xpbd\""));
     }
     SECTION("schemes")
     {
-        scene.method.type = "pbd";
-        scene.method.scheme = "node_centric";
+        scene.method.type = MethodKind::pbd;
+        scene.method.scheme = ElementScheme::node_centric;
         CHECK_THROWS_WITH(make(scene), Contains("\"node_centric\"") && Contains("coloured"));
     }
     SECTION("effects")
@@ -284,7 +284,7 @@ TEST_CASE("what cannot be cut is refused in words", "[split]")
     }
     SECTION("colliders that meet triangles")
     {
-        scene.colliders[0].meets = "surface";
+        scene.colliders[0].meets = ColliderMeets::surface;
         CHECK_THROWS_WITH(make(scene), Contains("\"sphere\"") && Contains("\"meets\": \"vertices\""));
     }
 }
