@@ -10,7 +10,8 @@
 //   only by their multipliers, move a stiff body on which nothing acts. Both are solved together. The
 //   gradient of C_D is taken times C_D, so that nothing divides by it, and less its part along that of C_H,
 //   so that the determinant is a sum of positive terms: where a shape only grows the two are parallel, and
-//   the difference of their products would have no digit left.
+//   the difference of their products would have no digit left. A step that would change F by more than F is
+//   shortened to that (docs/decisions.md, 76).
 // Bytes per element: 72 constraint + 128 read + 64 written (float).
 //! lanes
 //! variant lambda LAMBDA=1
@@ -91,6 +92,16 @@ Rows rows_of(SolidTetrahedron t, Deformation f, rvec3 c0, rvec3 c1, rvec3 c2)
     return o;
 }
 
+/// How much of a step is taken that moves the edges by these: min(1, max(|F|, sqrt 3) / |dF|), so that F
+/// changes by no more than it is, or than the unit matrix. Both rows are linear in the step; a step out of a
+/// tangle that goes further ends where neither says anything of the energy.
+real share_of(SolidTetrahedron t, Deformation f, rvec3 e1, rvec3 e2, rvec3 e3)
+{
+    real change = deformation_of(t, e1, e2, e3).square;
+    real most = max(f.square, real(3));
+    return SELECT(change > most, sqrt(most / max(change, most)), real(1));
+}
+
 INLINE void project(ELEMENT k)
 {
     SolidTetrahedron t = constraint[k];
@@ -149,13 +160,18 @@ INLINE void project(ELEMENT k)
     real u = ((grip_d * hh) * (along * pull_h) - bulk * pull_d) / determinant;
     u = SELECT(usable, u, real(0));
     real v = SELECT(usable, pull_h * shape + along * pull_d, pull_h) / -determinant;
+    rvec3 m0 = (r0 * u + h0 * v) * p0.w;
+    rvec3 m1 = (r1 * u + h1 * v) * p1.w;
+    rvec3 m2 = (r2 * u + h2 * v) * p2.w;
+    rvec3 m3 = (r3 * u + h3 * v) * p3.w;
+    real share = share_of(t, f, m1 - m0, m2 - m0, m3 - m0);
 #if LAMBDA
-    multiplier[k] = before + rvec4(u * root, v - along * u, real(0), real(0));
+    multiplier[k] = before + rvec4(u * root, v - along * u, real(0), real(0)) * share;
 #endif
-    delta[t.a] = d0 + rvec4((r0 * u + h0 * v) * p0.w, real(0));
-    delta[t.b] = d1 + rvec4((r1 * u + h1 * v) * p1.w, real(0));
-    delta[t.c] = d2 + rvec4((r2 * u + h2 * v) * p2.w, real(0));
-    delta[t.d] = d3 + rvec4((r3 * u + h3 * v) * p3.w, real(0));
+    delta[t.a] = d0 + rvec4(m0 * share, real(0));
+    delta[t.b] = d1 + rvec4(m1 * share, real(0));
+    delta[t.c] = d2 + rvec4(m2 * share, real(0));
+    delta[t.d] = d3 + rvec4(m3 * share, real(0));
     if (report != 0u)
         COUNT_EVENT_IF(is_collapsed(f) && ((p0.w + p1.w) + p2.w) + p3.w > real(0), events,
                        TAUT_EVENT_DEGENERATE);

@@ -69,8 +69,18 @@ Shape shape_of(const Eigen::Matrix3d& f, double mu, double lambda, double log)
     return out;
 }
 
+/// Of a step that moves the corners by `way`: F changes by no more than it is, or by sqrt 3.
+double share_of(const Eigen::Matrix3d& f, const Gradient& way, const Eigen::Matrix3d& b)
+{
+    Eigen::Matrix3d edges;
+    for (int v = 0; v < 3; ++v)
+        edges.col(v) = way.segment<3>(3 * v + 3) - way.head<3>();
+    return std::min(1.0, std::max(f.norm(), std::sqrt(3.0)) / (edges * b).norm());
+}
+
 /// XPBD by definition, both constraints of a tetrahedron at once: (J W J^T + alpha) dlambda = -(C + alpha
-/// lambda), C = (shape_of, det F - 1), alpha = (1/(mu V h^2), 1/(lambda_H V h^2)).
+/// lambda), C = (shape_of, det F - 1), alpha = (1/(mu V h^2), 1/(lambda_H V h^2)); the step and the
+/// multipliers times share_of.
 template <typename Real>
 void project(State& s, const Constraint<Real>& c, std::uint32_t k)
 {
@@ -114,6 +124,7 @@ void project(State& s, const Constraint<Real>& c, std::uint32_t k)
     const Eigen::Vector2d pull = grip.cwiseProduct(value) + before;
     Eigen::Vector2d change = -system.partialPivLu().solve(pull);
     change[0] = acts ? change[0] : 0;
+    change *= share_of(f, (w.asDiagonal() * j * change).eval(), b);
     // Roundings of F go into all that follows, those of C times its gradient are those of its two terms, and
     // the system's condition multiplies them.
     const double stretched = 1 + b.norm() * size, condition = stretched * stretched * stretched;

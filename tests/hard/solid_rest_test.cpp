@@ -185,10 +185,9 @@ void check_energy(const Setting& s, const Scene& scene, const Outcome& out)
     if (!floor)
     {
         CHECK(out.most_kinetic <= out.put_in * (1 + 1e-4) + noise);
-        // Sweeps from a tangle leave more for a few frames, of which no motion comes.
-        const bool far = s.start == "flat" || s.start == "inside out" || s.start == "random";
-        const double most = s.mesh == "five" ? 10 : 15;
-        CHECK(out.most <= out.put_in * (far ? most : 1 + 1e-4) + noise);
+        // Of 100 Pa sweeps from a tangle leave more for a few frames, of which no motion comes.
+        const bool soft_tangle = s.start == "inside out" && s.modulus < 1e4;
+        CHECK(out.most <= out.put_in * (soft_tangle ? 3 : 1 + 1e-4) + noise);
         return;
     }
     // It sinks in by its own weight, and by what one substep falls before the floor holds it, a hundredth.
@@ -218,11 +217,13 @@ void check_end(const Setting& s, const Outcome& out)
 }
 
 /// The simple material has a second state without force, collapsed, at no more energy than rest for a
-/// Poisson's ratio of 0; bodies thrown into a heap keep a tangle at 1e4 Pa, and need longer at 1e10 Pa, or at
-/// 1e8 Pa where they are of other tetrahedra than five to a cell.
+/// Poisson's ratio of 0; bodies thrown into a heap may keep a tangle at 1e4 Pa, and those of the simple
+/// material at 1e10 Pa, or at 1e8 Pa where they are of other tetrahedra than five to a cell.
 bool finds_its_shape(const Setting& s)
 {
     const bool may_collapse = s.model == SolidModel::neo_hookean_simple && s.ratio < 0.3;
+    if (s.start == "random" && s.model == SolidModel::neo_hookean)
+        return s.modulus > 1e4;
     if (s.start == "random")
         return s.modulus > 1e4 && s.modulus < (s.mesh == "five" ? 1e10 : 1e8) && !may_collapse;
     if (s.start == "inside out" && s.modulus <= 1e4)
