@@ -23,7 +23,7 @@
 #define TAUT_CONTACT_VERTEX 0u // a against the triangle b, c, d
 #define TAUT_CONTACT_EDGES 1u  // a-b against c-d
 
-/// How the coefficients of two surfaces that rub make one: kFrictionMixes of scene/contact.hpp in order.
+/// How the coefficients of two surfaces that rub make one: FrictionMix of scene/options.hpp in order.
 #define TAUT_CONTACT_MIX_MEAN 0u
 #define TAUT_CONTACT_MIX_MINIMUM 1u
 #define TAUT_CONTACT_MIX_MAXIMUM 2u

@@ -49,7 +49,7 @@ CostOptions study_options(const CostCommand& command)
     if (!command.precisions.empty())
         options.precisions.clear();
     for (const std::string& word : command.precisions)
-        options.precisions.push_back(word == "float" ? Precision::float32 : Precision::float64);
+        options.precisions.push_back(option_named<Precision>(word));
     if (!command.methods.empty())
     {
         options.methods = methods_listed(command.methods);

@@ -43,7 +43,7 @@ TuneOptions tune_options(const TuneCommand& command)
     if (!command.precisions.empty())
         options.precisions.clear();
     for (const std::string& word : command.precisions)
-        options.precisions.push_back(word == "float" ? Precision::float32 : Precision::float64);
+        options.precisions.push_back(option_named<Precision>(word));
     options.kind = command.at_rest  ? CostKind::at_rest
                    : command.moving ? CostKind::moving
                                     : CostKind::automatic;

@@ -18,8 +18,8 @@ namespace taut {
 namespace {
 
 /// Those with a folder of kernels over elements.
-constexpr std::array<std::string_view, 5> kMethodsOfElements = {"xpbd", "pbd", "mass_spring",
-                                                                "implicit_euler", "vbd"};
+constexpr MethodKind kMethodsOfElements[] = {MethodKind::xpbd, MethodKind::pbd, MethodKind::mass_spring,
+                                             MethodKind::implicit_euler, MethodKind::vbd};
 
 /// One element in plan vertices. corners <= 4.
 struct Added
@@ -74,26 +74,26 @@ void check_list(const std::string& where, const Body& body, const Body::Elements
 std::string methods_of(const ElementKind& kind)
 {
     std::vector<std::string_view> out;
-    for (const std::string_view method : kMethodsOfElements)
-        if (has_kernel(kind, method))
-            out.push_back(method);
+    for (const MethodKind method : kMethodsOfElements)
+        if (has_kernel(kind, to_string(method)))
+            out.push_back(to_string(method));
     return scene_file::listing(out);
 }
 
 /// Throws where the scene's method cannot move elements of this kind.
 void check_method(const std::string& where, const Scene& scene, const ElementKind& kind)
 {
-    const std::string_view method = to_string(scene.method.type);
+    const MethodKind method = scene.method.type;
     const bool can = std::find(std::begin(kMethodsOfElements), std::end(kMethodsOfElements), method) !=
                      std::end(kMethodsOfElements);
-    if (!has_kernel(kind, method))
+    if (!has_kernel(kind, to_string(method)))
         throw Error(ErrorCode::unsupported,
-                    where + ": method " + quoted(scene.method.type) + " has no kernels for elements \"" +
-                        kind.name + "\"; use " + methods_of(kind) +
+                    where + ": method " + quoted(method) + " has no kernels for elements \"" + kind.name +
+                        "\"; use " + methods_of(kind) +
                         (is_own(kind) || !can
                              ? ""
                              : ", or name it in the line \"//! methods\" of " + kind.name + ".glsl"));
-    if (scene.method.type == MethodKind::pbd && !pbd_is_coloured(scene))
+    if (method == MethodKind::pbd && !pbd_is_coloured(scene))
         throw Error(ErrorCode::unsupported, where + ": method.scheme " + quoted(scene.method.scheme) +
                                                 " does not move elements \"" + kind.name +
                                                 "\"; use \"coloured\"");

@@ -74,7 +74,7 @@ PlanBuilder::PlanBuilder(const Scene& s, const DeviceTraits& t, const PlanOption
       method(find_method(s.method.type)),
       paper_(std::make_shared<PaperDevice>(info_of(t)))
 {
-    plan.precision = s.method.precision == Precision::float64 ? Precision::float64 : Precision::float32;
+    plan.precision = s.method.precision;
     plan.timestep = s.timestep;
     const Substeps taken = method.substeps != nullptr ? method.substeps(s) : Substeps{s.method.substeps};
     plan.substeps = taken.count;

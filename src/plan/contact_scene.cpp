@@ -2,6 +2,7 @@
 
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/kernels/shared/contact_rows.h"
 #include "taut/scene/pose.hpp"
 
 #include <algorithm>
@@ -79,6 +80,7 @@ double friction_of(const Scene& scene, const Body& body)
 
 std::uint32_t friction_mix_of(const Scene& scene)
 {
+    static_assert(static_cast<unsigned>(FrictionMix::geometric_mean) == TAUT_CONTACT_MIX_GEOMETRIC_MEAN);
     return static_cast<std::uint32_t>(scene.contact.friction_mix);
 }
 

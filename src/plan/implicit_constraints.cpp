@@ -132,8 +132,8 @@ void check_constrained_lengths(const Scene& scene)
 void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
 {
     check_constrained_lengths(scene);
-    if (scene.method.integrator !=
-        Integrator::semi_implicit) // no pass would give back what the kick takes of gravity
+    // No pass would give back what the kick takes of gravity.
+    if (scene.method.integrator != Integrator::semi_implicit)
         throw Error(ErrorCode::unsupported,
                     "method.integrator is " + quoted(scene.method.integrator) +
                         ", but method.type \"implicit_constraints\" steps by \"semi_implicit\" only");

@@ -47,8 +47,9 @@ const Method& find_method(MethodKind kind)
     for (const Method& method : kMethods)
         if (method.kind == kind)
             return method;
-    throw Error(ErrorCode::unsupported,
-                "method.type is none of " + scene_file::listing(words_of<MethodKind>()));
+    throw Error(ErrorCode::unsupported, "method.type is value " +
+                                            std::to_string(static_cast<unsigned>(kind)) + "; it must be " +
+                                            scene_file::listing(words_of<MethodKind>()));
 }
 
 std::string methods_with(bool Method::*can)
@@ -63,21 +64,20 @@ std::string methods_with(bool Method::*can)
 void check_solids(const Scene& scene)
 {
     const Method& method = find_method(scene.method.type);
-    const std::string name(to_string(method.kind));
+    const std::string name = quoted(method.kind);
     for (std::size_t k = 0; k < scene.bodies.size(); ++k)
     {
         const Body& body = scene.bodies[k];
         const std::string where = "bodies[" + std::to_string(k) + "].material.";
         if (is_elastic(body) && !method.elastic)
             throw Error(ErrorCode::unsupported,
-                        where + "model is \"" + std::string(to_string(body.material.model)) +
-                            "\", which method \"" + name +
-                            "\" does not have; take model \"springs\", or a method of " +
+                        where + "model is " + quoted(body.material.model) + ", which method " + name +
+                            " does not have; take model \"springs\", or a method of " +
                             methods_with(&Method::elastic));
         if (holds_volumes(body) && !method.volumes)
             throw Error(ErrorCode::unsupported,
-                        where + "volume_stiffness is not 0, but method \"" + name +
-                            "\" does not hold the volume of tetrahedra; set it to 0, or take a method of " +
+                        where + "volume_stiffness is not 0, but method " + name +
+                            " does not hold the volume of tetrahedra; set it to 0, or take a method of " +
                             methods_with(&Method::volumes));
         if (!holds_surface_volume(body))
             continue;
@@ -85,8 +85,8 @@ void check_solids(const Scene& scene)
             body.mesh.tetrahedra.empty() ? "volume_stiffness is not 0" : "volume is \"surface\"";
         if (!method.surface_volume)
             throw Error(ErrorCode::unsupported,
-                        where + what + ", but method \"" + name +
-                            "\" does not hold the volume within a surface; set volume_stiffness to 0, or "
+                        where + what + ", but method " + name +
+                            " does not hold the volume within a surface; set volume_stiffness to 0, or "
                             "take a method of " +
                             methods_with(&Method::surface_volume));
         check_surface(body, where + what);

@@ -103,8 +103,8 @@ std::vector<SceneIssue> unread_keys(const MethodSettings& settings, const std::v
     for (const std::string& key : given)
         if (!reads(key))
             out.push_back({false, "method." + key,
-                           "method \"" + std::string(to_string(settings.type)) +
-                               "\" does not read it; take it out (beside type, substeps and precision it "
+                           "method " + quoted(settings.type) +
+                               " does not read it; take it out (beside type, substeps and precision it "
                                "reads " +
                                listed(read) + ")"});
     return out;

@@ -16,8 +16,8 @@ bool stands_for_something(const Key& key, double value)
 {
     if (key.has_unset && value == key.unset)
         return true;
-    return !key.word.empty() && key.kind != Kind::maybe_number && key.kind != Kind::maybe_count &&
-           (value == key.word_value || (key.limits.too_low(key.word_value) && value < key.limits.low));
+    const bool optional = key.kind == Kind::maybe_number || key.kind == Kind::maybe_count;
+    return !optional && !key.word.empty() && value == key.word_value;
 }
 
 void check_number(const Key& key, std::string_view member, double value, const Checker& out)

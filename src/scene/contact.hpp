@@ -15,7 +15,7 @@ struct SceneContact
 {
     bool between = false;  ///< different bodies meet; false = none does: no effect unless a body meets itself
     /// m, >= 0: radius of all surfaces that give none; without it each material's `thickness`.
-    std::optional<double> thickness;
+    std::optional<double> thickness = std::nullopt;
     double friction = 0;   ///< Coulomb coefficient of all surfaces that give none, >= 0
     FrictionMix friction_mix = FrictionMix::mean;
     std::uint32_t searches = 4; ///< a time step, 1..1000: how often pairs that may meet are looked for
@@ -34,8 +34,9 @@ struct BodyContact
     /// Groups whose bodies do not meet this one, nor it them. Its own: bodies of the group do not meet each
     /// other. Whether a body meets itself is said by `self` alone.
     std::vector<std::string> passes;
-    std::optional<double> thickness; ///< m, >= 0: its radius; none given: as the scene says
-    std::optional<double> friction;  ///< >= 0: Coulomb coefficient; none given: as the scene says
+    std::optional<double> thickness = std::nullopt; ///< m, >= 0: its radius; none given: as the scene says
+    std::optional<double> friction =
+        std::nullopt; ///< >= 0: Coulomb coefficient; none given: as the scene says
 };
 
 /// Names of groups that the bodies of a scene may have between them.

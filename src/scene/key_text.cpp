@@ -47,8 +47,7 @@ Json parts_of(const Vector& vector)
 template <class T>
 Json with_word(const Key& key, T value)
 {
-    const bool beyond = key.limits.too_low(key.word_value) && key.limits.too_low(double(value));
-    if (!key.word.empty() && (double(value) == key.word_value || beyond))
+    if (!key.word.empty() && double(value) == key.word_value)
         return key.word;
     return value;
 }
@@ -56,7 +55,7 @@ Json with_word(const Key& key, T value)
 template <class T>
 Json or_word(const Key& key, const std::optional<T>& value)
 {
-    return value ? Json(*value) : Json(key.word);
+    return value ? Json(*value) : key.word.empty() ? Json() : Json(key.word);
 }
 
 std::string range_of_numbers(const Key& key)

@@ -63,7 +63,7 @@ constexpr std::optional<E> option_of(std::string_view word)
 
 /// option_of(), which throws Error{bad_input} for a word that no value has.
 template <Option E>
-E named(std::string_view word)
+E option_named(std::string_view word)
 {
     if (const std::optional<E> found = option_of<E>(word))
         return *found;

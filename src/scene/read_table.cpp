@@ -15,6 +15,14 @@ T& as(void* member)
     return *static_cast<T*>(member);
 }
 
+/// " in N/m"; " (of the rest distance)" where the number has no unit.
+std::string in_unit(const Key& key)
+{
+    if (key.unit_text.empty())
+        return {};
+    return (unit_of(key).empty() ? " " : " in ") + std::string(key.unit_text);
+}
+
 bool is_word(const Field& value, const Key& key)
 {
     return !key.word.empty() && value.is_text() && value.text() == key.word;
@@ -27,11 +35,9 @@ double read_number(const Field& value, const Key& key)
     if (is_word(value, key))
         return key.word_value;
     if (value.is_text())
-        value.refuse("it must be a number" +
-                     (key.unit_text.empty() ? "" : " in " + std::string(key.unit_text)) + " or \"" +
-                     std::string(key.word) + '"');
+        value.refuse("it must be a number" + in_unit(key) + " or \"" + std::string(key.word) + '"');
     const double number = value.number();
-    if (key.limits.too_low(number)) // the struct may mean the word by it
+    if (key.limits.too_low(number)) // the message names the word, too
         value.refuse("it must be " + low_text(key) + ", or \"" + std::string(key.word) + '"');
     return number;
 }
@@ -55,7 +61,7 @@ std::uint32_t read_count(const Field& value, const Key& key)
         return static_cast<std::uint32_t>(key.word_value);
     const std::uint32_t count = value.count(right);
     if (key.limits.too_low(count))
-        value.refuse(right); // the word stands for a count that nobody may write
+        value.refuse(right); // the same
     return count;
 }
 
@@ -65,8 +71,7 @@ std::vector<Field> read_parts(const Field& value, const Key& key, std::size_t co
     std::vector<Field> parts = value.elements();
     if (parts.size() != count)
         value.refuse("it must be " + std::string(count == 2 ? "two " : "three ") + std::string(what) + ' ' +
-                     std::string(key.parts) +
-                     (key.unit_text.empty() ? "" : " in " + std::string(key.unit_text)));
+                     std::string(key.parts) + in_unit(key));
     return parts;
 }
 

@@ -60,7 +60,7 @@ Scene cloths(const Setting& setting)
         scene.bodies.push_back(body);
     }
     MethodSettings& m = scene.method;
-    m.type = named<MethodKind>(setting.method);
+    m.type = option_named<MethodKind>(setting.method);
     m.compress = setting.compress;
     m.substeps = 32;
     m.stability = StabilityRule::substep;

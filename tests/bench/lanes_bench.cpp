@@ -46,7 +46,7 @@ Scene cloth(const std::string& method, ColliderKind first, ColliderKind second)
         scene.colliders.push_back(collider);
     }
     scene.damping = 0.5;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     return resolve(scene);
 }
 
@@ -57,9 +57,9 @@ Scene solid(const std::string& method, const std::string& model)
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {24, 24, 24};
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     scene.bodies = {body};
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     return resolve(scene);
 }
 

@@ -79,7 +79,7 @@ taut::Scene stepped(const char* method, taut::Body body, taut::Pin pin)
 {
     taut::Scene scene;
     scene.timestep = 1.0 / 60;
-    scene.method.type = taut::named<taut::MethodKind>(method);
+    scene.method.type = taut::option_named<taut::MethodKind>(method);
     scene.method.substeps = 1;
     scene.method.precision = taut::Precision::float64;
     body.pins = {std::move(pin)};

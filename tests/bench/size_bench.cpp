@@ -49,7 +49,7 @@ Scene cloth(std::uint32_t n, const char* method)
     scene.bodies = {body};
     scene.damping = 2;
     MethodSettings& m = scene.method;
-    m.type = named<MethodKind>(method);
+    m.type = option_named<MethodKind>(method);
     m.substeps = m.type == MethodKind::pbd ? 1 : m.type == MethodKind::mass_spring ? 32 : 8;
     m.iterations = m.type == MethodKind::pbd ? 20 : m.iterations;
     m.stability = StabilityRule::substep; // mass_spring takes as many as it needs

@@ -62,7 +62,7 @@ struct Setting
 taut::Scene with(const taut::Scene& scene, const Setting& setting)
 {
     taut::Scene out = scene;
-    out.method.type = taut::named<taut::MethodKind>(setting.type);
+    out.method.type = taut::option_named<taut::MethodKind>(setting.type);
     out.method.substeps = setting.substeps;
     out.method.iterations = setting.iterations;
     out.method.spectral_radius = setting.spectral_radius;

@@ -69,7 +69,7 @@ Scene box_on_floor()
 
 void measure_row(const char* name, Scene scene, const char* method, const std::shared_ptr<Device>& device)
 {
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.stability = StabilityRule::substep;
     World world(scene, device);
     const SceneBudget budget(world.scene());

@@ -110,7 +110,7 @@ Trial random_trial(Dice& dice)
     }
     scene.bodies = {body};
     scene.colliders = {collider};
-    scene.method.type = named<MethodKind>(kMethods[dice.pick(5)]);
+    scene.method.type = option_named<MethodKind>(kMethods[dice.pick(5)]);
     scene.method.stability = StabilityRule::substep;
     trial.substeps = 1u << (1 + dice.pick(5));
     scene.method.substeps = 1;

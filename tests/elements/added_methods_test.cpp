@@ -25,7 +25,7 @@ Scene three(const std::string& method)
     Scene scene;
     scene.timestep = 1.0 / 60;
     scene.gravity = glm::dvec3(0);
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = method == "mass_spring" || method == "pbd" ? 20 : 4;
     if (method == "mass_spring")
         scene.method.stability = StabilityRule::substep;

@@ -22,7 +22,7 @@ Scene cloth(const std::string& method)
     scene.timestep = 1.0 / 60;
     scene.duration = 4;
     scene.damping = 6;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.precision = Precision::float64;
     scene.method.substeps = 20;
     if (method == "mass_spring")

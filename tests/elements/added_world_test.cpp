@@ -26,7 +26,7 @@ Scene hanging_mass(const std::string& precision = "float")
     scene.duration = 6;
     scene.damping = 4;
     scene.method.substeps = 20;
-    scene.method.precision = named<Precision>(precision);
+    scene.method.precision = option_named<Precision>(precision);
     Body body;
     body.shape.kind = ShapeKind::chain;
     body.shape.links = 1;

@@ -163,7 +163,7 @@ inline Scene cube(const std::string& method)
     body.material = solid_material();
     body.material.youngs_modulus = 1e5;
     scene.bodies = {body};
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 4;
     scene.method.iterations = 2;
     scene = resolve(scene);

@@ -23,7 +23,7 @@ inline Scene swing(const std::string& method)
     ball.radius = 0.25;
     ball.friction = 0.25;
     scene.colliders = {ball};
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 4;
     scene.method.stability = StabilityRule::substep;
     return scene;
@@ -54,7 +54,7 @@ inline Scene jelly(const std::string& method, const std::string& volume)
     body.material = solid_material();
     body.material.youngs_modulus = 2e4;
     body.material.model = SolidModel::springs;
-    body.material.volume = named<HeldVolume>(volume);
+    body.material.volume = option_named<HeldVolume>(volume);
     body.velocity = {4, -2, 0};
     scene.bodies = {body};
     Collider ground;
@@ -62,7 +62,7 @@ inline Scene jelly(const std::string& method, const std::string& volume)
     ground.point = {0, -0.25, 0};
     ground.friction = 0.1;
     scene.colliders = {ground};
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 8;
     scene.method.stability = StabilityRule::substep;
     return scene;

@@ -158,7 +158,7 @@ inline Scene guarded()
 inline Scene guarded_by(const std::string& method)
 {
     Scene scene = guarded();
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.stability = StabilityRule::substep;
     return scene;
 }

@@ -50,7 +50,7 @@ Scene level_cloth(const std::string& method, std::uint32_t substeps)
     scene.bodies[0].transform.rotate_degrees = -90;
     scene.bodies[0].material.stretch_stiffness = 1e4;
     scene.damping = 2;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = substeps;
     return scene;
 }

@@ -57,7 +57,7 @@ TEST_CASE("what is damped to rest is sound all the way [hard]")
         for (const double damping : {0.1, 1.0, 4.0})
         {
             Scene scene = crumpled(damping);
-            scene.method.type = named<MethodKind>(method);
+            scene.method.type = option_named<MethodKind>(method);
             scene.method.substeps = 40;
             const Soundness found = watched(resolve(scene), 120);
             INFO(method << ", " << damping << " /s: " << found.reason);
@@ -66,7 +66,7 @@ TEST_CASE("what is damped to rest is sound all the way [hard]")
             hung.bodies[0].transform.rotate_axis = {1, 0, 0};
             hung.bodies[0].transform.rotate_degrees = -90;
             hung.damping = damping;
-            hung.method.type = named<MethodKind>(method);
+            hung.method.type = option_named<MethodKind>(method);
             hung.method.substeps = 10;
             CHECK(watched(resolve(hung), 240).sound());
         }

@@ -85,7 +85,7 @@ TEST_CASE("vbd makes no energy, however stiff, however few sweeps [hard]")
                         continue;
                     CAPTURE(s.name, precision, sweeps);
                     Scene scene = by_vbd(s.scene, 10, sweeps);
-                    scene.method.precision = named<Precision>(precision);
+                    scene.method.precision = option_named<Precision>(precision);
                     const double rise = risen(scene, device, steps_for(*device, 60, 3));
                     note(s.name, *device, "rise over weight, m", rise);
                     CHECK(rise < 1e-5);
@@ -140,7 +140,7 @@ TEST_CASE("what flows takes energy, and no report says that it makes some [hard]
             ball.point = {0, -0.5, 0};
             ball.radius = 0.3;
             scene.colliders = {ball};
-            scene.method.type = named<MethodKind>(method);
+            scene.method.type = option_named<MethodKind>(method);
             scene.method.substeps = 40;
             scene.method.stability = StabilityRule::substep;
             const double rise = risen(resolve(scene), device, steps_for(*device, 60, 4));

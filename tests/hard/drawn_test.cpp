@@ -21,7 +21,7 @@ Scene drawn(const char* method, double strain, std::uint32_t cells)
     body.pins[1].motion = {{0, {0, 0, 0}}, {1, {strain, 0, 0}}};
     scene.gravity = {0, 0, 0};
     scene.damping = 2;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     return scene;
 }
 

@@ -37,7 +37,7 @@ Scene drawn(const std::string& method, std::uint32_t substeps)
     body.pins[1].motion = {start, end};
     scene.duration = 2;
     scene.damping = 2;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = substeps;
     return scene;
 }

@@ -103,7 +103,7 @@ TEST_CASE("F04, C06: every edge twice gives the same places")
                 {
                     Scene scene = constrained(cloth ? stiff_network(6, 0, 0) : alone(level_rope(10)));
                     scene.gravity = {0, -9.81, 0};
-                    scene.method.linear_operator = named<LinearOperator>(linear_operator);
+                    scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
                     scene.method.linear_tolerance = 1e-10;
                     scene.method.precision = Precision::float64;
                     auto& springs = scene.bodies[0].springs;
@@ -186,7 +186,7 @@ TEST_CASE("F05: a rigid lump at the end of a rope is solved, however little it i
             Scene scene = constrained(alone(body));
             scene.gravity = {0, -9.81, 0};
             scene.damping = 0.5;
-            scene.method.precision = named<Precision>(precision);
+            scene.method.precision = option_named<Precision>(precision);
             scene.method.linear_iterations = 1000;
             World world(scene, device);
             run(world, steps_for(*device, 240, 20));
@@ -331,7 +331,7 @@ TEST_CASE("B17: hinges without an angle make no row and are counted; folded ones
                 {
                     CAPTURE(c.what, linear_operator, solves);
                     Scene scene = hinge(c.edge1, c.wing0, c.wing1);
-                    scene.method.linear_operator = named<LinearOperator>(linear_operator);
+                    scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
                     scene.method.iterations = solves;
                     World world(scene, device);
                     world.step();

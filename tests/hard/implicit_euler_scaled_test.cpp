@@ -38,7 +38,7 @@ Scene cube(const Start& s)
     scene.bodies = {body};
     scene.gravity = {0, 0, 0};
     scene.method.type = MethodKind::implicit_euler;
-    scene.method.precision = named<Precision>(s.precision);
+    scene.method.precision = option_named<Precision>(s.precision);
     scene = resolve(scene);
     for (const glm::dvec3& x : scene.bodies[0].mesh.positions)
         scene.bodies[0].start_positions.push_back({x.x, s.scale * x.y, x.z});

@@ -207,7 +207,7 @@ TEST_CASE("implicit Euler: software executors agree in every bit [hard]")
     scene.method.line_search = 2;
     for (const char* linear_operator : {"assembled", "matrix_free"})
     {
-        scene.method.linear_operator = named<LinearOperator>(linear_operator);
+        scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
         World serial(scene, test_device("cpu:serial"));
         run(serial, 6);
         on_every_device([&](const auto& device) {

@@ -18,7 +18,7 @@ Scene falling(const std::string& method, std::uint32_t substeps, std::uint32_t i
     body.material.stretch_stiffness = stiffness;
     body.material.bending_stiffness = 1e-5;
     scene.damping = 0.5;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return resolve(scene);
@@ -151,7 +151,7 @@ Scene cantilever(const std::string& method, std::uint32_t substeps, double modul
     body.pins = {pin};
     scene.bodies = {body};
     scene.damping = 5;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = substeps;
     return resolve(scene);
 }
@@ -276,7 +276,7 @@ Scene overhang(std::uint32_t substeps, const char* bending_model)
     body.material.density = 0.2;
     body.material.stretch_stiffness = 5000;
     body.material.bending_stiffness = 0.8;
-    body.material.bending_model = named<BendingModel>(bending_model);
+    body.material.bending_model = option_named<BendingModel>(bending_model);
     Pin pin;
     pin.use_box = true;
     pin.box_min = {-1, -1, -1};

@@ -20,7 +20,7 @@ inline Scene oscillator(double h, const char* integrator = "semi_implicit")
     body.pins = {hold({0})};
     Scene scene = by_springs(alone(body), 1);
     scene.timestep = h;
-    scene.method.integrator = named<Integrator>(integrator);
+    scene.method.integrator = option_named<Integrator>(integrator);
     scene.method.stability = StabilityRule::ignore;
     return scene;
 }

@@ -31,8 +31,8 @@ TEST_CASE("B16: what is at rest stays at rest under springs and hinges [hard]")
             for (const char* precision : {"float", "double"})
             {
                 Scene scene = by_springs(free_cloth(6, 1000, 1e-4));
-                scene.method.integrator = named<Integrator>(integrator);
-                scene.method.precision = named<Precision>(precision);
+                scene.method.integrator = option_named<Integrator>(integrator);
+                scene.method.precision = option_named<Precision>(precision);
                 World world(scene, device);
                 const auto start = world.positions();
                 run(world, steps_for(*device, 1000, 100));
@@ -84,7 +84,7 @@ TEST_CASE("C02, C03, C05, C06, C08: fans, stars, loners, twins and nothing, by s
         for (const char* scheme : {"node_centric", "spring_centric"})
         {
             Scene scene = by_springs(alone(star(1e-1)), 10);
-            scene.method.scheme = named<ElementScheme>(scheme);
+            scene.method.scheme = option_named<ElementScheme>(scheme);
             World world(scene, device);
             CHECK(world.plan().passes.size() == 10u * (scheme[0] == 'n' ? 4 : 5));
             run(world, 5);
@@ -137,7 +137,7 @@ TEST_CASE("G05 to G09: forces that are no numbers, twins of a run, copies of a b
         for (const char* integrator : {"semi_implicit", "verlet"})
         {
             Scene scene = by_springs(test::everything(4), 60);
-            scene.method.integrator = named<Integrator>(integrator);
+            scene.method.integrator = option_named<Integrator>(integrator);
             scene.bodies[0].material.stretch_damping = 1e-5;
             scene.bodies[0].material.stretch_stiffness = 1000;
             World once(scene, device), twice(scene, device), rest(scene, device);

@@ -13,7 +13,7 @@ TEST_CASE(
             for (const char* integrator : {"semi_implicit", "verlet"})
             {
                 Scene scene = oscillator(0.99 * kLimit, integrator);
-                scene.method.precision = named<Precision>(precision);
+                scene.method.precision = option_named<Precision>(precision);
                 World world(scene, device);
                 const double first = kept_by_euler(world);
                 double largest = 0, drift = 0;
@@ -120,7 +120,7 @@ TEST_CASE("A12: a step that changes on the way makes no jump of the velocity [ha
         {
             Scene scene = by_springs(test::chain(1, 1000, 1), 10);
             scene.bodies[0].start_positions = {{0, 0, 0}, {0.5, -std::sqrt(0.75), 0}};
-            scene.method.integrator = named<Integrator>(integrator);
+            scene.method.integrator = option_named<Integrator>(integrator);
             World world(scene, device);
             double jump = 0;
             for (const double h : {1.0 / 60, 1.0 / 240, 1.0 / 30, 1.0 / 60})

@@ -36,7 +36,7 @@ void stick_out(Scene& scene, Random& random, const char* bending_model)
     body.shape.size.y = length / 4;
     body.transform.rotate_axis = {1, 0, 0};
     body.transform.rotate_degrees = -90;
-    body.material.bending_model = named<BendingModel>(bending_model);
+    body.material.bending_model = option_named<BendingModel>(bending_model);
     body.material.bending_stiffness =
         body.material.density * 9.81 * length * length * length * power(random, -2, 0.5);
     Pin pin;
@@ -112,7 +112,7 @@ struct End
 End end_of(Scene scene, std::uint32_t substeps, const char* precision)
 {
     scene.method.substeps = substeps;
-    scene.method.precision = named<Precision>(precision);
+    scene.method.precision = option_named<Precision>(precision);
     World world(resolve(scene), test_device("cpu:serial"));
     run(world, 240);
     End out{measure(world), world.positions()};

@@ -12,7 +12,7 @@ constexpr const char* kSchemes[] = {"coloured", "node_centric", "constraint_cent
 Scene as_pbd(Scene scene, const char* scheme, std::uint32_t iterations = 4)
 {
     scene.method.type = MethodKind::pbd;
-    scene.method.scheme = named<ElementScheme>(scheme);
+    scene.method.scheme = option_named<ElementScheme>(scheme);
     scene.method.substeps = 2;
     scene.method.iterations = iterations;
     scene.method.stretch = 0.9;

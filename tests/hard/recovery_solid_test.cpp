@@ -22,7 +22,7 @@ constexpr Setting kSettings[] = {
 Scene under(const Setting& setting, Scene scene)
 {
     scene.method = {};
-    scene.method.type = named<MethodKind>(setting.method);
+    scene.method.type = option_named<MethodKind>(setting.method);
     scene.method.substeps = setting.substeps;
     scene.method.iterations = setting.iterations;
     scene.method.line_search = 8; // implicit_euler alone reads it

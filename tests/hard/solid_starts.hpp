@@ -15,7 +15,7 @@ inline Scene cube(double modulus, double ratio = 0.3, const std::string& model =
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {4, 4, 4};
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     body.material.poissons_ratio = ratio;
     scene.bodies = {body};

@@ -181,7 +181,7 @@ Scene random_scene(Random& random)
     const bool solid = random.uniform(0, 1) < 0.4;
     Scene scene = solid ? random_solid(random) : random_cloth(random);
     MethodSettings& m = scene.method;
-    m.type = named<MethodKind>(random_method(random, scene));
+    m.type = option_named<MethodKind>(random_method(random, scene));
     m.stability = StabilityRule::ignore;
     m.integrator =
         one_of(random, {Integrator::semi_implicit, Integrator::verlet, Integrator::explicit_euler});

@@ -100,7 +100,7 @@ TEST_CASE("C05: a particle alone falls the exact discrete parabola [hard]")
                 body.velocity = speed;
                 Scene scene = alone(body);
                 scene.gravity = {0, -9.81, 0};
-                scene.method.precision = named<Precision>(precision);
+                scene.method.precision = option_named<Precision>(precision);
                 scene.method.substeps = 1;
                 World world(scene, device);
                 const double h = scene.timestep;

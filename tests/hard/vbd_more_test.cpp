@@ -12,7 +12,7 @@ TEST_CASE("B16: what is at rest stays at rest under vertex block descent, from e
         for (const char* start : {"adaptive", "inertial", "previous"})
         {
             Scene scene = by_vbd(free_cloth(6, 1e4, 1e-3));
-            scene.method.start = named<SweepStart>(start);
+            scene.method.start = option_named<SweepStart>(start);
             scene.bodies[0].material.stretch_damping = 1e-3;
             World world(scene, device);
             const auto before = world.positions();
@@ -127,7 +127,7 @@ TEST_CASE("E06, E07: friction under vertex block descent slides and sticks as Co
             CAPTURE(start, friction);
             const double angle = std::atan(0.5);
             Scene scene = by_vbd(free_cloth(2, 1e5, 1e-3), 10, 2);
-            scene.method.start = named<SweepStart>(start);
+            scene.method.start = option_named<SweepStart>(start);
             scene.gravity = {9.81 * std::sin(angle), 0, -9.81 * std::cos(angle)};
             Collider floor;
             floor.kind = ColliderKind::plane;

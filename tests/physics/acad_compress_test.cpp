@@ -106,7 +106,7 @@ Scene loaded_column(const char* release, bool compress)
     Scene scene = acad(column(kSprings, 80, kLoad), kColumnStep, compress);
     scene.gravity = {0, -kGravity, 0};
     scene.damping = 16; // 1/s, about critical
-    scene.method.release = named<ReleaseRule>(release);
+    scene.method.release = option_named<ReleaseRule>(release);
     if (std::string(release) == "strain")
         scene.method.release_strain = kThreshold / 2;
     return scene;
@@ -177,7 +177,7 @@ TEST_CASE("a spring that is pressed moves as the mirror image of one that is pul
             body.springs = {{0, 1, 1, 1.0 / 50}};
             body.pins = {hold({0})};
             Scene pull = acad(body, 1.0 / 240, true);
-            pull.method.release = named<ReleaseRule>(release);
+            pull.method.release = option_named<ReleaseRule>(release);
             pull.method.release_strain = kThreshold / 2;
             pull.gravity = {0, 4, 0}; // 8 % of strain at rest
             Scene push = pull;

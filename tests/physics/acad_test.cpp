@@ -78,7 +78,7 @@ TEST_CASE("a weight beyond its spring's threshold settles there, without chatter
         for (const char* release : {"multiplier", "strain"})
         {
             Scene scene = one_spring(1.0 / 60);
-            scene.method.release = named<ReleaseRule>(release);
+            scene.method.release = option_named<ReleaseRule>(release);
             if (std::string(release) == "strain")
                 scene.method.release_strain = 0.05;
             World world(scene, device);
@@ -131,7 +131,7 @@ TEST_CASE("with no constraint it is mass-spring, bit for bit (F11)")
         {
             Scene scene = square(10, 100, 1e-3);
             scene.bodies[0].material.stretch_damping = 1e-3;
-            scene.method.precision = named<Precision>(precision);
+            scene.method.precision = option_named<Precision>(precision);
             Scene free = acad(scene);
             free.method.activate_strain = free.method.release_strain = 1e6;
             Scene plain = free;
@@ -156,7 +156,7 @@ TEST_CASE("with every spring a constraint it is implicit constraints, bit for bi
                 scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
                 for (glm::dvec3& x : scene.bodies[0].start_positions)
                     x *= 1.002;
-                scene.method.precision = named<Precision>(precision);
+                scene.method.precision = option_named<Precision>(precision);
                 scene.method.iterations = solves;
                 Scene all = acad(scene);
                 all.method.constraint_compliance = 1e-4; // the network has more springs than freedom

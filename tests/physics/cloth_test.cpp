@@ -20,7 +20,7 @@ double static_error(const std::shared_ptr<Device>& device, std::uint32_t substep
     scene.damping = 20;
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
-    scene.method.precision = named<Precision>(precision);
+    scene.method.precision = option_named<Precision>(precision);
     World world(scene, device);
     run(world, 180);
     check_sound(world);

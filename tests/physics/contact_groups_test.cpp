@@ -59,7 +59,7 @@ TEST_CASE("a sheet falls through what it passes, and rests on what it does not",
     const int who = GENERATE(0, 1, 2); // says it: nobody, the sheet, the net
     CAPTURE(guarantee, who);
     Scene scene = above_a_net(kNet + 0.01);
-    scene.contact.guarantee = named<Guarantee>(guarantee);
+    scene.contact.guarantee = option_named<Guarantee>(guarantee);
     if (who == 1)
         scene.bodies[2].contact.passes = {"net"};
     if (who == 2)
@@ -102,7 +102,7 @@ TEST_CASE("a sheet on a slope rubs by the rule of the scene", "[contact]")
     scene.bodies[0].contact.friction = 0.2;
     scene.bodies[1].contact.friction = 0.6;
     scene.contact.between = true;
-    scene.contact.friction_mix = named<FrictionMix>(rule);
+    scene.contact.friction_mix = option_named<FrictionMix>(rule);
     scene.contact.sweeps = 8;
     scene.method.substeps = 15;
     const double slope = glm::radians(20.0);

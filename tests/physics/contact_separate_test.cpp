@@ -153,7 +153,7 @@ TEST_CASE("a scene that is no scene is refused before its surfaces are looked at
     Scene scene = resolve(two_sheets(0));
     for (const char* start : {"separate", "refuse"})
     {
-        scene.contact.start = named<ContactStart>(start);
+        scene.contact.start = option_named<ContactStart>(start);
         scene.bodies[0].pins = {Pin{}};
         scene.bodies[0].pins[0].vertices = {100000};
         CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")), Catch::Contains("pins[0].vertices"));

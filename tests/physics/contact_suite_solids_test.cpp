@@ -142,7 +142,7 @@ TEST_CASE("suite 47: cubes lie on each other far from the origin as they do at i
         Scene scene = suite("55_cubes");
         for (Body& body : scene.bodies)
             body.transform.translate.x += way;
-        scene.method.precision = named<Precision>(precision);
+        scene.method.precision = option_named<Precision>(precision);
         return scene;
     };
     const auto lies = [](const Scene& scene) {

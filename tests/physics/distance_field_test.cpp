@@ -164,7 +164,7 @@ TEST_CASE("a field that moves and turns takes along what lies on it as a box doe
         for (const std::size_t k : {0, 1})
         {
             Scene scene = falling(places, k == 0 ? box : field);
-            scene.method.type = named<MethodKind>(method);
+            scene.method.type = option_named<MethodKind>(method);
             World world(scene, test_device("cpu"));
             run(world, 60);
             check_sound(world);

@@ -21,7 +21,7 @@ Scene square(const std::string& method, double warp, double weft, double shear, 
     scene.gravity = glm::dvec3(0);
     scene.damping = 3;
     scene.duration = 4;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 40;
     scene.method.iterations = method == "vbd" || method == "xpbd" ? 4 : 1;
     if (method == "mass_spring")
@@ -53,7 +53,7 @@ TEST_CASE("a fabric whose vertices start anywhere comes back to its shape, under
     const std::string precision = GENERATE("float", "double");
     CAPTURE(method, precision);
     Scene scene = square(method, 3000, 1000, 30, {0, 1, 0});
-    scene.method.precision = named<Precision>(precision);
+    scene.method.precision = option_named<Precision>(precision);
     scene.bodies[0].material.bending_stiffness = 1e-4;
     conformance::Random random(3);
     for (std::size_t v = 0; v < scene.bodies[0].mesh.positions.size(); ++v)

@@ -57,7 +57,7 @@ Scene sheet(const std::string& method, const Fabric& fabric)
     scene.gravity = glm::dvec3(0);
     scene.damping = 10;
     scene.duration = 2;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.precision = Precision::float64;
     scene.method.substeps = method == "xpbd" ? 400 : 20; // its error falls as h^2
     scene.method.iterations = method == "vbd" || method == "xpbd" ? 4 : 1;

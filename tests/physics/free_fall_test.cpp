@@ -36,7 +36,7 @@ Scene thrown(const Way& way, const char* precision, std::uint32_t substeps)
         way.integrator == Integrator::explicit_euler ? 0.01 : 1; // whose rounding would grow with the rest
     Scene scene = test::under(free_cloth(3, 5 * soft, 1e-6 * soft), way.method);
     scene.method.integrator = way.integrator;
-    scene.method.precision = named<Precision>(precision);
+    scene.method.precision = option_named<Precision>(precision);
     scene.method.substeps = substeps;
     scene.method.stability = StabilityRule::refuse;
     scene.gravity = kGravity;

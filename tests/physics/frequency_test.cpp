@@ -39,7 +39,7 @@ Scene bar(const std::string& model, bool held, const glm::uvec3& cells, const gl
     body.shape.box_size = size;
     body.shape.split = BoxSplit::six;
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.density = 1000;
     body.material.youngs_modulus = 1e6;
     body.material.poissons_ratio = 0.3;
@@ -132,7 +132,7 @@ TEST_CASE("a neo-Hookean bar swings at the frequency of its lowest mode, held or
     const bool held = GENERATE(true, false);
     CAPTURE(way.type, material, held);
     Scene scene = bar(material, held, {6, 2, 2}, {1, 0.25, 0.2});
-    scene.method.type = named<MethodKind>(way.type);
+    scene.method.type = option_named<MethodKind>(way.type);
     scene.method.substeps = way.substeps;
     scene.method.iterations = way.iterations;
     scene.method.precision = Precision::float64;

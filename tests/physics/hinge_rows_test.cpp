@@ -30,7 +30,7 @@ Scene strip(const char* method, double rigidity = 1e-3)
     scene.bodies = {body};
     scene.damping = 4;
     scene = resolve(scene);
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.precision = Precision::float64;
     scene.method.linear_operator = LinearOperator::matrix_free;
     scene.method.linear_iterations = 400;
@@ -61,7 +61,7 @@ TEST_CASE("a strip of rows of hinges hangs as Newton's method on the same energy
             Scene scene = strip("implicit_constraints");
             scene.method.substeps = 2;
             scene.method.iterations = solves;
-            scene.method.linear_operator = named<LinearOperator>(linear_operator);
+            scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
             World world(scene, device);
             run(world, 1200);
             const double error = error_of(world, reference.positions);
@@ -107,7 +107,7 @@ TEST_CASE("executors and both operators agree on cloth with hinges", "[hinge_row
     for (const char* linear_operator : {"assembled", "matrix_free"})
     {
         Scene scene = strip("implicit_constraints");
-        scene.method.linear_operator = named<LinearOperator>(linear_operator);
+        scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
         scene.method.iterations = 2;
         scene.method.substeps = 2;
         World reference(scene, test_device("cpu:serial"));
@@ -117,7 +117,7 @@ TEST_CASE("executors and both operators agree on cloth with hinges", "[hinge_row
         World other(scene, test_device("cpu:serial"));
         run(other, 10);
         CHECK(largest_distance(reference.positions(), other.positions()) < 1e-7); // what the tolerance leaves
-        scene.method.linear_operator = named<LinearOperator>(linear_operator);
+        scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
         on_every_device([&](const auto& device) {
             World world(scene, device);
             run(world, 10);

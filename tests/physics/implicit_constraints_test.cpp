@@ -85,7 +85,7 @@ TEST_CASE("a rigid pendulum goes through the golden places (A6)")
         for (const char* linear_operator : {"assembled", "matrix_free"})
         {
             Scene scene = constrained(pendulum(1.0 / 60));
-            scene.method.linear_operator = named<LinearOperator>(linear_operator);
+            scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
             World world(scene, device);
             const std::map<int, glm::dvec3> golden = {{1, {1, -0.002725, 0}},
                                                       {2, {0.99998143606845624, -0.0081749494132865429, 0}},
@@ -324,10 +324,10 @@ TEST_CASE("the assembled matrix and the product without one give the same cloth"
             for (const char* linear_operator : {"assembled", "matrix_free"})
             {
                 Scene scene = constrained(test::hanging(8));
-                scene.method.precision = named<Precision>(precision);
+                scene.method.precision = option_named<Precision>(precision);
                 scene.method.linear_tolerance = precision[0] == 'd' ? 1e-13 : 1e-6;
                 scene.method.linear_iterations = 400;
-                scene.method.linear_operator = named<LinearOperator>(linear_operator);
+                scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
                 World world(scene, device);
                 run(world, 5);
                 end.push_back(world.positions());

@@ -65,7 +65,7 @@ Scene clamped_net(std::uint32_t n, double density)
 Scene crumpled(std::uint32_t n, std::string linear_operator)
 {
     Scene scene = implicit(free_cloth(n, 300, 1e-2));
-    scene.method.linear_operator = named<LinearOperator>(std::move(linear_operator));
+    scene.method.linear_operator = option_named<LinearOperator>(std::move(linear_operator));
     scene.bodies[0].material.stretch_damping = 1e-3;
     scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
     for (glm::dvec3& x : scene.bodies[0].start_positions)
@@ -83,7 +83,7 @@ TEST_CASE("one Newton step on a spring along its line is backward Euler to the l
         for (const char* linear_operator : {"assembled", "matrix_free"})
         {
             Scene scene = oscillator();
-            scene.method.linear_operator = named<LinearOperator>(linear_operator);
+            scene.method.linear_operator = option_named<LinearOperator>(linear_operator);
             World world(scene, device);
             run(world, 120);
             const double x = world.positions()[1].x - 1, v = world.velocities()[1].x;

@@ -31,7 +31,7 @@ Scene solid(const std::string& model, glm::uvec3 cells, glm::dvec3 size, double 
     body.shape.box_size = size;
     body.shape.split = BoxSplit::six;
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.density = 1000;
     body.material.youngs_modulus = modulus;
     body.material.poissons_ratio = ratio;
@@ -85,7 +85,7 @@ TEST_CASE("the neo-Hookean cantilever comes to rest at the golden drop", "[solid
         Scene scene = solid("neo_hookean_simple", cells, {1, 0.25, 0.25}, 1e7, 0.3);
         scene.gravity = {0, 0, -9.81};
         scene.damping = 5;
-        scene.method.linear_operator = named<LinearOperator>(way);
+        scene.method.linear_operator = option_named<LinearOperator>(way);
         hold(scene, "left");
         World world(resolve(scene), test_device("cpu:serial"));
         settle(world, 600);
@@ -127,7 +127,7 @@ TEST_CASE("a stretched block under implicit Euler comes back, with a line search
     scene.damping = 2;
     scene.method.iterations = 3;
     scene.method.line_search = search;
-    scene.method.linear_operator = named<LinearOperator>(way);
+    scene.method.linear_operator = option_named<LinearOperator>(way);
     scene = resolve(scene);
     scene.bodies[0].start_positions = scene.bodies[0].mesh.positions;
     for (glm::dvec3& x : scene.bodies[0].start_positions)

@@ -20,7 +20,7 @@ Scene oscillator(const char* integrator, double h, double rest = 0)
     Scene scene = alone(body);
     scene.timestep = h;
     scene.method.type = MethodKind::mass_spring;
-    scene.method.integrator = named<Integrator>(integrator);
+    scene.method.integrator = option_named<Integrator>(integrator);
     scene.method.substeps = 1;
     scene.method.precision = Precision::float64;
     return scene;
@@ -120,7 +120,7 @@ TEST_CASE("node-centric and spring-centric forces move cloth to the same bits")
             {
                 Scene scene = swinging(true);
                 scene.bodies[0].material.stretch_damping = damping;
-                scene.method.integrator = named<Integrator>(integrator);
+                scene.method.integrator = option_named<Integrator>(integrator);
                 scene.method.scheme = ElementScheme::node_centric;
                 World node(scene, device);
                 scene.method.scheme = ElementScheme::spring_centric;
@@ -152,7 +152,7 @@ TEST_CASE("cloth that starts at rest converges to the reference with order 2, by
         const ErrorWeights weights = error_weights(model);
         for (const char* integrator : {"semi_implicit", "verlet"})
         {
-            scene.method.integrator = named<Integrator>(integrator);
+            scene.method.integrator = option_named<Integrator>(integrator);
             double before = 0;
             for (const std::uint32_t substeps : {20u, 40u, 80u})
             {
@@ -225,7 +225,7 @@ TEST_CASE("springs and hinges keep the momentum of a sheet that turns and falls"
             scene.bodies[0].start_positions.push_back(x + glm::dvec3(0, 0, random.uniform(-0.05, 0.05)));
         for (const char* integrator : {"semi_implicit", "verlet"})
         {
-            scene.method.integrator = named<Integrator>(integrator);
+            scene.method.integrator = option_named<Integrator>(integrator);
             World world(scene, device);
             run(world, 60);
             const StepReport report = check_sound(world);

@@ -34,7 +34,7 @@ Scene free_cube(const std::string& method)
         body.material.model = SolidModel::springs;
     scene.bodies = {body};
     scene.gravity = glm::dvec3(0);
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     return scene;
 }
 

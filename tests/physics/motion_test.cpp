@@ -98,7 +98,7 @@ TEST_CASE("one spring with one iteration is implicit Euler (methods A3)")
             Scene scene = alone(body);
             scene.timestep = 1.0 / 120;
             scene.method.substeps = 1;
-            scene.method.precision = named<Precision>(precision);
+            scene.method.precision = option_named<Precision>(precision);
             World world(scene, device);
             run(world, 120);
             const double dx = std::abs(world.positions()[1].x - 1 - x_exact);
@@ -176,7 +176,7 @@ TEST_CASE("a spring with a damper and one iteration is implicit Euler with that 
         scene.method.substeps = 4;
         for (const char* precision : {"float", "double"})
         {
-            scene.method.precision = named<Precision>(precision);
+            scene.method.precision = option_named<Precision>(precision);
             World world(scene, device);
             run(world, 30);
             double x = 0.1, v = 0;

@@ -23,8 +23,8 @@ Scene held_by_an_edge(std::uint32_t cells, const char* edge, const char* scheme,
     scene.bodies = {body};
     scene.gravity = glm::dvec3(0);
     scene.method.type = MethodKind::pbd;
-    scene.method.scheme = named<ElementScheme>(scheme);
-    scene.method.precision = named<Precision>(precision);
+    scene.method.scheme = option_named<ElementScheme>(scheme);
+    scene.method.precision = option_named<Precision>(precision);
     return scene;
 }
 

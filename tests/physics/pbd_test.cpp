@@ -15,7 +15,7 @@ namespace {
 Scene as_pbd(Scene scene, const char* scheme, std::uint32_t iterations, double stretch = 1, double bend = 1)
 {
     scene.method.type = MethodKind::pbd;
-    scene.method.scheme = named<ElementScheme>(scheme);
+    scene.method.scheme = option_named<ElementScheme>(scheme);
     scene.method.substeps = 1;
     scene.method.iterations = iterations;
     scene.method.stretch = stretch;
@@ -30,7 +30,7 @@ double extension(const std::shared_ptr<Device>& device, std::uint32_t links, con
 {
     Scene scene = as_pbd(test::chain(links, 1000, 0.1), scheme, iterations, k);
     scene.damping = links > 1 ? 10 : 0;
-    scene.method.precision = named<Precision>(precision);
+    scene.method.precision = option_named<Precision>(precision);
     World world(scene, device);
     run(world, steps);
     return -world.positions()[links].y - 1;

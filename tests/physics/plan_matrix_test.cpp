@@ -13,7 +13,7 @@ Scene with_method(Scene scene, const char* type)
 {
     scene.timestep = 1.0 / 60;
     scene.method = {};
-    scene.method.type = named<MethodKind>(type);
+    scene.method.type = option_named<MethodKind>(type);
     scene.method.precision = Precision::float64;
     scene.method.substeps = 1;
     return scene;

@@ -85,7 +85,7 @@ Scene bent_bar(const std::string& method, const std::string& model, double yield
     body.shape.box_cells = {12, 2, 2};
     body.shape.box_size = {0.6, 0.1, 0.1};
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.youngs_modulus = 1e6;
     body.material.plastic_yield = yield;
     body.material.plastic_creep = kAtOnce;
@@ -254,7 +254,7 @@ TEST_CASE("a tetrahedron drawn out flows by the exponential law, at constant vol
             Pin pin;
             pin.vertices = {0, 1, 2};
             body.pins = {pin};
-            scene.method.type = named<MethodKind>(method);
+            scene.method.type = option_named<MethodKind>(method);
             World world(scene, test_device("cpu:serial"));
             run(world, 60);
             const WorldState state = world.state();

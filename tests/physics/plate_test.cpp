@@ -38,7 +38,7 @@ Scene level(const Shape& shape, double rigidity, double modulus, double nu, cons
     body.material.fabric.poissons_ratio = nu;
     body.material.fabric.shear = modulus / (2 * (1 + nu));
     body.material.bending_stiffness = rigidity;
-    body.material.bending_model = named<BendingModel>(model);
+    body.material.bending_model = option_named<BendingModel>(model);
     body.material.bending_poissons_ratio = nu;
     scene.bodies.push_back(body);
     return scene;
@@ -67,7 +67,7 @@ Shape grid(glm::uvec2 cells, glm::dvec2 size, const std::string& diagonals)
     shape.kind = ShapeKind::grid;
     shape.cells = cells;
     shape.size = size;
-    shape.diagonals = named<Diagonals>(diagonals);
+    shape.diagonals = option_named<Diagonals>(diagonals);
     return shape;
 }
 
@@ -272,7 +272,7 @@ TEST_CASE("what has no plate refuses it by name", "[plate]")
         Scene scene = level(grid({2, 2}, {1, 1}, "alternating"), 1e-4, 100, 0, "plate");
         scene.bodies[0].material.fabric.used = false;
         scene.bodies[0].material.stretch_stiffness = 100;
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         CAPTURE(method);
         CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")),
                           Contains("bending_model is \"plate\", but method"));

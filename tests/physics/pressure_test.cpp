@@ -31,7 +31,7 @@ Scene balloon(const std::string& method, double pressure, const std::string& law
     body.mesh = test::sphere_mesh(8, kRadius);
     body.material.stretch_stiffness = kStiffness;
     body.material.pressure = pressure;
-    body.material.pressure_law = named<PressureLaw>(law);
+    body.material.pressure_law = option_named<PressureLaw>(law);
     body.vertex_masses.assign(body.mesh.positions.size(),
                               1.0 / static_cast<double>(body.mesh.positions.size()));
     scene.bodies = {body};
@@ -133,7 +133,7 @@ TEST_CASE("a solid ball swells by p (1 - 2 nu) / E under tension of its surface"
     Scene scene;
     scene.gravity = {0, 0, 0};
     scene.damping = 6;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 20;
     scene.method.iterations = method == "vbd" ? 20 : 1;
     scene.bodies.resize(1);
@@ -153,7 +153,7 @@ TEST_CASE("a gas moves no balloon, and a surface that looks inwards swells as we
     {
         Scene scene = balloon("xpbd", 300);
         scene.damping = 0;
-        scene.method.precision = named<Precision>(precision);
+        scene.method.precision = option_named<Precision>(precision);
         scene.bodies[0].velocity = {1, 2, -0.5};
         for (std::size_t v = 0; v < scene.bodies[0].mesh.positions.size(); ++v) // no sphere any more
             scene.bodies[0].mesh.positions[v].x *= 1.3 + 0.2 * std::sin(static_cast<double>(v));

@@ -206,7 +206,7 @@ TEST_CASE("solids that hit each other do not go through each other by default")
         body.material.thickness = 0.001;
     scene.gravity = {0, 0, 0};
     scene.contact.between = true;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     World world(resolve(scene), test_device("cpu:serial"));
     CHECK(test::crossed_in(world, 30) == 0);
     glm::dvec3 momentum[2] = {};

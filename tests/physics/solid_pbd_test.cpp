@@ -31,7 +31,7 @@ Scene as_pbd(const Body& body, const char* scheme, std::uint32_t iterations, dou
     scene.gravity = {0, 0, 0};
     scene.method.type = MethodKind::pbd;
     scene.accept.stretch = 2; // tests of what sweeps do, not of what they solve
-    scene.method.scheme = named<ElementScheme>(scheme);
+    scene.method.scheme = option_named<ElementScheme>(scheme);
     scene.method.substeps = 1;
     scene.method.iterations = iterations;
     scene.method.stretch = stretch;

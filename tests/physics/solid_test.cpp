@@ -25,7 +25,7 @@ Scene block(const std::string& model, std::uint32_t substeps, std::uint32_t iter
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = {4, 4, 4};
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     scene.bodies = {body};
     return resolve(scene);
 }

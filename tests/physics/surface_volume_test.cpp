@@ -123,8 +123,8 @@ TEST_CASE("every integrator holds the volume, in float and double", "[surface_vo
     const std::string precision = GENERATE("float", "double");
     CAPTURE(integrator, precision);
     Scene scene = dropped(200, kRigid);
-    scene.method.integrator = named<Integrator>(integrator);
-    scene.method.precision = named<Precision>(precision);
+    scene.method.integrator = option_named<Integrator>(integrator);
+    scene.method.precision = option_named<Precision>(precision);
     scene.bodies[0].material.stretch_damping = 2e-3; // or explicit Euler gains energy from every spring
     World world(scene, test_device("cpu:serial"));
     const Range range = run(world, 1500);

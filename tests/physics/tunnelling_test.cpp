@@ -25,7 +25,7 @@ Scene level(std::uint32_t cells, const std::string& method)
     body.transform.rotate_axis = {1, 0, 0};
     body.transform.rotate_degrees = -90;
     scene.bodies = {body};
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.stability = StabilityRule::substep;
     return scene;
 }

@@ -18,9 +18,9 @@ Scene solid(const glm::uvec3& cells, const glm::dvec3& size, const std::string& 
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = cells;
     body.shape.box_size = size;
-    body.shape.split = named<BoxSplit>(split);
+    body.shape.split = option_named<BoxSplit>(split);
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     if (!face.empty())
     {
@@ -66,7 +66,7 @@ TEST_CASE("a neo-Hookean cantilever drops as the golden numbers say (methods A5)
             Scene scene = solid(g.cells, {1, 0.25, 0.25}, "six", "neo_hookean_simple", 1e7, "left");
             scene.damping = 5;
             scene.method.iterations = 60;
-            scene.method.precision = named<Precision>(precision);
+            scene.method.precision = option_named<Precision>(precision);
             World world(scene, device);
             run(world, 300);
             const double drop = mean_drop(world, 0, 1);
@@ -106,7 +106,7 @@ TEST_CASE("a hung box comes nearer to balance than xpbd brings it, in fewer pass
     }();
     /// Largest force on a free vertex over its share of the weight.
     const auto residual = [&](const char* type, std::uint32_t substeps, std::uint32_t iterations) {
-        scene.method.type = named<MethodKind>(type);
+        scene.method.type = option_named<MethodKind>(type);
         scene.method.substeps = substeps;
         scene.method.iterations = iterations;
         World world(scene, device);

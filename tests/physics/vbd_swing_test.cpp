@@ -20,7 +20,7 @@ Scene level_sheet(const char* method, std::uint32_t substeps)
     pin.edges = {"top"};
     body.pins = {pin};
     scene.bodies = {body};
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = substeps;
     scene.accept.stretch = 2; // how it swings is asked here, not how far the springs are from solved
     return scene;

@@ -68,7 +68,7 @@ TEST_CASE(
             {
                 Scene scene = by_vbd(free_cloth(6, stiffness, 1e-3), 1, 4);
                 scene.gravity = {0, -9.81, 0};
-                scene.method.start = named<SweepStart>(start);
+                scene.method.start = option_named<SweepStart>(start);
                 World world(scene, device);
                 run(world, 60);
                 const double fall = 9.81 / 2;

@@ -88,7 +88,7 @@ TEST_CASE("one tetrahedron of six rigid edges moves the same with and without it
     Scene scene = dropped(1);
     scene.colliders.clear();
     scene.damping = 0;
-    scene.method.precision = named<Precision>(precision);
+    scene.method.precision = option_named<Precision>(precision);
     scene.method.linear_tolerance = precision == "double" ? 1e-10 : 1e-5;
     scene.method.constraint_compliance = 0;
     scene = resolve(scene);

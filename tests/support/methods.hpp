@@ -17,7 +17,7 @@ namespace taut::test {
 /// The scene under another method. Explicit ones take as many substeps as they need; pbd has no dampers.
 inline Scene under(Scene scene, const std::string& method)
 {
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.stability = StabilityRule::substep;
     for (Body& body : scene.bodies)
         if (method == "pbd")

@@ -93,8 +93,8 @@ inline Scene moved_scene(bool by_keys, const std::string& method = "xpbd",
     for (Pin& pin : body.pins)
         pin.moved_by_program = !by_keys;
     scene.bodies = {body};
-    scene.method.type = named<MethodKind>(method);
-    scene.method.precision = named<Precision>(precision);
+    scene.method.type = option_named<MethodKind>(method);
+    scene.method.precision = option_named<Precision>(precision);
     scene.method.substeps = 4;
     scene.method.stability = StabilityRule::ignore;
     return resolve(scene);

@@ -200,7 +200,7 @@ TEST_CASE("what constraints on a real mesh are solved to solves Eigen's system, 
     std::optional<Scene> scene = real_scene(bending);
     if (!scene)
         return;
-    scene->method.linear_operator = named<LinearOperator>(linear_operator);
+    scene->method.linear_operator = option_named<LinearOperator>(linear_operator);
     const EigenRows exact = system_of(*scene);
     for (const std::string& selector : test_devices())
     {

@@ -42,7 +42,7 @@ void add_collider(Scene& scene, ColliderKind kind, double friction = 0, const st
 {
     Collider c;
     c.kind = kind;
-    c.meets = named<ColliderMeets>(meets);
+    c.meets = option_named<ColliderMeets>(meets);
     c.friction = friction;
     c.point = {0, -3, 0};
     c.end = {0, -4, 0};

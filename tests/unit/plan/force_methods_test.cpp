@@ -13,7 +13,7 @@ namespace {
 
 Scene by(Scene scene, const char* method, std::uint32_t substeps, std::uint32_t iterations = 1)
 {
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return scene;

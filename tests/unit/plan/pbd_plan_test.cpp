@@ -32,7 +32,7 @@ Scene pbd(std::uint32_t n, const char* scheme, std::uint32_t substeps, std::uint
     Scene scene = test::hanging(n);
     scene.bodies[0].material.bending_stiffness = bending ? 1e-4 : 0;
     scene.method.type = MethodKind::pbd;
-    scene.method.scheme = named<ElementScheme>(scheme);
+    scene.method.scheme = option_named<ElementScheme>(scheme);
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return scene;
@@ -46,7 +46,7 @@ Scene network(std::uint32_t columns, std::uint32_t rows, const char* type = "xpb
     body.shape.cells = {columns, rows};
     body.shape.network = {true, 1000, 500, 100};
     scene.bodies = {body};
-    scene.method.type = named<MethodKind>(type);
+    scene.method.type = option_named<MethodKind>(type);
     return resolve(scene);
 }
 
@@ -175,7 +175,7 @@ Scene soft_block(const char* scheme, std::uint32_t substeps, std::uint32_t itera
     body.material.bending_stiffness = bending;
     scene.bodies = {body};
     scene.method.type = MethodKind::pbd;
-    scene.method.scheme = named<ElementScheme>(scheme);
+    scene.method.scheme = option_named<ElementScheme>(scheme);
     scene.method.substeps = substeps;
     scene.method.iterations = iterations;
     return resolve(scene);

@@ -167,9 +167,9 @@ TEST_CASE("constraint enforcement and ACAD take no integrator but their own")
     for (const std::string method : {"implicit_constraints", "acad"})
         for (const std::string integrator : {"explicit", "verlet"})
         {
-            scene.method.type = named<MethodKind>(method);
+            scene.method.type = option_named<MethodKind>(method);
             scene.method.substeps = 100;
-            scene.method.integrator = named<Integrator>(integrator);
+            scene.method.integrator = option_named<Integrator>(integrator);
             CAPTURE(method, integrator);
             CHECK_THROWS_WITH(make_plan(scene), Contains("\"semi_implicit\" only"));
             scene.method.integrator = Integrator::semi_implicit;

@@ -23,7 +23,7 @@ const EffectCost* effect_of(const Plan& plan)
 Scene block(const std::string& method, const std::string& model)
 {
     Scene scene;
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 3;
     scene.bodies.resize(2);
     for (Body& body : scene.bodies)
@@ -31,7 +31,7 @@ Scene block(const std::string& method, const std::string& model)
         body.shape.kind = ShapeKind::box;
         body.shape.box_cells = {2, 2, 2};
         body.material = solid_material();
-        body.material.model = named<SolidModel>(model);
+        body.material.model = option_named<SolidModel>(model);
     }
     scene.bodies[1].material.plastic_yield = 0.1;
     return resolve(scene);
@@ -120,7 +120,7 @@ TEST_CASE("methods that keep no strain say which do, and tearing beside it is re
     for (const std::string method : {"pbd", "implicit_constraints", "acad"})
     {
         Scene scene = test::hanging(2);
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         scene.bodies[0].material.plastic_yield = 0.1;
         CHECK_THROWS_WITH(make_plan(scene), Contains("bodies[0].material.plastic_yield") &&
                                                 Contains("\"" + method + "\"") && Contains("\"vbd\""));

@@ -33,7 +33,7 @@ TEST_CASE("pressure costs two dispatches a substep where a body has it, and noth
     {
         CAPTURE(method);
         Scene scene = ball(5);
-        scene.method.type = named<MethodKind>(std::string(method));
+        scene.method.type = option_named<MethodKind>(std::string(method));
         scene.method.substeps = 3;
         Scene without = scene;
         without.bodies[0].material.pressure = 0;

@@ -16,7 +16,7 @@ Body corner(const std::string& model, double modulus, double ratio)
     Body body;
     body.shape.kind = ShapeKind::box;
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     body.material.poissons_ratio = ratio;
     body.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

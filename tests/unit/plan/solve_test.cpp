@@ -24,7 +24,7 @@ constexpr std::uint32_t kRows = 300;
 Scene scene_of(std::string precision, std::uint32_t limit, double tolerance)
 {
     Scene scene = test::hanging(2);
-    scene.method.precision = named<Precision>(std::move(precision));
+    scene.method.precision = option_named<Precision>(std::move(precision));
     scene.method.linear_iterations = limit;
     scene.method.linear_tolerance = tolerance;
     return scene;

@@ -108,7 +108,7 @@ TEST_CASE("methods that do not hold volumes of surfaces say which do")
     for (const std::string method : {"implicit_euler", "implicit_constraints", "acad", "pbd", "xpbd", "vbd"})
     {
         Scene scene = ball();
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         CHECK_THROWS_WITH(make_plan(scene), Contains("bodies[0].material.volume_stiffness is not 0") &&
                                                 Contains("\"" + method + "\"") &&
                                                 Contains("\"mass_spring\""));

@@ -24,9 +24,9 @@ Scene solid(const std::string& model, const std::string& split, const glm::uvec3
     Body body;
     body.shape.kind = ShapeKind::box;
     body.shape.box_cells = cells;
-    body.shape.split = named<BoxSplit>(split);
+    body.shape.split = option_named<BoxSplit>(split);
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     scene.bodies = {body};
     return resolve(scene);
 }

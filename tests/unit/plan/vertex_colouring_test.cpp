@@ -89,7 +89,7 @@ TEST_CASE("a triangle grid with hinges is coloured, by a lattice or greedily, an
         Scene scene;
         Body body;
         body.shape.cells = {17, 12};
-        body.shape.diagonals = named<Diagonals>(diagonals);
+        body.shape.diagonals = option_named<Diagonals>(diagonals);
         body.material.bending_stiffness = 1;
         scene.bodies = {body};
         body = resolve(scene).bodies[0];

@@ -24,7 +24,7 @@ Scene membrane(const std::string& bending_model = "hinge")
     body.material.fabric.weft = 1000;
     body.material.fabric.shear = 100;
     body.material.fabric.poissons_ratio = 0.3;
-    body.material.bending_model = named<BendingModel>(bending_model);
+    body.material.bending_model = option_named<BendingModel>(bending_model);
     body.material.bending_stiffness = 1;
     scene.bodies = {body};
     return resolve(scene);

@@ -20,7 +20,7 @@ CostPoint made(const std::string& method, std::uint32_t substeps, std::uint32_t 
 {
     CostPoint point;
     point.method = method;
-    point.settings.type = named<MethodKind>(method);
+    point.settings.type = option_named<MethodKind>(method);
     point.substeps = point.settings.substeps = substeps;
     point.iterations = point.settings.iterations = iterations;
     point.error = error;

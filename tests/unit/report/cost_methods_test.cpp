@@ -29,7 +29,7 @@ CostPoint made(const std::string& method, std::optional<double> error, double ms
 {
     CostPoint point;
     point.method = method;
-    point.settings.type = named<MethodKind>(method);
+    point.settings.type = option_named<MethodKind>(method);
     point.error = error;
     point.ms = ms;
     point.sweeps = sweeps;

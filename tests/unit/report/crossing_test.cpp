@@ -288,7 +288,7 @@ TEST_CASE("may_tunnel: wide holes or long ways, and only near the collider")
     std::string meets = "vertices";
     const auto likely = [&](double around, double radius, double height, double speed) {
         Collider collider = ball(radius);
-        collider.meets = named<ColliderMeets>(meets);
+        collider.meets = option_named<ColliderMeets>(meets);
         Watched run(flat(height, around), collider);
         return run.look(0, flat(height, around), {0, -speed, 0}).likely.size();
     };

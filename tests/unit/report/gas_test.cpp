@@ -32,7 +32,7 @@ Scene balloon(const std::string& law, double pressure = 200, bool inwards = fals
             std::swap(t[1], t[2]);
     body.material.stretch_stiffness = 500;
     body.material.pressure = pressure;
-    body.material.pressure_law = named<PressureLaw>(law);
+    body.material.pressure_law = option_named<PressureLaw>(law);
     body.vertex_masses.assign(body.mesh.positions.size(),
                               1.0 / static_cast<double>(body.mesh.positions.size()));
     body.start_positions = body.mesh.positions;

@@ -26,7 +26,7 @@ Scene box(const std::string& model, glm::uvec3 cells, double size, double modulu
     body.shape.box_cells = {cells.x, cells.y, cells.z};
     body.shape.box_size = {size, size, size};
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     body.material.poissons_ratio = 0.35;
     scene.bodies = {body};
@@ -136,7 +136,7 @@ TEST_CASE("the bound covers springs with volumes of tetrahedra, and a volume wit
         for (const double shake : {0.0, 0.01, 0.05})
         {
             Scene scene = box("springs", {2, 2, 2}, 0.5, 1e5);
-            scene.bodies[0].material.volume = named<HeldVolume>(volume);
+            scene.bodies[0].material.volume = option_named<HeldVolume>(volume);
             scene.bodies[0].material.volume_stiffness = 1e7; // so that the springs do not hide it
             const PhysicalModel made = make_model(resolve(scene));
             REQUIRE(made.volumes.size() + made.surfaces.size() > 0);
@@ -275,7 +275,7 @@ TEST_CASE("the Hessian of tetrahedra is the derivative of their gradient", "[ref
         body.shape.kind = ShapeKind::box;
         body.shape.box_cells = {1, 1, 1};
         body.material = solid_material();
-        body.material.model = named<SolidModel>(model_name);
+        body.material.model = option_named<SolidModel>(model_name);
         body.material.youngs_modulus = 10;
         body.pins.emplace_back().vertices = {0};
         scene.bodies = {body};

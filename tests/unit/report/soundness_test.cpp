@@ -200,7 +200,7 @@ TEST_CASE("cloth that is bent without the energy for it is unconverged, under pb
     const std::vector<glm::dvec3> still(x.size(), glm::dvec3(0));
     scene.bodies[0].material.stretch_stiffness = 1e-3;
     const auto judged = [&](const char* method) {
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         return judge_state(EnergyBudget(scene), state_of(scene, x, still, 1));
     };
     CHECK_FALSE(judged("xpbd").sound());
@@ -265,11 +265,11 @@ TEST_CASE("a volume that is rigid, or that pbd keeps, is as large as at rest")
         box.shape.box_cells = {2, 2, 2};
         box.material = solid_material();
         box.material.model = SolidModel::springs;
-        box.material.volume = named<HeldVolume>(volume);
+        box.material.volume = option_named<HeldVolume>(volume);
         box.material.volume_stiffness = stiffness;
         box.material.youngs_modulus = 1e-3; // next to no energy
         scene.bodies = {box};
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         scene.method.stretch = 0; // only the volume is judged
         scene = resolve(scene);
         std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
@@ -367,7 +367,7 @@ TEST_CASE("dear steps are looked at often, cheap ones eight times a run")
     Scene scene = test::hanging(16);
     scene.method.substeps = 10;
     const auto every = [&](const char* method, std::uint64_t frames) {
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         return frames_between_looks(make_plan(scene), frames);
     };
     CHECK(every("xpbd", 80) == 10);

@@ -25,7 +25,7 @@ Body box(const std::string& model, double modulus, const glm::dvec3& at)
     body.shape.box_cells = {2, 2, 2};
     body.shape.box_size = {0.3, 0.3, 0.3};
     body.material = solid_material();
-    body.material.model = named<SolidModel>(model);
+    body.material.model = option_named<SolidModel>(model);
     body.material.youngs_modulus = modulus;
     body.transform.translate = at;
     return body;

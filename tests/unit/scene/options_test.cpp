@@ -53,13 +53,13 @@ TEST_CASE("every value of an option has a word of its own")
 TEST_CASE("words and options: those that files have, and a refusal of any other")
 {
     CHECK(to_string(Integrator::explicit_euler) == "explicit");
-    CHECK(named<MethodKind>("vbd") == MethodKind::vbd);
+    CHECK(option_named<MethodKind>("vbd") == MethodKind::vbd);
     CHECK(quoted(Guarantee::no_crossing) == "\"no_crossing\"");
     CHECK(to_string(static_cast<BoxSplit>(2)).empty());
     CHECK(!option_of<BoxSplit>("seven"));
-    CHECK_THROWS_WITH(named<BoxSplit>("fife"),
+    CHECK_THROWS_WITH(option_named<BoxSplit>("fife"),
                       "the option is \"fife\"; it must be \"five\" or \"six\" (did you mean \"five\"?)");
-    CHECK_THROWS_AS(named<BoxSplit>(""), Error);
+    CHECK_THROWS_AS(option_named<BoxSplit>(""), Error);
 }
 
 } // namespace taut

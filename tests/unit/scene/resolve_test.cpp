@@ -191,7 +191,7 @@ TEST_CASE("a body whose size float cannot hold is refused, and one that it barel
         body.shape.length = size;
         body.shape.size = glm::dvec2(size);
         body.material = is_solid(kind) ? solid_material() : Material{};
-        scene.method.precision = named<Precision>(precision);
+        scene.method.precision = option_named<Precision>(precision);
         scene.bodies = {body};
         std::vector<SceneIssue> found;
         try

@@ -212,6 +212,23 @@ TEST_CASE("an unknown word of an option is refused with all that there are, and 
                Contains("bodies[0].grid.diagonals is \"both\""));
 }
 
+TEST_CASE("a number that may be missing has a word for that")
+{
+    const auto slack = [](const std::string& value) {
+        return parse_scene(R"({"taut": 1, "bodies": [{"grid": {}, "material": {"attachment_slack": )" +
+                           value + "}}]}")
+            .bodies[0]
+            .material.attachment_slack;
+    };
+    CHECK(slack("0.25") == 0.25);
+    CHECK(slack("0") == 0.0);
+    CHECK(!slack("\"none\"").has_value());
+    CHECK_THROWS_WITH(slack("\"tight\""),
+                      Contains("is \"tight\"; it must be a number (of the rest distance) or \"none\""));
+    CHECK_THROWS_WITH(slack("-1"),
+                      Contains("is -1; it must be 0 or more (of the rest distance), or \"none\""));
+}
+
 TEST_CASE("a missing or doubled choice is refused")
 {
     CHECK(refusal("{}") ==

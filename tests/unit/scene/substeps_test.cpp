@@ -11,7 +11,7 @@ TEST_CASE("methods that sweep take the substeps that mesh and weight ask for, ot
 {
     Scene scene = test::hanging(32);
     const auto substeps = [&](const char* method) {
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         scene.method.substeps = 0;
         return resolve(scene).method.substeps;
     };
@@ -88,7 +88,7 @@ TEST_CASE("under vbd held cloth takes the substeps that its waves ask for", "[su
     Scene scene = test::hanging(12);
     scene.method.substeps = 0;
     const auto substeps = [&](const char* method, double stiffness) {
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         scene.bodies[0].material.stretch_stiffness = stiffness;
         return resolve(scene).method.substeps;
     };
@@ -211,7 +211,7 @@ TEST_CASE("where contacts come after the solve a ball takes more substeps on a f
     Collider floor;
     floor.kind = ColliderKind::plane;
     const auto substeps = [&](const char* method, const std::vector<Collider>& colliders) {
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         scene.colliders = colliders;
         return resolve(scene).method.substeps;
     };
@@ -271,7 +271,7 @@ TEST_CASE("a sail that is held all round takes what the wind asks for, a flag do
     const auto substeps = [&](const char* method, std::vector<std::string> edges) {
         body.pins.clear();
         body.pins.emplace_back().edges = std::move(edges);
-        scene.method.type = named<MethodKind>(method);
+        scene.method.type = option_named<MethodKind>(method);
         return resolve(scene).method.substeps;
     };
     const std::uint32_t sail = substeps("xpbd", {"top", "bottom", "left", "right"});

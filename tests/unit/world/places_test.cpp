@@ -42,7 +42,7 @@ Scene two_sheets(const std::string& method = "xpbd")
     Collider ball;
     ball.point = {0, -1000, 0};
     scene.colliders = {ball};
-    scene.method.type = named<MethodKind>(method);
+    scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 8;
     return resolve(scene);
 }
