@@ -10,8 +10,8 @@
 //   only by their multipliers, move a stiff body on which nothing acts. Both are solved together. The
 //   gradient of C_D is taken times C_D, so that nothing divides by it, and less its part along that of C_H,
 //   so that the determinant is a sum of positive terms: where a shape only grows the two are parallel, and
-//   the difference of their products would have no digit left. A step that would change F by more than F is
-//   shortened to that (docs/decisions.md, 76).
+//   the difference of their products would have no digit left. A step that would change F by more than
+//   max(|F|, sqrt 3) is shortened to that (docs/decisions.md, 76).
 // Bytes per element: 72 constraint + 128 read + 64 written (float).
 //! lanes
 //! variant lambda LAMBDA=1
@@ -93,7 +93,7 @@ Rows rows_of(SolidTetrahedron t, Deformation f, rvec3 c0, rvec3 c1, rvec3 c2)
 }
 
 /// How much of a step is taken that moves the edges by these: min(1, max(|F|, sqrt 3) / |dF|), so that F
-/// changes by no more than it is, or than the unit matrix. Both rows are linear in the step; a step out of a
+/// changes by no more than it is, or than the unit matrix is. A step takes both rows as linear; one out of a
 /// tangle that goes further ends where neither says anything of the energy.
 real share_of(SolidTetrahedron t, Deformation f, rvec3 e1, rvec3 e2, rvec3 e3)
 {

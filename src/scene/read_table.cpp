@@ -61,7 +61,7 @@ std::uint32_t read_count(const Field& value, const Key& key)
         return static_cast<std::uint32_t>(key.word_value);
     const std::uint32_t count = value.count(right);
     if (key.limits.too_low(count))
-        value.refuse(right); // the same
+        value.refuse(right); // as above
     return count;
 }
 

@@ -174,20 +174,22 @@ void add(Input<Real>& in, Random& random, std::uint32_t count)
     });
 }
 
-/// Flat, inverted, collapsed and held ones, where the colour has room.
+/// Flat, inverted, collapsed, held and squashed ones, where the colour has room; the steps of the last two
+/// are shortened (share_of).
 template <typename Real>
 void plant(Input<Real>& in, std::uint32_t colour)
 {
     const std::uint32_t k = in.colour_start[colour];
-    if (in.colour_start[colour + 1] - k < 6)
+    constexpr std::uint32_t kPlanted = 8;
+    if (in.colour_start[colour + 1] - k < kPlanted)
         return;
     const TetrahedronCorners upright = {glm::dvec3(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (std::uint32_t i = 0; i < 6; ++i)
+    for (std::uint32_t i = 0; i < kPlanted; ++i)
     {
         Constraint<Real>& c = in.constraint[k + i];
-        c = record<Real>({c.a, c.b, c.c, c.d}, upright, 1e3, 1.5, i % 2 == 0);
+        c = record<Real>({c.a, c.b, c.c, c.d}, upright, i < 6 ? 1e3 : 1e6, 1.5, i % 2 == 0);
     }
-    TetrahedronCorners flat = upright, inverted = upright, line = upright;
+    TetrahedronCorners flat = upright, inverted = upright, line = upright, squashed = upright;
     flat[3] = {0.5, 0.5, 0};
     inverted[3] = {0, 0, -1.5};
     line[2] = {2, 0, 0};
@@ -198,6 +200,11 @@ void plant(Input<Real>& in, std::uint32_t colour)
     place(in, k + 3, TetrahedronCorners{}, {1, 1, 1, 1}); // a point: counted, skipped
     place(in, k + 4, TetrahedronCorners{}, {0, 0, 0, 0}); // held besides: not counted
     place(in, k + 5, upright, {0, 0, 0, 1});
+    squashed[2] = {0, 0.1, 0};
+    squashed[3] = {0, 0, 0.1};
+    place(in, k + 6, squashed, {1, 1, 1, 1});
+    squashed[3] = {0, 0, -0.1};
+    place(in, k + 7, squashed, {1, 1, 1, 1});
 }
 
 } // namespace

@@ -8,7 +8,7 @@ using namespace taut::hard;
 
 namespace {
 
-Scene constrained(Scene scene, double compliance = 0)
+Scene constrained(Scene scene, std::optional<double> compliance = 0.0)
 {
     scene.method.type = MethodKind::implicit_constraints;
     scene.method.substeps = 4;
@@ -281,7 +281,7 @@ TEST_CASE("F17: compliance 0 is rigid, 1e12 is free flight")
             Body body = particles({{0, 0, 0}, {1, 0, 0}});
             body.springs = {{0, 1, 1, compliance}};
             body.pins = {hold({0})};
-            Scene scene = constrained(alone(body), -1);
+            Scene scene = constrained(alone(body), std::nullopt);
             scene.gravity = {0, -9.81, 0};
             World world(scene, device);
             run(world, 60);

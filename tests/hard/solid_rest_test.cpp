@@ -218,14 +218,12 @@ void check_end(const Setting& s, const Outcome& out)
 
 /// The simple material has a second state without force, collapsed, at no more energy than rest for a
 /// Poisson's ratio of 0; bodies thrown into a heap may keep a tangle at 1e4 Pa, and those of the simple
-/// material at 1e10 Pa, or at 1e8 Pa where they are of other tetrahedra than five to a cell.
+/// material from 1e8 Pa on, too.
 bool finds_its_shape(const Setting& s)
 {
     const bool may_collapse = s.model == SolidModel::neo_hookean_simple && s.ratio < 0.3;
-    if (s.start == "random" && s.model == SolidModel::neo_hookean)
-        return s.modulus > 1e4;
     if (s.start == "random")
-        return s.modulus > 1e4 && s.modulus < (s.mesh == "five" ? 1e10 : 1e8) && !may_collapse;
+        return s.modulus > 1e4 && (s.model == SolidModel::neo_hookean || (s.modulus < 1e8 && !may_collapse));
     if (s.start == "inside out" && s.modulus <= 1e4)
         return s.ratio > 0 && s.ratio < 0.49;
     return !(may_collapse && (s.start == "flat" || s.start == "falling"));
