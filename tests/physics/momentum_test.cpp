@@ -183,7 +183,7 @@ TEST_CASE("what a body is owed goes along with a state", "[momentum]")
     CHECK_FALSE(one.positions() == poor.positions()); // something was owed
 }
 
-TEST_CASE("a solid thrown into a tangle finds its shape about as often as if it might turn", "[momentum]")
+TEST_CASE("a solid thrown into a tangle finds its shape, with the effect as without", "[momentum]")
 {
     const auto device = test_device("cpu:serial");
     const auto recovered = [&](double ratio, bool with) {
@@ -214,7 +214,8 @@ TEST_CASE("a solid thrown into a tangle finds its shape about as often as if it 
     }
     if (environment_has("TAUT_NOTES"))
         WARN("of " << 2 * kTangles << " tangles " << with << " come apart, without the effect " << without);
-    CHECK(with >= without - 0.03 * 2 * kTangles); // one standard deviation; all of it at once loses more
+    CHECK(with >= 0.97 * 2 * kTangles); // all were measured
+    CHECK(without >= 0.97 * 2 * kTangles);
 }
 
 // The more substeps, the more corners leave the floor at one time: what turns the cube is the solver's error.
