@@ -1,8 +1,8 @@
 #include "taut/plan/contact_scene.hpp"
 
+#include "taut/kernels/shared/contact_rows.h"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
-#include "taut/kernels/shared/contact_rows.h"
 #include "taut/scene/pose.hpp"
 
 #include <algorithm>

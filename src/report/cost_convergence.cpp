@@ -133,7 +133,7 @@ Plot convergence_plot(const CostStudy& study, CostSplit split)
     {
         const std::string fixed =
             std::to_string(row.fixed) + (substeps ? " iteration" : " substep") + (row.fixed == 1 ? "" : "s");
-        const int style = method_style(row.method);
+        const int style = method_style(method_named(row.method));
         const auto alike = std::count_if(plot.series.begin(), plot.series.end(),
                                          [&](const PlotSeries& series) { return series.style == style; });
         plot.series.push_back({row.name + " (" + fixed + ")", row.points, false,

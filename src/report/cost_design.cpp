@@ -42,7 +42,7 @@ const Counts kAll{1, 2, 4, 8, 16, 32, 64, 128};
 
 void explicit_springs(Design& design)
 {
-    for (Integrator integrator : {Integrator::semi_implicit, Integrator::verlet})
+    for (const Integrator integrator : {Integrator::semi_implicit, Integrator::verlet})
     {
         design.base().integrator = integrator;
         design.add(1, kAll);

@@ -125,7 +125,7 @@ Plot energy_plot(const EnergyStudy& study, Conserved what)
     for (const EnergyRun& run : study.runs)
     {
         const std::vector<double>& values = energy ? run.energy : run.momentum;
-        PlotSeries series{settings_text(run.settings), {}, false, "", static_cast<int>(run.settings.type)};
+        PlotSeries series{settings_text(run.settings), {}, false, "", method_style(run.settings.type)};
         series.variant = static_cast<int>(
             std::count_if(plot.series.begin(), plot.series.end(),
                           [&](const PlotSeries& other) { return other.style == series.style; }));

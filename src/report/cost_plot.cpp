@@ -134,7 +134,8 @@ Plot cost_plot(const CostStudy& study, CostAxis axis)
         if (several(study) && !point.error)
             continue; // listed in groups
         if (plot.series.empty() || plot.series.back().name != name)
-            plot.series.push_back({name, {}, several(study), "", several(study) ? method_style(name) : -1});
+            plot.series.push_back(
+                {name, {}, several(study), "", several(study) ? method_style(method_named(name)) : -1});
         plot.series.back().points.push_back(plot_point(study, point, axis));
     }
     plot.y_most = off_the_top(plot.series, 1); // errors of more than 100 % are of no use to anybody

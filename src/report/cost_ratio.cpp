@@ -171,7 +171,7 @@ Plot ratio_plot(const RatioStudy& study)
     plot.front = false;
     for (const Row& row : rows_of(study))
     {
-        PlotSeries series{row.name, {}, false, "", method_style(row.method)};
+        PlotSeries series{row.name, {}, false, "", method_style(method_named(row.method))};
         series.variant = static_cast<int>(
             std::count_if(plot.series.begin(), plot.series.end(),
                           [&](const PlotSeries& other) { return other.style == series.style; }));

@@ -53,7 +53,7 @@ MethodKind method_named(std::string_view name)
                                           scene_file::listing(words_of<MethodKind>()));
 }
 
-int method_style(std::string_view name) { return static_cast<int>(method_named(name)); }
+int method_style(MethodKind kind) { return static_cast<int>(kind); }
 
 MethodSettings settings_for(MethodKind kind, const MethodSettings& base)
 {

@@ -17,7 +17,7 @@ MethodKind method_named(std::string_view name);
 MethodSettings settings_for(MethodKind kind, const MethodSettings& base);
 
 /// Of figures: colour and marker of a method (PlotSeries::style), its place in MethodKind.
-int method_style(std::string_view name);
+int method_style(MethodKind kind);
 
 /// "xpbd,vbd" or "all", in the order of MethodKind and each once. Throws Error{bad_input}.
 std::vector<MethodKind> methods_listed(const std::vector<std::string>& names);

@@ -34,9 +34,8 @@ struct BodyContact
     /// Groups whose bodies do not meet this one, nor it them. Its own: bodies of the group do not meet each
     /// other. Whether a body meets itself is said by `self` alone.
     std::vector<std::string> passes;
-    std::optional<double> thickness = std::nullopt; ///< m, >= 0: its radius; none given: as the scene says
-    std::optional<double> friction =
-        std::nullopt; ///< >= 0: Coulomb coefficient; none given: as the scene says
+    /// m, >= 0: its radius, and its Coulomb coefficient, >= 0; without them as the scene says.
+    std::optional<double> thickness = std::nullopt, friction = std::nullopt;
 };
 
 /// Names of groups that the bodies of a scene may have between them.

@@ -87,8 +87,8 @@ TEST_CASE("A06, A07, A08: heavy ropes hang by their springs at every mass ratio,
             Scene scene = by_vbd(test::chain(20, 1e5, 0.01), 16, 1);
             scene.bodies[0].vertex_masses[20] = 0.01 * ratio;
             scene.damping = 2;
-            scene.method.start =
-                SweepStart::inertial; // one sweep from the adaptive start swings for long (docs)
+            // One sweep from the adaptive start swings for long (docs).
+            scene.method.start = SweepStart::inertial;
             World world(scene, device);
             run(world, steps_for(*device, 600, 60));
             const StepReport report = check_sound(world);

@@ -32,8 +32,8 @@ std::vector<Way> all_ways()
 /// A thrown cloth at rest in itself, under a method.
 Scene thrown(const Way& way, const char* precision, std::uint32_t substeps)
 {
-    const double soft =
-        way.integrator == Integrator::explicit_euler ? 0.01 : 1; // whose rounding would grow with the rest
+    // Of explicit Euler, whose rounding would grow with the rest.
+    const double soft = way.integrator == Integrator::explicit_euler ? 0.01 : 1;
     Scene scene = test::under(free_cloth(3, 5 * soft, 1e-6 * soft), way.method);
     scene.method.integrator = way.integrator;
     scene.method.precision = option_named<Precision>(precision);

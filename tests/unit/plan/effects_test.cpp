@@ -26,8 +26,8 @@ Scene base(const std::string& method)
     Scene scene = test::under(test::hanging(6), method);
     scene.method.substeps = 3;
     scene.method.iterations = 2;
-    scene.method.start =
-        SweepStart::inertial; // the other start remembers contacts (force_methods_test.cpp counts)
+    // The other start remembers contacts (force_methods_test.cpp counts).
+    scene.method.start = SweepStart::inertial;
     return scene;
 }
 

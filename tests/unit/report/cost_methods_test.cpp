@@ -226,8 +226,8 @@ TEST_CASE("one line a method, through its own front; gaps of one cause stand tog
     REQUIRE(plot.series.size() == 2);
     CHECK(plot.series[1].name == "xpbd");
     CHECK(plot.series[1].own_front);
-    CHECK(plot.series[0].style == method_style("pbd")); // whatever else is in the plot
-    CHECK(plot.series[1].style == method_style("xpbd"));
+    CHECK(plot.series[0].style == method_style(MethodKind::pbd)); // whatever else is in the plot
+    CHECK(plot.series[1].style == method_style(MethodKind::xpbd));
     CHECK(plot.series[1].points.size() == 3);
     REQUIRE(plot.gaps.size() == 1);
     CHECK(plot.gaps[0].find("mass_spring (R, unstable_timestep)") == 0);
