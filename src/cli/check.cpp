@@ -114,18 +114,34 @@ std::vector<SceneIssue> find_issues(const std::string& file)
     return issues;
 }
 
-int check_scene(const std::string& file, bool json)
+void print_json(const std::string& file, const std::vector<SceneIssue>& issues)
+{
+    Json list = Json::array();
+    for (const SceneIssue& issue : issues)
+        list.push_back({{"error", issue.error}, {"field", issue.field}, {"text", issue.text}});
+    std::cout << to_text(
+        {{"taut", TAUT_VERSION}, {"scene", file}, {"sound", !any_error(issues)}, {"issues", list}});
+}
+
+int check_as_json(const std::string& file)
+{
+    try
+    {
+        const std::vector<SceneIssue> issues = find_issues(file);
+        print_json(file, issues);
+        return any_error(issues) ? kBadInput : kDone;
+    }
+    catch (const Error& error) // of the file, or of the machine: who reads JSON reads of it there, too
+    {
+        print_json(file, {{true, "", error.what()}});
+        return exit_status(error.code());
+    }
+}
+
+int check_scene(const std::string& file)
 {
     const std::vector<SceneIssue> issues = find_issues(file);
     const bool bad = any_error(issues);
-    if (json)
-    {
-        Json list = Json::array();
-        for (const SceneIssue& issue : issues)
-            list.push_back({{"error", issue.error}, {"field", issue.field}, {"text", issue.text}});
-        std::cout << to_text({{"taut", TAUT_VERSION}, {"scene", file}, {"sound", !bad}, {"issues", list}});
-        return bad ? kBadInput : kDone;
-    }
     for (const SceneIssue& issue : issues)
         std::cout << (issue.error ? "error: " : "warning: ")
                   << (issue.field.empty() ? "" : issue.field + ": ") << issue.text << "\n";
@@ -147,8 +163,11 @@ void add_check(CLI::App& app, Command& chosen)
     const auto options = std::make_shared<Options>();
     command->add_option("scene", options->scene, "Scene file (JSON)")->required();
     command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback(
-        [&chosen, options] { chosen = [options] { return check_scene(options->scene, options->json); }; });
+    command->callback([&chosen, options] {
+        chosen = [options] {
+            return options->json ? check_as_json(options->scene) : check_scene(options->scene);
+        };
+    });
 }
 
 } // namespace taut::cli

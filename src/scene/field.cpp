@@ -62,6 +62,21 @@ void Field::fail(const std::string& text) const
     throw Error(ErrorCode::bad_input, *file_ + ": " + (path_.empty() ? "the scene" : path_) + " " + text);
 }
 
+void Field::fail_at(std::string_view key, const std::string& text, const std::string& listed) const
+{
+    if (issues_)
+    {
+        issues_->push_back({true, path_of(key), listed});
+        throw Listed();
+    }
+    fail(text);
+}
+
+std::string Field::path_of(std::string_view key) const
+{
+    return (path_.empty() ? "" : path_ + ".") + std::string(key);
+}
+
 void Field::refuse(const std::string& right) const { fail("is " + shown_value(*value_) + "; " + right); }
 
 const Field& Field::object(const Table& table)
@@ -78,7 +93,10 @@ const Field& Field::object(const Table& table)
         const std::string right = !hint.empty()   ? std::string(hint)
                                   : close.empty() ? "it may have " + listing(known)
                                                   : "did you mean \"" + close + "\"?";
-        attempt([&] { fail("has the unknown key " + shown_value(item.key()) + "; " + right); });
+        attempt([&] {
+            fail_at(item.key(), "has the unknown key " + shown_value(item.key()) + "; " + right,
+                    "is an unknown key; " + right);
+        });
     }
     table_ = &table;
     return *this;
@@ -91,7 +109,7 @@ std::optional<Field> Field::find(std::string_view key) const
     const auto member = value_->find(std::string(key));
     if (member == value_->end())
         return std::nullopt;
-    return Field(*member, *file_, (path_.empty() ? "" : path_ + ".") + std::string(key), issues_);
+    return Field(*member, *file_, path_of(key), issues_);
 }
 
 double Field::number() const

@@ -64,8 +64,13 @@ public:
     [[noreturn]] void refuse(const std::string& right) const;
     /// "FILE: PATH TEXT"
     [[noreturn]] void fail(const std::string& text) const;
+    /// "FILE: PATH TEXT" of an object and one of its keys, which the file has or should have; listed under
+    /// the path of the key, where it is `listed`.
+    [[noreturn]] void fail_at(std::string_view key, const std::string& text, const std::string& listed) const;
 
 private:
+    std::string path_of(std::string_view key) const;
+
     const nlohmann::json* value_;
     const std::string* file_;
     std::string path_;

@@ -176,8 +176,11 @@ void read_key(const Field& field, const Key& key, const std::vector<const Key*>&
 {
     const auto value = field.find(key.name);
     if (!value && key.is_needed)
-        field.fail("lacks the key \"" + std::string(key.name) + '"' +
-                   (key.advice.empty() ? "" : "; " + std::string(key.advice)));
+    {
+        const std::string right = key.advice.empty() ? "" : "; " + std::string(key.advice);
+        field.fail_at(key.name, "lacks the key \"" + std::string(key.name) + '"' + right,
+                      "is missing" + right);
+    }
     if (key.own)
         return key.own(field, object);
     if (!value)

@@ -168,6 +168,24 @@ TEST_CASE("check says which field is wrong, and ends with 0 only when nothing is
     CHECK(folder.taut({"check", folder / "none.json"}).status == 2);
 }
 
+TEST_CASE("check --json prints an object of a file that is missing or no JSON, too")
+{
+    const Folder folder;
+    for (const std::string& file : {std::string(folder / "none.json"), std::string(folder.path()),
+                                    std::string(folder.file("half.json", "{"))})
+    {
+        const Result result = folder.taut({"check", file, "--json"});
+        INFO(file << ": " << result.out);
+        CHECK(result.status == 2);
+        CHECK(result.err.empty());
+        const auto said = program::parse(result.out);
+        CHECK(said["sound"] == false);
+        REQUIRE(said["issues"].size() == 1);
+        const std::string text = said["issues"][0]["text"];
+        CHECK(text.find(std::filesystem::path(file).filename()) != std::string::npos);
+    }
+}
+
 TEST_CASE("check and run name keys that the method does not read, and go on")
 {
     const Folder folder;
@@ -205,11 +223,12 @@ TEST_CASE("check lists every member that cannot be read, by field")
     const auto issues = program::parse(result.out)["issues"];
     for (const auto& issue : issues)
         fields.insert(issue["field"].get<std::string>());
-    CHECK(fields == std::set<std::string>{"", "timestep", "method.type", "method.substeps",
+    CHECK(fields == std::set<std::string>{"gravty", "timestep", "method.type", "method.substeps",
                                           "bodies[0].grid.cells", "bodies[0].pins[0].corner",
-                                          "bodies[0].pins[1].vertices[1]", "bodies[0].material",
+                                          "bodies[0].pins[1].vertices[1]", "bodies[0].material.stiffness",
                                           "bodies[0].material.density", "bodies[0].material.thickness",
-                                          "bodies[1]", "bodies[2].springs[0]", "colliders[0].sphere.radius"});
+                                          "bodies[1]", "bodies[1].cloth", "bodies[2].springs[0].b",
+                                          "bodies[2].springs[0].rest_length", "colliders[0].sphere.radius"});
 }
 
 TEST_CASE("check lists values out of range beside keys that cannot be read, each by its field")
@@ -226,10 +245,11 @@ TEST_CASE("check lists values out of range beside keys that cannot be read, each
     const auto issues = program::parse(result.out)["issues"];
     for (const auto& issue : issues)
         fields.insert(issue["field"].get<std::string>());
-    CHECK(fields == std::set<std::string>{
-                        "damping", "method.substeps", "method.stretch", "method.bend", "bodies[0].material",
-                        "bodies[0].material.thickness", "bodies[1].material.thickness", "bodies[2]",
-                        "colliders[0].sphere.radius", "colliders[1].sphere.radius", "colliders[1].friction"});
+    CHECK(fields == std::set<std::string>{"damping", "method.substeps", "method.stretch", "method.bend",
+                                          "bodies[0].material.densty", "bodies[0].material.thickness",
+                                          "bodies[1].material.thickness", "bodies[2]",
+                                          "colliders[0].sphere.radius", "colliders[1].sphere.radius",
+                                          "colliders[1].friction"});
 }
 
 TEST_CASE("schema prints a JSON Schema, and the tables of the pages")

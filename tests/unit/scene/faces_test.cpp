@@ -73,6 +73,7 @@ TEST_CASE("a distance field cannot be told to meet triangles", "[face]")
     field.field_file = "ring.sdf";
     field.meets = ColliderMeets::surface;
     scene.colliders = {field};
+    scene.bodies.resize(1);
     const std::vector<SceneIssue> issues = check(scene);
     REQUIRE(issues.size() == 1);
     CHECK(issues[0].error);

@@ -42,6 +42,28 @@ TEST_CASE("settings change single values of a scene, and make objects that are m
     CHECK(scene.bodies[0].shape.network.bend == 4);
 }
 
+TEST_CASE("a check of a file lists unknown and missing keys under their own path")
+{
+    const Temporary folder;
+    const auto file = folder.write("some.json", R"({"gravitty": [0, 0, 0], "bodies": [
+        {"chain": {"links": 3}, "material": {"densty": 1}, "springs": [{"a": 0, "b": 1}]}]})");
+    std::vector<std::string> found;
+    for (const SceneIssue& issue : check_file(file))
+        found.push_back(issue.field + " " + issue.text.substr(0, issue.text.find(';')));
+    const std::vector<std::string> expected = {"gravitty is an unknown key", "taut is missing",
+                                               "bodies[0].material.densty is an unknown key",
+                                               "bodies[0].springs[0].rest_length is missing"};
+    CHECK_THAT(found, Catch::Matchers::UnorderedEquals(expected));
+}
+
+TEST_CASE("a scene without bodies is told that nothing happens in it")
+{
+    const std::vector<SceneIssue> issues = check(Scene());
+    REQUIRE(issues.size() == 1);
+    CHECK(issues[0].field == "bodies");
+    CHECK(!issues[0].error);
+}
+
 TEST_CASE("a check of a file hands out the scene and the keys that it has read")
 {
     const Temporary folder;
