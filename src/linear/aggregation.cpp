@@ -5,24 +5,23 @@
 #include "taut/linear/aggregation.hpp"
 
 #include "taut/linear/host_sums.hpp"
+#include "taut/linear/sparse_algebra.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace taut::linear {
 namespace {
 
-using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::uint32_t kMostCoarse = 1024;
 constexpr double kLeastShrinking = 2.0 / 3.0;
-constexpr std::uint64_t kMostIndices = 0x7fffffff; ///< rows or entries that Eigen numbers with int
+constexpr std::uint64_t kMostIndices = 0x7fffffff; ///< rows or entries: products have more than their factors
 constexpr double kSmoothing = 4.0 / 3.0; ///< omega, over the largest eigenvalue of D^-1 A
 
 void check_indices(std::uint64_t count, const char* what)
@@ -33,61 +32,43 @@ void check_indices(std::uint64_t count, const char* what)
                                           ": take another preconditioner");
 }
 
-Rows to_eigen(const SparseMatrix& a)
-{
-    check_indices(a.rows, "rows");
-    check_indices(a.nonzeros(), "entries");
-    Rows out(a.rows, a.columns);
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(a.nonzeros());
-    for (const Triplet& t : to_triplets(a))
-        entries.emplace_back(static_cast<int>(t.row), static_cast<int>(t.column), t.value);
-    out.setFromTriplets(entries.begin(), entries.end());
-    return out;
-}
-
-SparseMatrix from_eigen(const Rows& a)
-{
-    std::vector<Triplet> entries;
-    entries.reserve(static_cast<std::size_t>(a.nonZeros()));
-    for (int row = 0; row < a.outerSize(); ++row)
-        for (Rows::InnerIterator it(a, row); it; ++it)
-            entries.push_back(
-                {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(it.col()), it.value()});
-    return from_triplets(static_cast<std::uint32_t>(a.rows()), static_cast<std::uint32_t>(a.cols()), entries);
-}
-
 /// Entries that couple strongly, and the diagonal with the weak ones added.
-Rows filtered(const Rows& a, double strength)
+SparseMatrix filtered(const SparseMatrix& a, double strength)
 {
-    const Eigen::VectorXd diagonal = a.diagonal();
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int row = 0; row < a.outerSize(); ++row)
-    {
-        double own = 0;
-        for (Rows::InnerIterator it(a, row); it; ++it)
-        {
-            const double bound = strength * std::sqrt(std::abs(diagonal[row] * diagonal[it.col()]));
-            if (it.col() != row && std::abs(it.value()) > bound)
-                entries.emplace_back(row, static_cast<int>(it.col()), it.value());
-            else
-                own += it.value();
-        }
-        // Lumping can eat up a diagonal; then the row stays as weak as it is.
-        entries.emplace_back(row, row, own > 0.1 * diagonal[row] ? own : diagonal[row]);
-    }
-    Rows out(a.rows(), a.cols());
-    out.setFromTriplets(entries.begin(), entries.end());
-    return out;
+    const std::vector<double> own = diagonal(a);
+    return build_rows(a.rows, a.columns, [&]() -> RowWriter {
+        return [&](std::uint32_t row, auto& column, auto& value) {
+            double lumped = 0;
+            const std::size_t first = column.size();
+            for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
+            {
+                const std::uint32_t other = a.column[k];
+                const double bound = strength * std::sqrt(std::abs(own[row] * own[other]));
+                if (other == row || !(std::abs(a.value[k]) > bound))
+                {
+                    lumped += a.value[k];
+                    continue;
+                }
+                column.push_back(other);
+                value.push_back(a.value[k]);
+            }
+            const auto at =
+                std::lower_bound(column.begin() + static_cast<std::ptrdiff_t>(first), column.end(), row) -
+                column.begin();
+            column.insert(column.begin() + at, row);
+            // Lumping can eat up a diagonal; then the row stays as weak as it is.
+            value.insert(value.begin() + at, lumped > 0.1 * own[row] ? lumped : own[row]);
+        };
+    });
 }
 
-/// The diagonal by which rows are divided. A zero row has 1: it couples to nothing, so any number serves.
-Eigen::VectorXd divisor(const Rows& a)
+/// What rows are divided by: the diagonal. A zero row has 1: it couples to nothing, so any number serves.
+std::vector<double> inverse_divisor(const SparseMatrix& a)
 {
-    Eigen::VectorXd diagonal = a.diagonal();
-    for (double& value : diagonal)
-        value = value == 0 ? 1 : value;
-    return diagonal;
+    std::vector<double> out = diagonal(a);
+    for (double& value : out)
+        value = value == 0 ? 1 : 1 / value;
+    return out;
 }
 
 /// Number of the aggregate of every row; rows without strong neighbours make aggregates of their own. Zero
@@ -95,102 +76,124 @@ Eigen::VectorXd divisor(const Rows& a)
 class Aggregates
 {
 public:
-    explicit Aggregates(const Rows& strong)
-        : strong_(strong),
-          of_(static_cast<std::size_t>(strong.rows()), kNone)
+    explicit Aggregates(const SparseMatrix& strong) : strong_(strong), of_(strong.rows, kNone)
     {
-        const Eigen::VectorXd diagonal = strong_.diagonal();
-        for (int row = 0; row < strong_.rows(); ++row)
-            if (diagonal[row] != 0)
+        const std::vector<double> own = diagonal(strong_);
+        for (std::uint32_t row = 0; row < strong_.rows; ++row)
+            if (own[row] != 0)
                 seed(row);
         const std::vector<std::uint32_t> seeded = of_;
-        for (int row = 0; row < strong_.rows(); ++row)
-            if (at(row) == kNone)
+        for (std::uint32_t row = 0; row < strong_.rows; ++row)
+            if (of_[row] == kNone)
                 join(row, seeded);
-        for (int row = 0; row < strong_.rows(); ++row)
-            if (at(row) == kNone && diagonal[row] != 0)
+        for (std::uint32_t row = 0; row < strong_.rows; ++row)
+            if (of_[row] == kNone && own[row] != 0)
                 gather(row);
     }
 
     std::uint32_t count() const { return count_; }
     /// kNone for a zero row.
-    std::uint32_t of(int row) const { return of_[static_cast<std::size_t>(row)]; }
+    std::uint32_t of(std::uint32_t row) const { return of_[row]; }
 
 private:
-    std::uint32_t& at(int row) { return of_[static_cast<std::size_t>(row)]; }
+    std::span<const std::uint32_t> beside(std::uint32_t row) const
+    {
+        return std::span(strong_.column).subspan(strong_.row_start[row], strong_.row_length(row));
+    }
 
     /// A row whose whole neighbourhood is free.
-    void seed(int row)
+    void seed(std::uint32_t row)
     {
-        for (Rows::InnerIterator it(strong_, row); it; ++it)
-            if (at(static_cast<int>(it.col())) != kNone)
+        for (const std::uint32_t other : beside(row))
+            if (of_[other] != kNone)
                 return;
         gather(row);
     }
 
-    void gather(int row)
+    void gather(std::uint32_t row)
     {
-        for (Rows::InnerIterator it(strong_, row); it; ++it)
-            if (at(static_cast<int>(it.col())) == kNone)
-                at(static_cast<int>(it.col())) = count_;
+        for (const std::uint32_t other : beside(row))
+            if (of_[other] == kNone)
+                of_[other] = count_;
         ++count_;
     }
 
     /// The aggregate that the row is coupled to most.
-    void join(int row, const std::vector<std::uint32_t>& seeded)
+    void join(std::uint32_t row, const std::vector<std::uint32_t>& seeded)
     {
         double most = 0;
-        for (Rows::InnerIterator it(strong_, row); it; ++it)
+        for (std::uint32_t k = strong_.row_start[row]; k < strong_.row_start[row + 1]; ++k)
         {
-            const std::uint32_t aggregate = seeded[static_cast<std::size_t>(it.col())];
-            if (aggregate == kNone || it.col() == row || std::abs(it.value()) <= most)
+            const std::uint32_t aggregate = seeded[strong_.column[k]];
+            const double coupling = std::abs(strong_.value[k]);
+            if (aggregate == kNone || strong_.column[k] == row || coupling <= most)
                 continue;
-            most = std::abs(it.value());
-            at(row) = aggregate;
+            most = coupling;
+            of_[row] = aggregate;
         }
     }
 
-    const Rows& strong_;
+    const SparseMatrix& strong_;
     std::vector<std::uint32_t> of_;
     std::uint32_t count_ = 0;
 };
 
 /// Columns of unit length: then coarse matrices keep the size of the fine one's entries.
-Rows tentative(const Aggregates& aggregates, int rows)
+SparseMatrix tentative(const Aggregates& aggregates, std::uint32_t rows)
 {
     std::vector<double> size(aggregates.count(), 0);
-    for (int row = 0; row < rows; ++row)
+    for (std::uint32_t row = 0; row < rows; ++row)
         if (aggregates.of(row) != kNone)
             size[aggregates.of(row)] += 1;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int row = 0; row < rows; ++row)
-        if (aggregates.of(row) != kNone)
-            entries.emplace_back(row, static_cast<int>(aggregates.of(row)),
-                             1 / std::sqrt(size[aggregates.of(row)]));
-    Rows out(rows, static_cast<int>(aggregates.count()));
-    out.setFromTriplets(entries.begin(), entries.end());
+    return build_rows(rows, aggregates.count(), [&]() -> RowWriter {
+        return [&](std::uint32_t row, auto& column, auto& value) {
+            if (aggregates.of(row) == kNone)
+                return;
+            column.push_back(aggregates.of(row));
+            value.push_back(1 / std::sqrt(size[aggregates.of(row)]));
+        };
+    });
+}
+
+void scale_rows(SparseMatrix& a, std::span<const double> by)
+{
+    for (std::uint32_t row = 0; row < a.rows; ++row)
+        for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
+            a.value[k] *= by[row];
+}
+
+SparseMatrix smoothed(const SparseMatrix& tentative, const SparseMatrix& strong)
+{
+    std::vector<double> scale = inverse_divisor(strong);
+    const double highest = gershgorin<std::uint32_t>(strong.row_start, strong.column, strong.value, scale);
+    for (double& value : scale)
+        value *= -kSmoothing / highest;
+    SparseMatrix image = product(strong, tentative);
+    scale_rows(image, scale);
+    return sum(tentative, image);
+}
+
+/// (A + A^T) / 2: exactly symmetric, which rounding of a product is not.
+SparseMatrix symmetric_part(const SparseMatrix& a)
+{
+    SparseMatrix out = sum(a, transpose(a));
+    for (double& value : out.value)
+        value *= 0.5;
     return out;
 }
 
-Rows smoothed(const Rows& tentative, const Rows& strong)
+Eigen::MatrixXd to_dense(const SparseMatrix& a)
 {
-    const Eigen::VectorXd inverse = divisor(strong).cwiseInverse();
-    const auto rows = static_cast<std::size_t>(strong.rows());
-    const auto entries = static_cast<std::size_t>(strong.nonZeros()); // setFromTriplets left no gaps
-    const double highest =
-        gershgorin<int>({strong.outerIndexPtr(), rows + 1}, {strong.innerIndexPtr(), entries},
-                        {strong.valuePtr(), entries}, {inverse.data(), rows});
-    const Eigen::VectorXd scale = (-kSmoothing / highest) * inverse;
-    Rows image = strong * tentative;
-    for (int row = 0; row < image.outerSize(); ++row)
-        for (Rows::InnerIterator it(image, row); it; ++it)
-            it.valueRef() *= scale[row];
-    return tentative + image;
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.rows, a.columns);
+    for (std::uint32_t row = 0; row < a.rows; ++row)
+        for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
+            out(row, a.column[k]) = a.value[k];
+    return out;
 }
 
-std::vector<double> pseudo_inverse(const Rows& a)
+std::vector<double> pseudo_inverse(const SparseMatrix& a)
 {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(a)};
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{to_dense(a)};
     Eigen::VectorXd inverse = solver.eigenvalues();
     const double least = 1e-12 * inverse.cwiseAbs().maxCoeff();
     for (double& value : inverse)
@@ -216,32 +219,32 @@ double AggregationHierarchy::operator_complexity() const
 
 AggregationHierarchy aggregate(const SparseMatrix& matrix, const AggregationOptions& options)
 {
+    check_indices(matrix.rows, "rows");
+    check_indices(matrix.nonzeros(), "entries");
     AggregationHierarchy out;
-    Rows a = to_eigen(matrix);
+    SparseMatrix a = matrix;
     double strength = options.strength;
-    for (int level = 1; level < options.most_levels && a.rows() > static_cast<int>(options.coarsest); ++level)
+    for (int level = 1; level < options.most_levels && a.rows > options.coarsest; ++level)
     {
-        const Rows strong = filtered(a, strength);
+        const SparseMatrix strong = filtered(a, strength);
         const Aggregates aggregates(strong);
-        if (aggregates.count() == 0 || aggregates.count() > kLeastShrinking * static_cast<double>(a.rows()))
+        if (aggregates.count() == 0 || aggregates.count() > kLeastShrinking * static_cast<double>(a.rows))
             break;
-        const Rows prolongation = smoothed(tentative(aggregates, static_cast<int>(a.rows())), strong);
-        const Rows restriction = prolongation.transpose();
-        out.levels.push_back({from_eigen(a), from_eigen(prolongation), from_eigen(restriction)});
-        const Rows half = a * prolongation;
-        Rows coarse = restriction * half;
-        const Rows mirrored = coarse.transpose();
-        a = 0.5 * (coarse + mirrored); // exactly symmetric, which rounding of the product is not
+        SparseMatrix prolongation = smoothed(tentative(aggregates, a.rows), strong);
+        SparseMatrix restriction = transpose(prolongation);
+        SparseMatrix coarse = symmetric_part(product(restriction, product(a, prolongation)));
+        out.levels.push_back({std::move(a), std::move(prolongation), std::move(restriction)});
+        a = std::move(coarse);
         strength /= 2;
     }
-    if (a.rows() > static_cast<int>(kMostCoarse))
-        throw Error(ErrorCode::limit, "aggregation stops at " + std::to_string(a.rows()) +
+    if (a.rows > kMostCoarse)
+        throw Error(ErrorCode::limit, "aggregation stops at " + std::to_string(a.rows) +
                                           " rows, and a direct solve "
                                           "of more than " +
                                           std::to_string(kMostCoarse) +
                                           " is too much: take another preconditioner");
-    out.levels.push_back({from_eigen(a), {}, {}});
     out.coarsest_inverse = pseudo_inverse(a);
+    out.levels.push_back({std::move(a), {}, {}});
     return out;
 }
 

@@ -2,6 +2,7 @@
 // Departures: the sum starts at b_i, and products are subtracted.
 
 #include "taut/linear/sparse.hpp"
+#include "taut/linear/sparse_algebra.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -92,13 +93,15 @@ void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double
 {
     refuse_size(x.size(), a.columns, "x", "columns");
     refuse_size(y.size(), a.rows, "y", "rows");
-    for (std::uint32_t i = 0; i < a.rows; ++i)
-    {
-        double sum = 0;
-        for (std::uint32_t k = a.row_start[i]; k < a.row_start[i + 1]; ++k)
-            sum += a.value[k] * x[a.column[k]];
-        y[i] = sum;
-    }
+    for_row_blocks(a.rows, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t i = first; i < last; ++i)
+        {
+            double sum = 0;
+            for (std::uint32_t k = a.row_start[i]; k < a.row_start[i + 1]; ++k)
+                sum += a.value[k] * x[a.column[k]];
+            y[i] = sum;
+        }
+    });
 }
 
 void residual(const SparseMatrix& a, std::span<const double> x, std::span<const double> b,
@@ -107,13 +110,15 @@ void residual(const SparseMatrix& a, std::span<const double> x, std::span<const 
     refuse_size(x.size(), a.columns, "x", "columns");
     refuse_size(b.size(), a.rows, "b", "rows");
     refuse_size(r.size(), a.rows, "r", "rows");
-    for (std::uint32_t i = 0; i < a.rows; ++i)
-    {
-        TwoSum sum{b[i], 0};
-        for (std::uint32_t k = a.row_start[i]; k < a.row_start[i + 1]; ++k)
-            sum.subtract_product(a.value[k], x[a.column[k]]);
-        r[i] = sum.value();
-    }
+    for_row_blocks(a.rows, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t i = first; i < last; ++i)
+        {
+            TwoSum sum{b[i], 0};
+            for (std::uint32_t k = a.row_start[i]; k < a.row_start[i + 1]; ++k)
+                sum.subtract_product(a.value[k], x[a.column[k]]);
+            r[i] = sum.value();
+        }
+    });
 }
 
 double relative_residual(const SparseMatrix& a, std::span<const double> x, std::span<const double> b,
