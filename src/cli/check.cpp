@@ -86,8 +86,8 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
     }
 }
 
-/// From the file to the plan, as far as it goes. A file that cannot be read is no issue of a scene and is
-/// thrown on.
+/// From the file to the plan, as far as it goes. A file that cannot be read, or memory that runs out, is no
+/// issue of a scene and is thrown on.
 std::vector<SceneIssue> find_issues(const std::string& file)
 {
     std::vector<SceneIssue> issues;
@@ -125,17 +125,20 @@ void print_json(const std::string& file, const std::vector<SceneIssue>& issues)
 
 int check_as_json(const std::string& file)
 {
+    std::vector<SceneIssue> issues;
+    Exit status = kDone;
     try
     {
-        const std::vector<SceneIssue> issues = find_issues(file);
-        print_json(file, issues);
-        return any_error(issues) ? kBadInput : kDone;
+        issues = find_issues(file);
+        status = any_error(issues) ? kBadInput : kDone;
     }
-    catch (const Error& error) // of the file, or of the machine: who reads JSON reads of it there, too
+    catch (const Error& error) // who reads JSON reads of it there
     {
-        print_json(file, {{true, "", error.what()}});
-        return exit_status(error.code());
+        issues = {{true, "", error.what()}};
+        status = exit_status(error.code());
     }
+    print_json(file, issues);
+    return status;
 }
 
 int check_scene(const std::string& file)

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -21,7 +22,7 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::uint32_t kMostCoarse = 1024;
 constexpr double kLeastShrinking = 2.0 / 3.0;
-constexpr std::uint64_t kMostIndices = 0x7fffffff; ///< rows or entries: products have more than their factors
+constexpr std::uint64_t kMostIndices = 0x7fffffff; ///< rows or entries: device formats number no more
 constexpr double kSmoothing = 4.0 / 3.0; ///< omega, over the largest eigenvalue of D^-1 A
 
 void check_indices(std::uint64_t count, const char* what)
@@ -62,7 +63,7 @@ SparseMatrix filtered(const SparseMatrix& a, double strength)
     });
 }
 
-/// What rows are divided by: the diagonal. A zero row has 1: it couples to nothing, so any number serves.
+/// 1 / diagonal. A zero row has 1: it couples to nothing, so any number serves.
 std::vector<double> inverse_divisor(const SparseMatrix& a)
 {
     std::vector<double> out = diagonal(a);
@@ -96,7 +97,8 @@ public:
     std::uint32_t of(std::uint32_t row) const { return of_[row]; }
 
 private:
-    std::span<const std::uint32_t> beside(std::uint32_t row) const
+    /// Itself, too: filtered() gives every row a diagonal.
+    std::span<const std::uint32_t> neighbours(std::uint32_t row) const
     {
         return std::span(strong_.column).subspan(strong_.row_start[row], strong_.row_length(row));
     }
@@ -104,7 +106,7 @@ private:
     /// A row whose whole neighbourhood is free.
     void seed(std::uint32_t row)
     {
-        for (const std::uint32_t other : beside(row))
+        for (const std::uint32_t other : neighbours(row))
             if (of_[other] != kNone)
                 return;
         gather(row);
@@ -112,7 +114,7 @@ private:
 
     void gather(std::uint32_t row)
     {
-        for (const std::uint32_t other : beside(row))
+        for (const std::uint32_t other : neighbours(row))
             if (of_[other] == kNone)
                 of_[other] = count_;
         ++count_;

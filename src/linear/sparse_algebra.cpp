@@ -1,5 +1,6 @@
 // Based on: Gustavson. Two Fast Algorithms for Sparse Matrices. TOMS 4(3), 1978.
 // Departures: blocks of rows are formed by threads and joined in order; columns of a row are sorted.
+// Transposes are formed by one thread.
 
 #include "taut/linear/sparse_algebra.hpp"
 
@@ -9,7 +10,9 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 namespace taut::linear {
 namespace {
@@ -33,13 +36,14 @@ public:
 
     void add(std::uint32_t column, double value)
     {
-        if (!in_[column])
+        if (in_[column])
         {
-            in_[column] = true;
-            sum_[column] = 0;
-            used_.push_back(column);
+            sum_[column] += value;
+            return;
         }
-        sum_[column] += value;
+        in_[column] = true;
+        sum_[column] = value;
+        used_.push_back(column);
     }
 
     void write(std::vector<std::uint32_t>& column, std::vector<double>& value)
@@ -70,9 +74,10 @@ std::vector<std::uint32_t> starts_of(const std::vector<Block>& blocks)
         {
             entries += length;
             if (entries >= 0xffffffffu)
-                throw Error(ErrorCode::limit,
-                            "a product of sparse matrices has 4294967295 entries or more: take another "
-                            "preconditioner");
+                throw Error(
+                    ErrorCode::limit,
+                    "a matrix of a preconditioner's set-up has 4294967295 entries or more: take another "
+                    "preconditioner");
             out.push_back(static_cast<std::uint32_t>(entries));
         }
     return out;
@@ -99,10 +104,15 @@ void for_row_blocks(std::uint32_t rows, const std::function<void(std::uint32_t, 
             next = blocks; // nobody begins another one
         }
     };
-    std::vector<std::jthread> others(std::min(blocks, std::max(1u, std::thread::hardware_concurrency())) -
-                                     (blocks > 0 ? 1 : 0));
-    for (std::jthread& thread : others)
-        thread = std::jthread(work);
+    std::vector<std::jthread> others;
+    try
+    {
+        const std::uint32_t wanted = std::min(blocks, std::max(1u, std::thread::hardware_concurrency()));
+        while (others.size() + 1 < wanted)
+            others.emplace_back(work);
+    }
+    catch (const std::system_error&)
+    {} // the system gives no more threads: those that there are do it
     work();
     others.clear(); // waits for them
     if (failure)
@@ -113,15 +123,27 @@ SparseMatrix build_rows(std::uint32_t rows, std::uint32_t columns,
                         const std::function<RowWriter()>& make_writer)
 {
     std::vector<Block> blocks(blocks_of(rows));
+    std::mutex guard;
+    std::vector<RowWriter> idle;
+    const auto take = [&] {
+        const std::lock_guard lock(guard);
+        if (idle.empty())
+            return make_writer();
+        RowWriter writer = std::move(idle.back());
+        idle.pop_back();
+        return writer;
+    };
     for_row_blocks(rows, [&](std::uint32_t first, std::uint32_t last) {
         Block& block = blocks[first / kBlock];
-        const RowWriter write = make_writer();
+        RowWriter write = take();
         for (std::uint32_t row = first; row < last; ++row)
         {
             const std::size_t before = block.column.size();
             write(row, block.column, block.value);
             block.length.push_back(static_cast<std::uint32_t>(block.column.size() - before));
         }
+        const std::lock_guard lock(guard);
+        idle.push_back(std::move(write));
     });
     SparseMatrix out{rows, columns, starts_of(blocks), {}, {}};
     out.column.resize(out.row_start.back());

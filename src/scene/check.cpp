@@ -86,7 +86,7 @@ void check_scene(const Scene& scene, const Checker& out)
         out.error("taut", "is " + std::to_string(scene.version) + "; this library reads version 1");
     check_times(scene, out);
     if (scene.bodies.empty())
-        out.warning("bodies", "is empty; there is nothing to simulate");
+        out.warning("bodies", "has none; there is nothing to simulate");
     warn_of_odd_gravity(scene, out);
     warn_of_idle_wind(scene, out);
     check_groups(scene, out);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <cmath>
 
 namespace taut::scene_file {
@@ -74,6 +75,9 @@ void Field::fail_at(std::string_view key, const std::string& text, const std::st
 
 std::string Field::path_of(std::string_view key) const
 {
+    const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '$'; };
+    if (key.empty() || key.size() > 60 || !std::all_of(key.begin(), key.end(), plain))
+        return path_ + '[' + shown_value(std::string(key)) + ']'; // what a file may have for a key
     return (path_.empty() ? "" : path_ + ".") + std::string(key);
 }
 
@@ -90,12 +94,15 @@ const Field& Field::object(const Table& table)
             continue;
         const std::string_view hint = advice(table, item.key());
         const std::string close = nearest(item.key(), known);
-        const std::string right = !hint.empty()   ? std::string(hint)
-                                  : close.empty() ? "it may have " + listing(known)
-                                                  : "did you mean \"" + close + "\"?";
+        const auto right = [&](const char* all) {
+            return !hint.empty()   ? std::string(hint)
+                   : close.empty() ? all + listing(known)
+                                   : "did you mean \"" + close + "\"?";
+        };
         attempt([&] {
-            fail_at(item.key(), "has the unknown key " + shown_value(item.key()) + "; " + right,
-                    "is an unknown key; " + right);
+            fail_at(item.key(),
+                    "has the unknown key " + shown_value(item.key()) + "; " + right("it may have "),
+                    "is an unknown key; " + right("its object may have "));
         });
     }
     table_ = &table;

@@ -56,6 +56,20 @@ TEST_CASE("a check of a file lists unknown and missing keys under their own path
     CHECK_THAT(found, Catch::Matchers::UnorderedEquals(expected));
 }
 
+TEST_CASE("a key that no path can have stands in brackets, in quotes and short")
+{
+    const Temporary folder;
+    const auto field_of = [&](const std::string& key) {
+        const auto issues = check_file(folder.write("some.json", "{\"taut\": 1, \"" + key + "\": 1}"));
+        REQUIRE(!issues.empty());
+        return issues[0].field;
+    };
+    CHECK(field_of("") == "[\"\"]");
+    CHECK(field_of("method.substeps") == "[\"method.substeps\"]");
+    CHECK(field_of("\\u001b[2J") == "[\"\\u001b[2J\"]");
+    CHECK(field_of(std::string(5000, 'x')).size() < 70);
+}
+
 TEST_CASE("a scene without bodies is told that nothing happens in it")
 {
     const std::vector<SceneIssue> issues = check(Scene());
