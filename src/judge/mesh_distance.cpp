@@ -6,15 +6,14 @@
 #include "taut/judge/mesh_distance.hpp"
 
 #include "taut/judge/distance.hpp"
+#include "taut/runtime/base/in_parallel.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <thread>
 #include <utility>
 
 namespace taut::judging {
@@ -120,18 +119,11 @@ DistanceField make_distance_field(const MeshDistance& surface, std::span<const g
             static_cast<std::uint32_t>(std::ceil(size[axis] / cell)) + 1;
     out.low = 0.5 * (box.low + box.high) - out.half_size();
     out.values.resize(std::size_t(out.points[0]) * out.points[1] * out.points[2]);
-    std::atomic<std::uint32_t> next = 0;
-    const auto fill = [&] {
-        for (std::uint32_t k = next++; k < out.points[2]; k = next++)
-            for (std::size_t j = 0; j < out.points[1]; ++j)
-                for (std::size_t i = 0; i < out.points[0]; ++i)
-                    out.values[out.index(i, j, k)] = static_cast<float>(surface.at(out.place(i, j, k)));
-    };
-    std::vector<std::jthread> others(std::max(1u, std::thread::hardware_concurrency()) - 1);
-    for (std::jthread& thread : others)
-        thread = std::jthread(fill);
-    fill();
-    others.clear(); // waits for them
+    in_parallel(out.points[2], [&](std::uint32_t k) {
+        for (std::size_t j = 0; j < out.points[1]; ++j)
+            for (std::size_t i = 0; i < out.points[0]; ++i)
+                out.values[out.index(i, j, k)] = static_cast<float>(surface.at(out.place(i, j, k)));
+    });
     return out;
 }
 

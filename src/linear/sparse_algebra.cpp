@@ -5,13 +5,10 @@
 #include "taut/linear/sparse_algebra.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/in_parallel.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
-#include <system_error>
-#include <thread>
 #include <utility>
 
 namespace taut::linear {
@@ -87,36 +84,10 @@ std::vector<std::uint32_t> starts_of(const std::vector<Block>& blocks)
 
 void for_row_blocks(std::uint32_t rows, const std::function<void(std::uint32_t, std::uint32_t)>& body)
 {
-    std::atomic<std::uint32_t> next = 0;
-    std::mutex guard;
-    std::exception_ptr failure;
-    const std::uint32_t blocks = blocks_of(rows);
-    const auto work = [&] {
-        try
-        {
-            for (std::uint32_t k = next++; k < blocks; k = next++)
-                body(k * kBlock, std::min(rows - k * kBlock, kBlock) + k * kBlock);
-        }
-        catch (...)
-        {
-            const std::lock_guard lock(guard);
-            failure = failure ? failure : std::current_exception();
-            next = blocks; // nobody begins another one
-        }
-    };
-    std::vector<std::jthread> others;
-    try
-    {
-        const std::uint32_t wanted = std::min(blocks, std::max(1u, std::thread::hardware_concurrency()));
-        while (others.size() + 1 < wanted)
-            others.emplace_back(work);
-    }
-    catch (const std::system_error&)
-    {} // the system gives no more threads: those that there are do it
-    work();
-    others.clear(); // waits for them
-    if (failure)
-        std::rethrow_exception(failure);
+    in_parallel(blocks_of(rows), [&](std::uint32_t k) {
+        const std::uint32_t first = k * kBlock;
+        body(first, first + std::min(rows - first, kBlock));
+    });
 }
 
 SparseMatrix build_rows(std::uint32_t rows, std::uint32_t columns,

@@ -7,6 +7,7 @@
 #include "taut/report/reference_dynamic.hpp"
 
 #include "taut/report/contact.hpp"
+#include "taut/runtime/base/in_parallel.hpp"
 #include "taut/runtime/base/shown.hpp"
 
 #include <glm/geometric.hpp>
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 namespace taut {
 namespace {
@@ -190,16 +190,17 @@ std::vector<Frames> run_levels(const PhysicalModel& model, Scheme scheme, std::u
         out[l] = MotionRun(model, scheme, coarsest << l).frames(frame_count);
     };
     const std::uint32_t finest = options.levels - 1;
-    if (options.two_threads)
-    {
-        std::thread beside([&] { level(finest); });
+    const auto coarser = [&] {
         for (std::uint32_t l = 0; l < finest; ++l)
             level(l);
-        beside.join();
-    }
+    };
+    if (options.two_threads)
+        in_parallel(2, [&](std::uint32_t k) { k == 0 ? level(finest) : coarser(); });
     else
-        for (std::uint32_t l = 0; l <= finest; ++l)
-            level(l);
+    {
+        coarser();
+        level(finest);
+    }
     return out;
 }
 
