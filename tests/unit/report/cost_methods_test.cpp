@@ -99,7 +99,8 @@ TEST_CASE("a block is what a scene takes as its method, and gives the same setti
         {
             const std::string block = settings_block(settings);
             INFO(block);
-            const Scene scene = parse_scene(R"({"taut": 1, "method": )" + block + "}");
+            const Scene scene =
+                parse_scene(R"({"taut": 1, "bodies": [{"grid": {}}], "method": )" + block + "}");
             CHECK(settings_block(scene.method) == block);
             CHECK(check(scene).empty());
             CHECK(scene.method.substeps == settings.substeps);
