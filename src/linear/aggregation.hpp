@@ -38,7 +38,7 @@ struct AggregationHierarchy
 /// Problems. Computing 56, 1996: algorithm 5.1 (aggregates),
 /// section 4 (the smoothed prolongation, here of constants). Stops early where aggregates no longer shrink
 /// the system to two thirds; the last matrix may then be larger than `coarsest`, but Error{limit} beyond
-/// 1,024 rows.
+/// 1,024 rows. Products and sums of matrices run on all cores; the answer has the same bits on any number.
 AggregationHierarchy aggregate(const SparseMatrix&, const AggregationOptions& = {});
 
 } // namespace taut::linear

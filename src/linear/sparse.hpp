@@ -49,11 +49,12 @@ SparseMatrix from_dense(std::uint32_t rows, std::uint32_t columns, std::span<con
 /// In order of row, then column.
 std::vector<Triplet> to_triplets(const SparseMatrix&);
 
-/// y = A x in fp64, each row in order of its columns. Sizes must fit (Error{bad_input}).
+/// y = A x in fp64, each row in order of its columns; rows are shared out among all cores. Sizes must fit
+/// (Error{bad_input}).
 void multiply(const SparseMatrix&, std::span<const double> x, std::span<double> y);
 
 /// r = b - A x, every entry as if computed in twice the working precision and rounded (Ogita, Rump, Oishi.
-/// Accurate Sum and Dot Product. SISC 2005, Dot2): the judge of every solve.
+/// Accurate Sum and Dot Product. SISC 2005, Dot2): the judge of every solve. On all cores, too.
 void residual(const SparseMatrix&, std::span<const double> x, std::span<const double> b, std::span<double> r);
 
 /// |b - A x| / |b| in the 2-norm, safe from overflow; |A x| where b = 0. Rows of `held` are left out.

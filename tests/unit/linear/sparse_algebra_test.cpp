@@ -6,6 +6,7 @@
 #include "taut/runtime/base/error.hpp"
 
 #include <algorithm>
+#include <map>
 #include <random>
 
 using namespace taut;
@@ -100,6 +101,28 @@ TEST_CASE("rows are formed once each, also where many blocks of them are shared 
     }
     CHECK(diagonal(product(transpose(a), a))[kRows - 1] == 4);
     CHECK(product(SparseMatrix{}, SparseMatrix{}).nonzeros() == 0);
+}
+
+TEST_CASE("threads change no bit: a product is that of one loop over rows, in order", "[linear]")
+{
+    SparseMatrix a = poisson3d(30); // 27,000 rows: more than a block
+    for (std::size_t k = 0; k < a.value.size(); ++k)
+        a.value[k] /= 3.0 + static_cast<double>(k % 7); // sums that round
+    const SparseMatrix squared = product(a, a);
+    std::vector<Triplet> serial;
+    for (std::uint32_t row = 0; row < a.rows; ++row)
+    {
+        std::map<std::uint32_t, double> sums;
+        for (std::uint32_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
+            for (std::uint32_t l = a.row_start[a.column[k]]; l < a.row_start[a.column[k] + 1]; ++l)
+                sums[a.column[l]] += a.value[k] * a.value[l];
+        for (const auto& [column, value] : sums)
+            serial.push_back({row, column, value});
+    }
+    const SparseMatrix expected = from_triplets(a.rows, a.columns, serial);
+    CHECK(squared.row_start == expected.row_start);
+    CHECK(squared.column == expected.column);
+    CHECK(squared.value == expected.value);
 }
 
 TEST_CASE("what a block of rows throws ends all of them and is thrown on", "[linear]")
