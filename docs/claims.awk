@@ -87,6 +87,7 @@ files == 1 { sub(/^ *(- )?/, ""); if (showing || whole) shown = shown " " $0; ne
 {
     n = cells($0)
     row_name[table, ++rows[table]] = cell[1]
+    second[table, rows[table]] = cell[2]
     for (i = 1; i <= columns; ++i)
         value[table, cell[1], head[i]] = value[table, cell[1] " " cell[2], head[i]] = \
             value[table, cell[1] " " cell[2] " " cell[3], head[i]] = i <= n ? cell[i] : ""

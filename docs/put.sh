@@ -15,6 +15,14 @@ put()
     mv "$scratch/page.md" "$1"
 }
 
+# put_table PAGE PART FILE: a CSV file, as it stands, as the table of a part; columns of numbers are not told apart.
+put_table()
+{
+    awk -f docs/table.awk -f docs/claims.awk "$3" |
+        awk '{ print } NR == 1 { gsub(/[^|]+/, "---"); print }' > "$scratch/put_table.md"
+    put "$1" "$2" "$scratch/put_table.md"
+}
+
 # figure NAME SCENE VARIANT...: runs the variants of a scene, keeps table and picture beside the page, and the curves
 # over time of those that `curves` names. For pages whose figures are comparisons: `program` is the built taut, `page`
 # is docs/X.md, `wanted` is " NAME NAME " or two blanks for all, `curves` is " NAME NAME " or nothing.
@@ -60,4 +68,15 @@ check_bench()
     sed -n "/^<!-- $2 -->\$/,/^<!-- end -->\$/p" "$1" | awk '/^\|/ { ++n; if (n > 2) print; next } n { exit }' > "$scratch/of_page"
     awk -v percent="${4:-0}" -f bench/rows.awk -f claims.awk "$scratch/of_page" "../tests/bench/results/$3" ||
         { echo "$1: the table \"$2\" is not $3" >&2; return 1; }
+}
+
+# check_numbers PAGE PART FILE KEYS [TABLE [COLUMNS]]: the numbers of a part's table (the first, or TABLE) that is laid out
+# otherwise than its file are fields of the rows that its first KEYS cells choose (bench/numbers.awk); COLUMNS are left out.
+check_numbers()
+{
+    sed -n "/^<!-- $2 -->\$/,/^<!-- end -->\$/p" "$1" | awk -v wanted="${5:-1}" '
+        /^\|/ { if (!inside) { ++table; head = 2 } inside = 1; if (table == wanted && head <= 0) print; --head; next }
+        { inside = 0 }' > "$scratch/of_page"
+    awk -v keys="$4" -v skip=" ${6:-} " -f bench/numbers.awk -f claims.awk "$scratch/of_page" "$3" ||
+        { echo "$1: table ${5:-1} of \"$2\" is not of $3" >&2; return 1; }
 }

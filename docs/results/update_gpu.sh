@@ -13,6 +13,6 @@ trap 'rm -rf "$scratch"' EXIT
 . docs/put.sh
 
 TAUT_PAGE_PARTS=$scratch "$program" "Writes the parts of the page" > "$scratch/log" || { cat "$scratch/log" >&2; exit 1; }
-for part in gpus cloth effects dispatches gradients; do
+for part in gpus cloth passes dispatches gradients; do
     put "$page" "$part" "$scratch/$part"
 done

@@ -39,5 +39,4 @@ for scene in "$@"; do
     } > "$scratch/tune.csv"
     mv "$scratch/tune.csv" $table
 done
-awk -f docs/table.awk -f docs/claims.awk $table | sed '1s/$/\n|---|---|---|---|---|---|---|---|---|---|/' > "$scratch/tune.md"
-put docs/tune.md tune "$scratch/tune.md"
+put_table docs/tune.md tune $table

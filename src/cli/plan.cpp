@@ -62,7 +62,7 @@ Json to_json(const PlanCommand& options, const Plan& plan, const std::string& de
     Json effects = Json::array();
     for (const EffectCost& effect : plan.effects)
         effects.push_back({{"name", effect.name},
-                           {"kernels", effect.kernels},
+                           {"kernels", effect.kernel_names()},
                            {"dispatches_per_step", effect.dispatches_per_step},
                            {"bytes_allocated", effect.bytes_allocated},
                            {"bytes_per_step", effect.bytes_per_step}});
@@ -102,7 +102,8 @@ std::string to_table(const Plan& plan)
     }
     std::string text = table(rows) + "\nkernels\n";
     for (const EffectCost& effect : plan.effects)
-        text += wrapped(effect.name + std::string(longest - effect.name.size(), ' '), effect.kernels, 100);
+        text +=
+            wrapped(effect.name + std::string(longest - effect.name.size(), ' '), effect.kernel_names(), 100);
     text += "\n";
     text += std::to_string(plan.vertex_count) + " vertices, " + std::string(to_string(plan.precision)) +
             ", " + std::to_string(plan.substeps) + " substeps of " + std::to_string(plan.iterations) +

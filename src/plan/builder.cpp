@@ -157,7 +157,7 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
     pass.count = count;
     pass.indirect = indirect;
     pass.label = std::string(effect);
-    EffectCost& cost = cost_of(effect);
+    std::uint64_t bytes = 0;
     for (std::size_t slot = 0; slot < uses.size(); ++slot)
     {
         const PlanBuffer& buffer = plan.buffers[uses[slot].buffer];
@@ -166,9 +166,9 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
         const std::uint64_t touched =
             std::min<std::uint64_t>(buffer.bytes, elements * uses[slot].touched * binding.stride);
         if (binding.access != Access::count)
-            cost.bytes_per_step += touched * (binding.access == Access::update ? 2 : 1);
+            bytes += touched * (binding.access == Access::update ? 2 : 1);
     }
-    add_pass(effect, std::move(pass));
+    add_pass(effect, std::move(pass), bytes);
 }
 
 void PlanBuilder::dispatch_by_name(std::string_view effect, std::string_view name,
@@ -188,14 +188,18 @@ void PlanBuilder::dispatch_by_name(std::string_view effect, std::string_view nam
                  elements == 0 ? count : elements);
 }
 
-void PlanBuilder::add_pass(std::string_view effect, Dispatch pass)
+void PlanBuilder::add_pass(std::string_view effect, Dispatch pass, std::uint64_t bytes)
 {
     EffectCost& cost = cost_of(effect);
-    const KernelInfo& kernel = *pass.kernel;
-    const std::string word = full_name(kernel);
-    if (std::find(cost.kernels.begin(), cost.kernels.end(), word) == cost.kernels.end())
-        cost.kernels.push_back(word);
+    const std::string name = full_name(*pass.kernel);
+    auto kernel = std::find_if(cost.kernels.begin(), cost.kernels.end(),
+                               [&](const KernelCost& known) { return known.name == name; });
+    if (kernel == cost.kernels.end())
+        kernel = cost.kernels.insert(kernel, KernelCost{name});
+    ++kernel->dispatches_per_step;
+    kernel->bytes_per_step += bytes;
     ++cost.dispatches_per_step;
+    cost.bytes_per_step += bytes;
     plan.passes.push_back(std::move(pass));
 }
 
@@ -230,18 +234,19 @@ void PlanBuilder::record(std::string_view effect, const std::function<void(Recor
     for (Dispatch& pass : desc.dispatches)
     {
         check_pass_count();
+        std::uint64_t bytes = 0;
         for (std::size_t slot = 0; slot < pass.bindings.size(); ++slot)
         {
             BufferRange& range = pass.bindings[slot];
             range.buffer = adopt(effect, desc.buffers[range.buffer]);
             const Access access = pass.kernel->bindings[slot].access;
             if (access != Access::count && !idle)
-                cost_of(effect).bytes_per_step += range.bytes * (access == Access::update ? 2 : 1);
+                bytes += range.bytes * (access == Access::update ? 2 : 1);
         }
         if (pass.indirect.buffer != kNoBuffer)
             pass.indirect.buffer = adopt(effect, desc.buffers[pass.indirect.buffer]);
         pass.label = std::string(effect);
-        add_pass(effect, std::move(pass));
+        add_pass(effect, std::move(pass), bytes);
     }
 }
 

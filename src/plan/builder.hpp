@@ -210,7 +210,7 @@ private:
                       std::span<const std::byte> params, std::uint32_t count, std::uint64_t elements,
                       BufferRange indirect = {kNoBuffer, 0, 0});
     void check_pass_count() const;
-    void add_pass(std::string_view effect, Dispatch pass);
+    void add_pass(std::string_view effect, Dispatch pass, std::uint64_t bytes);
     EffectCost& cost_of(std::string_view effect);
 
     std::int64_t apart_ = 0; ///< passes beyond those of the plan, if no colours were grouped

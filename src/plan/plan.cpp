@@ -195,6 +195,14 @@ Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOpti
     return std::move(builder.plan);
 }
 
+std::vector<std::string> EffectCost::kernel_names() const
+{
+    std::vector<std::string> names;
+    for (const KernelCost& kernel : kernels)
+        names.push_back(kernel.name);
+    return names;
+}
+
 std::uint64_t Plan::bytes_allocated() const
 {
     std::uint64_t bytes = 0;

@@ -63,14 +63,24 @@ struct PlanBuffer
     bool host_written = false;      ///< new contents before every step
 };
 
+/// What the passes of one kernel cost in one time step, of those that an effect asked for.
+struct KernelCost
+{
+    std::string name; ///< "distance", "distance:lambda"
+    std::uint64_t dispatches_per_step = 0;
+    std::uint64_t bytes_per_step = 0; ///< as of an effect
+};
+
 /// What one effect costs in one time step.
 struct EffectCost
 {
     std::string name;
-    std::vector<std::string> kernels; ///< "distance", "distance:lambda"
+    std::vector<KernelCost> kernels; ///< in order of their first pass
     std::uint64_t dispatches_per_step = 0;
     std::uint64_t bytes_allocated = 0;
     std::uint64_t bytes_per_step = 0; ///< bytes of bindings touched, an upper bound of the traffic
+
+    std::vector<std::string> kernel_names() const;
 };
 
 /// Where the constraints of one kind went.

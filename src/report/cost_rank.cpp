@@ -133,9 +133,16 @@ std::vector<CostFloor> cost_floors(const CostStudy& study, const CostPoint* poin
 
 std::vector<PlotFloor> plot_floors(const CostStudy& study)
 {
+    const std::vector<CostFloor> floors = cost_floors(study);
+    const auto has = [&](std::string_view word) {
+        return std::any_of(floors.begin(), floors.end(), [&](const CostFloor& f) { return f.word == word; });
+    };
+    const bool compares =
+        has("float") && has("double"); // precisions: then both roundings are what is looked for
     std::vector<PlotFloor> out;
-    for (const CostFloor& floor : cost_floors(study))
-        out.push_back({floor.error, floor.words, floor.word == "reference" || floor.word == "rest"});
+    for (const CostFloor& floor : floors)
+        out.push_back({floor.error, floor.words, floor.word == "reference" || floor.word == "rest",
+                       compares && (floor.word == "float" || floor.word == "double")});
     return out;
 }
 

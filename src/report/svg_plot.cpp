@@ -57,6 +57,9 @@ struct Look
 };
 
 /// Both axes of a plot.
+/// Floors further below all points would only squeeze them.
+constexpr double kFar = 1e-2;
+
 struct Area
 {
     explicit Area(const Plot& plot) : linear(plot.x_linear), most(plot.y_most)
@@ -73,7 +76,7 @@ struct Area
                         high[k] = std::max(high[k], k == 0 ? p.x : p.y);
                     }
         for (const PlotFloor& floor : plot.floors)
-            if (floor.y > 0 && floor.y < low[1] && floor.y > 1e-2 * low[1]) // far below it would only squeeze
+            if (floor.y > 0 && floor.y < low[1] && (floor.always || floor.y > kFar * low[1]))
                 low[1] = floor.y;
         x = axis_of(low[0], high[0], linear, kLeft, kLeft + kWide);
         y = axis_of(low[1], high[1], false, kTop + kHigh, kTop);

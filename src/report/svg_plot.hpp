@@ -34,7 +34,8 @@ struct PlotFloor
 {
     double y = 0;
     std::string words;
-    bool of_all = true; ///< shaded below; else of some points alone, a line
+    bool of_all = true;  ///< shaded below; else of some points alone, a line
+    bool always = false; ///< drawn however far below all points it lies
 };
 
 struct Plot

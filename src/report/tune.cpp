@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace taut {
@@ -82,12 +83,9 @@ private:
             fits = fit_reference(start, out_.bound);
         out_.reference = start.reference;
         out_.metric = start.metric;
-        if (!fits)
-        {
-            out_.answer = start.reference.verified ? TuneAnswer::poor_reference : TuneAnswer::no_reference;
-            out_.why = start.reference.verified ? poor_reference(out_) : no_reference(out_, options_);
+        std::tie(out_.answer, out_.why) = refusal(start, fits, out_, options_);
+        if (!out_.why.empty())
             return false;
-        }
         if (out_.kind == CostKind::at_rest)
             return true;
         out_.frames = references_.frames = start.frames;

@@ -67,6 +67,14 @@ glm::dvec3 direction(std::uint32_t number, std::uint32_t which)
     return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
+/// Bodies that start nearer than their thickness push each other out: that is no wandering.
+void leave_contact_out(Scene& scene)
+{
+    scene.contact = {};
+    for (Body& body : scene.bodies)
+        body.contact = {};
+}
+
 } // namespace
 
 Verdict momentum_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
@@ -98,6 +106,7 @@ Verdict rest_guard(const Scene& resolved, const std::shared_ptr<Device>& device,
     Scene scene = alone(resolved, settings);
     const double weight = std::max(1.0, glm::length(scene.gravity)); // what forces are compared with
     scene.gravity = {0, 0, 0};
+    leave_contact_out(scene);
     for (Body& body : scene.bodies)
     {
         if (!body.kinematic.used) // it rests where its motion begins

@@ -92,6 +92,11 @@ struct Start
     std::size_t frames = 0; ///< moving: of the last rung
 };
 
+/// Why nothing can be tried by the reference of the scene's own start, which `fits` the bound or does not;
+/// what `result` says and an empty text where it can.
+std::pair<TuneAnswer, std::string> refusal(const Start& start, bool fits, const TuneResult& result,
+                                           const TuneOptions& options);
+
 /// The scene with at least the damping that brings a pendulum as long as it is to rest the fastest. Where
 /// bodies come to rest does not depend on it, unless they remember how they got there (contacts, plasticity,
 /// tearing): then the scene is as it was.
@@ -127,6 +132,7 @@ private:
 // What a result says in words, with what would help (tune_words.cpp).
 std::string no_reference(const TuneResult& result, const TuneOptions& options);
 std::string poor_reference(const TuneResult& result);
+std::string unsound_reference(std::uint64_t inverted, const Accept& accept);
 std::string none_of_tried(const TuneResult& result);
 /// Of the frames that a scene wants: so many have a reference, and so many of those one that is good enough.
 std::string frames_note(std::size_t good, std::size_t verified, std::size_t wanted);

@@ -103,6 +103,21 @@ bool still(const Start& start, std::size_t frame)
 
 } // namespace
 
+std::pair<TuneAnswer, std::string> refusal(const Start& start, bool fits, const TuneResult& result,
+                                           const TuneOptions& options)
+{
+    if (!start.reference.verified)
+        return {TuneAnswer::no_reference, no_reference(result, options)};
+    if (!fits)
+        return {TuneAnswer::poor_reference, poor_reference(result)};
+    const bool ends = !start.reference.frames.empty(); // by volume there is none to end
+    const std::uint64_t inverted =
+        ends ? measure_volume(start.scene, start.reference.frames.back()).inverted : 0;
+    if (inverted > start.scene.accept.inverted)
+        return {TuneAnswer::unsound_reference, unsound_reference(inverted, start.scene.accept)};
+    return {result.answer, ""};
+}
+
 Scene damped_to_rest(const Scene& resolved)
 {
     Scene out = resolved;

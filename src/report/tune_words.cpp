@@ -47,6 +47,7 @@ std::string_view to_string(TuneAnswer answer)
     case TuneAnswer::found: return "found";
     case TuneAnswer::no_reference: return "no_reference";
     case TuneAnswer::poor_reference: return "poor_reference";
+    case TuneAnswer::unsound_reference: return "unsound_reference";
     case TuneAnswer::none_of_tried: break;
     }
     return "none_of_tried";
@@ -121,6 +122,15 @@ std::string poor_reference(const TuneResult& result)
     return text + (result.kind == CostKind::moving
                        ? "; fewer --frames, more --seconds or more --reference-steps may have a better one."
                        : ".");
+}
+
+std::string unsound_reference(std::uint64_t inverted, const Accept& accept)
+{
+    return "The reference ends with " + std::to_string(inverted) +
+           " tetrahedra inside out, accept.inverted is " + std::to_string(accept.inverted) +
+           ", so nothing was tried: a run that comes near it is `unconverged`, whatever its setting. The "
+           "material "
+           "does not carry its load: take a stiffer one, or one that keeps its volume, or accept more.";
 }
 
 std::string none_of_tried(const TuneResult& result)

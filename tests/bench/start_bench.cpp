@@ -1,7 +1,7 @@
-// What a run costs besides its steps: taut_start_bench [N]   cloth of N x N cells, 2 to 512; default 1024
-// Each part of a start and what follows the last step, in seconds of processor time (all threads, so that
-// neighbours on the machine count little) and in steps of the same cloth on one core, then how much memory
-// the process has held at most up to there, over the bytes that the plan allocates.
+// What a run costs besides its steps, as CSV: taut_start_bench [N]   cloth of N x N cells, 2 to 512; default
+// 1024 Each part of a start and what follows the last step, in seconds of processor time (all threads, so
+// that neighbours on the machine count little) and in steps of the same cloth on one core, then how much
+// memory the process has held at most up to there, over the bytes that the plan allocates.
 
 #include "conditions.hpp"
 
@@ -69,7 +69,7 @@ void print_table(const char* scene, std::uint32_t cells, const std::vector<Part>
                  double plan_bytes)
 {
     for (const Part& part : parts)
-        std::printf("| %s, %u² cells | %s | %.3f | %.1f | %.1f |\n", scene, cells, part.name, part.seconds,
+        std::printf("\"%s, %u² cells\",\"%s\",%.3f,%.1f,%.1f\n", scene, cells, part.name, part.seconds,
                     part.seconds / step, part.peak / plan_bytes);
 }
 
@@ -126,7 +126,7 @@ int main(int argc, char** argv)
     try
     {
         const std::uint32_t cells = bench::sides(argc, argv, 1, {1024}).front();
-        std::printf("%s\n\n| scene | part | s | steps | peak, plans |\n|---|---|---|---|---|\n",
+        std::printf("# %s\nscene,part,s,steps,\"peak, plans\"\n",
                     bench::conditions("taut_start_bench", argc, argv).c_str());
         measure_apart("springs along edges", cells, false);
         measure_apart("network", cells, true);

@@ -124,6 +124,20 @@ TEST_CASE("solve makes a right-hand side from a known x and says how far off it 
     CHECK(folder.list("").size() == 3); // the matrix and the two captured streams
 }
 
+TEST_CASE("solve takes the largest numbers for what they are", "[solve]")
+{
+    const Folder folder;
+    const std::string a = folder.file("a.mtx", "%%MatrixMarket matrix array real general\n1 1\n1e5\n");
+    const std::string b = folder.file("b.mtx", vector({1.7e308})); // its square is beyond double
+    for (const char* format : {"dense", "coo", "csr", "ell", "sell"})
+    {
+        const auto json = solved(folder, {a, b, "--format", format, "--out", folder / "x.mtx"});
+        CHECK((json["status"] == "converged" && json["format"] == format));
+        for (const double x : values_of(folder / "x.mtx"))
+            CHECK(x / 1e303 == Approx(1.7));
+    }
+}
+
 TEST_CASE("solve takes b from a file and writes x and the history, whole", "[solve]")
 {
     const Folder folder;

@@ -95,7 +95,7 @@ Roofs roofs_of(const Work& work, const Gpu& gpu, double latency = kRecorded.seco
 /// largest cloth and of the largest system; 1024 on the page.
 std::string page_gpus();
 std::string page_cloth(const Table& table, std::uint32_t most);
-std::string page_effects(const Table& table);
+std::string page_passes(const Table& table);
 std::string page_dispatches(const Table& table, std::uint32_t most);
 std::string page_gradients(const Table& table, std::uint32_t most);
 

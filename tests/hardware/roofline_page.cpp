@@ -11,6 +11,7 @@
 #include "taut/linear/sparse.hpp"
 #include "taut/plan/plan.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/runtime/limits.hpp"
 #include "taut/runtime/paper_device.hpp"
 #include "taut/scene/settings.hpp"
 
@@ -43,22 +44,39 @@ const Step& cloth(std::uint32_t cells)
     return made[cells] = {std::move(plan.passes), std::move(plan.effects), double(plan.substeps)};
 }
 
-/// The work of a plan by effect.
-std::map<std::string, Work> by_effect(const Table& table, const std::string& family, const Step& plan)
+/// The passes of one kernel in a step, of those that one effect asked for.
+struct KernelWork
 {
-    std::map<std::string, Work> out;
-    for (const Dispatch& pass : plan.passes)
-        out[pass.label] += work_of(table, family, pass);
+    std::string effect, kernel;
+    double invocations = 0; ///< of all its passes
+    Work work;
+};
+
+/// The work of a plan by effect and kernel, in order of the plan.
+std::vector<KernelWork> by_kernel(const Table& table, const std::string& family, const Step& plan)
+{
+    std::vector<KernelWork> out;
     for (const EffectCost& effect : plan.effects)
-        out[effect.name].bytes += static_cast<double>(effect.bytes_per_step);
+        for (const KernelCost& kernel : effect.kernels)
+        {
+            KernelWork& part = out.emplace_back(KernelWork{effect.name, kernel.name, 0, {}});
+            part.work.bytes = static_cast<double>(kernel.bytes_per_step);
+            for (const Dispatch& pass : plan.passes)
+                if (pass.label == effect.name && full_name(*pass.kernel) == kernel.name)
+                {
+                    part.work += work_of(table, family, pass);
+                    part.invocations +=
+                        double(group_count(*pass.kernel, pass.count)) * pass.kernel->group_size;
+                }
+        }
     return out;
 }
 
-Work total(const std::map<std::string, Work>& parts)
+Work total(const std::vector<KernelWork>& parts)
 {
     Work out;
-    for (const auto& [name, work] : parts)
-        out += work;
+    for (const KernelWork& part : parts)
+        out += part.work;
     return out;
 }
 
@@ -86,12 +104,13 @@ constexpr const char* kRoofHead = " bytes | instructions | waves | dispatches | 
 /// Effects that have several passes a substep because of colours.
 bool is_coloured(const std::string& effect) { return effect == "distance" || effect == "bending"; }
 
-double passes(const std::map<std::string, Work>& parts, bool coloured)
+/// Passes of a step that have colours, or those that have none; of one effect alone if it is named.
+double passes(const std::vector<KernelWork>& parts, bool coloured, std::string_view effect = {})
 {
     double out = 0;
-    for (const auto& [name, work] : parts)
-        if (is_coloured(name) == coloured)
-            out += static_cast<double>(work.dispatches);
+    for (const KernelWork& part : parts)
+        if (is_coloured(part.effect) == coloured && (effect.empty() || effect == part.effect))
+            out += static_cast<double>(part.work.dispatches);
     return out;
 }
 
@@ -155,7 +174,7 @@ std::string page_cloth(const Table& table, std::uint32_t most)
         const Step& plan = cloth(cells);
         for (const Gpu& gpu : kGpus)
         {
-            const Work work = total(by_effect(table, gpu.family, plan));
+            const Work work = total(by_kernel(table, gpu.family, plan));
             text += row({square(cells), gpu.name, std::to_string(work.dispatches), shown(work.bytes / 1e6, 3),
                          roof_cells(roofs_of(work, gpu), 1e-3)});
         }
@@ -163,22 +182,17 @@ std::string page_cloth(const Table& table, std::uint32_t most)
     return text;
 }
 
-std::string page_effects(const Table& table)
+std::string page_passes(const Table& table)
 {
     const Gpu& gpu = kGpus[std::size(kGpus) - 1];
-    std::string text = std::string("| cells | effect | dispatches |") + kRoofHead +
-                       "|---|---|---:|---:|---:|---:|---:|---|\n";
+    std::string text = std::string("| cells | effect | kernel | dispatches | invocations of one |") +
+                       kRoofHead + "|---|---|---|---:|---:|---:|---:|---:|---:|---|\n";
     for (const std::uint32_t cells : {kSmallest, 4 * kSmallest})
-    {
-        const Step& plan = cloth(cells);
-        const std::map<std::string, Work> parts = by_effect(table, gpu.family, plan);
-        for (const EffectCost& effect : plan.effects)
-        {
-            const Work& work = parts.at(effect.name);
-            text += row({square(cells), effect.name, std::to_string(work.dispatches),
-                         roof_cells(roofs_of(work, gpu), 1e-6)});
-        }
-    }
+        for (const KernelWork& part : by_kernel(table, gpu.family, cloth(cells)))
+            text += row({square(cells), part.effect, "`" + part.kernel + "`",
+                         std::to_string(part.work.dispatches),
+                         shown(part.invocations / double(part.work.dispatches), 6),
+                         roof_cells(roofs_of(part.work, gpu), 1e-6)});
     return text;
 }
 
@@ -190,7 +204,7 @@ std::string page_dispatches(const Table& table, std::uint32_t most)
         "that take as long, at 0.876 µs |\n|---|---:|---:|---:|---:|---:|\n";
     for (std::uint32_t cells = kSmallest; cells <= most; cells *= 2)
     {
-        const Work work = total(by_effect(table, gpu.family, cloth(cells)));
+        const Work work = total(by_kernel(table, gpu.family, cloth(cells)));
         const Roofs roofs = roofs_of(work, gpu);
         const double rest = std::max(roofs.bytes, roofs.instructions);
         text += row({square(cells), std::to_string(work.dispatches), time(roofs.dispatches, 1e-3),
@@ -198,9 +212,9 @@ std::string page_dispatches(const Table& table, std::uint32_t most)
                      shown(rest / kRecorded.seconds, 3)});
     }
     const Step& plan = cloth(kSmallest);
-    const std::map<std::string, Work> parts = by_effect(table, gpu.family, plan);
+    const std::vector<KernelWork> parts = by_kernel(table, gpu.family, plan);
     const double coloured = passes(parts, true), others = passes(parts, false), substeps = plan.substeps;
-    const double bending = double(parts.at("bending").dispatches);
+    const double bending = passes(parts, true, "bending");
     text += "\n| a step of the default scene | dispatches | ms at 0.876 µs | ms at 3 µs "
             "|\n|---|---:|---:|---:|\n";
     const auto line = [&](const char* what, double dispatches) {

@@ -18,6 +18,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+constexpr std::uint32_t kPageSide = 1024; // of the largest cloth and the largest system on the page
+
 constexpr Gpu kGpu = {"a GPU", "navi21", 10, 2, 1e9, 100e9, ""};
 
 /// A table whose only row is of a kernel: 1,000 cycles of one wave, 100 of a full SIMD for 64 invocations.
@@ -74,9 +76,10 @@ TEST_CASE("The page of the roofline is what the table and the plans give", "[har
     const std::string page((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
     const Table table = read_table(table_file());
     CHECK_THAT(page, Contains(page_gpus()));
-    CHECK_THAT(page, Contains(page_effects(table)));
-    CHECK_THAT(page, Contains(page_cloth(table, 128))); // the larger ones take seconds
-    CHECK_THAT(page, Contains(page_gradients(table, 128)));
+    CHECK_THAT(page, Contains(page_passes(table)));
+    CHECK_THAT(page, Contains(page_cloth(table, kPageSide)));
+    CHECK_THAT(page, Contains(page_dispatches(table, kPageSide)));
+    CHECK_THAT(page, Contains(page_gradients(table, kPageSide)));
     CHECK_THAT(page, Contains(table.mesa));
 }
 
@@ -88,8 +91,8 @@ TEST_CASE("Writes the parts of the page", "[.page]")
     const Table table = read_table(table_file());
     const std::filesystem::path out(folder);
     write_file(out / "gpus", page_gpus());
-    write_file(out / "cloth", page_cloth(table, 1024));
-    write_file(out / "effects", page_effects(table));
-    write_file(out / "dispatches", page_dispatches(table, 1024));
-    write_file(out / "gradients", page_gradients(table, 1024));
+    write_file(out / "cloth", page_cloth(table, kPageSide));
+    write_file(out / "passes", page_passes(table));
+    write_file(out / "dispatches", page_dispatches(table, kPageSide));
+    write_file(out / "gradients", page_gradients(table, kPageSide));
 }

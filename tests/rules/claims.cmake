@@ -48,9 +48,6 @@ check(bench passes "the pages as they are")
 change(../README.md "adaptive activation with nothing active, 1.15" "adaptive activation with nothing active, 1.14")
 check(bench "no conclusion says" "another number of the README")
 restore(../README.md)
-change(bench.md "| 1.279 | 1.088 |" "| 1.279 | 1.078 |")
-check(bench "no conclusion says" "another number of a table of the bench")
-restore(bench.md)
 foreach(row "cloth.md;| pbd | 64 x 64 | cpu | 1.14 |;| pbd | 64 x 64 | cpu | 1.24 |"
         "cloth.md;| 20 x 20 | bullet, 1 x 10 | 0.124 |;| 20 x 20 | bullet, 1 x 10 | 0.125 |"
         "hybrid.md;| 64² | cpu | 0.412 |;| 64² | cpu | 0.411 |"
@@ -64,12 +61,33 @@ foreach(row "cloth.md;| pbd | 64 x 64 | cpu | 1.14 |;| pbd | 64 x 64 | cpu | 1.2
     check(${name} "the table \"[a-z]+\" is not [a-z_]+\\.csv" "a row of ${page} that the bench did not measure")
     restore(${page})
 endforeach()
+# Tables that are laid out otherwise than their files.
+foreach(row "linear.md;| taut csr double | 265 | 5.69 |;| taut csr double | 265 | 5.59 |"
+        "linear.md;| fv3 | 9801 | 87025 | csr | 0.145 |;| fv3 | 9801 | 87025 | csr | 0.154 |"
+        "linear.md;| nos3 | multigrid | 55 | 3.2 |;| nos3 | multigrid | 54 | 3.2 |"
+        "linear.md;| csr | columns | 44928 |;| csr | columns | 44929 |"
+        "hybrid.md;| 128² | cpu and vulkan | 1.240 |;| 128² | cpu and vulkan | 1.250 |"
+        "fabric.md;| 45.31 (-6.81 %) | 47.28 (;| 45.31 (-6.81 %) | 47.38 ("
+        "fabric.md;| plate | uniform | 4 | 41.8° |;| plate | uniform | 4 | 42.8° |"
+        "solids.md;| distance constraints | 89.64 | 9;| distance constraints | 89.64 | 8"
+        "bench.md;| 1.273 | 1.215 |;| 1.273 | 1.225 |" "bench.md;| 2.132 | 1.757 |;| 2.132 | 1.767 |" "bench.md;| 126.269 | 124.936 |;| 126.269 | 124.996 |")
+    list(GET row 0 page)
+    list(GET row 1 from)
+    list(GET row 2 to)
+    string(REPLACE ".md" "" name ${page})
+    change(${page} "${from}" "${to}")
+    check(${name} "table [12] of \"[a-z_]+\" is not of" "a number of ${page} that its table does not have")
+    restore(${page})
+endforeach()
+change(bench.md "| hanging cloth 128 x 128 | 0." "| hanging cloth 128 x 128 | 1.")
+check(bench "the table \"second_core(_busy)?\" is not" "a ratio of two cores that was not measured")
+restore(bench.md)
 check(gpu passes "the pages as they are")
 change(results/gpu.md "No kernel spills." "Few kernels spill.")
-check(gpu "does not say" "another sentence of the page of GPUs")
+check(gpu "no conclusion says" "another sentence of the page of GPUs")
 restore(results/gpu.md)
 change(results/gpu.md "waves takes 0.449 ms more" "waves takes 0.452 ms more")
-check(gpu "does not say" "a number of the model of GPUs")
+check(gpu "no conclusion says" "a number of the model of GPUs")
 restore(results/gpu.md)
 check(solids passes "the pages as they are")
 change(solids.md "| 20 | pbd | cpu | 15.5 |" "| 20 | pbd | cpu | 13.4 |")

@@ -1,73 +1,117 @@
-# What docs/results/gpu.md says of the compiled kernels, held against tests/hardware/radv.csv, and of the model, against the
-# page's own tables (docs/results/update_gpu.sh):
-#   awk -f docs/results/gpu/claims.awk docs/results/gpu.md tests/hardware/radv.csv
-# Exit status 1 with what does not hold.
-BEGIN { FS = "," }
-FNR == 1 { ++file }
-file == 1 {
-    text = $0
-    sub(/^ +/, "", text)
-    page = page " " text
-    if (/^<!-- [a-z]+ -->$/) part = substr($0, 6, length($0) - 9)
-    n = split($0, cell, / *[|] */)
-    for (i = 2; i < n && /^[|]/; ++i) # by its first cell, or by the first two
-        at[part, cell[2], i - 1] = at[part, cell[2] " " cell[3], i - 1] = cell[i]
-    next
+# What docs/results/gpu.md concludes: of the compiled kernels by tests/hardware/radv.csv, of the model by the page's own tables
+# (which test_hardware holds against the plans). Before claims.awk, whose rules end with the page's lines:
+#   awk -f docs/results/gpu/claims.awk -f docs/claims.awk docs/results/gpu.md tests/hardware/radv.csv
+FILENAME == ARGV[1] && /^<!-- [a-z]+ -->$/ { part = substr($0, 6, length($0) - 9) }
+FILENAME == ARGV[1] && /^[|]/ { # by its first cell, or by its first two or three
+    parts = split($0, of_page, / *[|] */)
+    for (i = 2; i < parts; ++i)
+        at[part, of_page[2], i - 1] = at[part, of_page[2] " " of_page[3], i - 1] = \
+            at[part, of_page[2] " " of_page[3] " " of_page[4], i - 1] = of_page[i]
 }
-/^#/ { next }
-!head { for (i = 1; i <= NF; ++i) column[$i] = i; head = 1; next }
-{
-    precision = $column["precision"]
-    wide = $column["vgprs"] + 0
-    spills += $column["spilled_vgprs"] + $column["spilled_sgprs"]
-    key = precision SUBSEP $column["family"]
-    if (wide > most[key]) { most[key] = wide; kernel[key] = $column["kernel"] }
-    families[$column["family"]]
-}
-function say(text)
-{
-    if (index(page, text)) return
-    print "gpu.md does not say \"" text "\", which its tables do" > "/dev/stderr"
-    bad = 1
-}
+
 # Of the table `part`: the cell of a row, by number.
 function of(part, row, column)
 {
-    if (!((part, row, column) in at)) { print "gpu.md has no row \"" row "\" in " part > "/dev/stderr"; bad = 1 }
+    if (!((part, row, column) in at)) fail("no row \"" row "\" in the table " part)
     return at[part, row, column]
 }
 function cloth(row, column) { return of("cloth", row, column) }
 function per_cent(part, whole) { return sprintf("%.0f %%", 100 * part / whole) }
-function say_of_model(    here, passes)
+
+# Whether all three GPUs have this largest roof with so many cells or unknowns.
+function largest(part, row, column, roof)
 {
-    here = "64² RX 6900 XT"
-    passes = cloth(here, 8)
-    say(cloth(here, 3) " dispatches are too many: on the RX 6900 XT they take " passes " ms, " \
-        sprintf("%.1f", passes / cloth(here, 5)) " times what the bytes take")
-    say("a chain of single waves takes " cloth(here, 7) " ms more")
-    say("instructions take " per_cent(cloth(here, 6), passes) " of the dispatches' time on the RX 6900 XT and " \
-        per_cent(cloth("64² RX 580", 6), cloth("64² RX 580", 8)) " on the RX 580.")
-    say("Of a step of 16.7 ms that is " per_cent(passes, 16.7) "; with a driver that takes 3 µs a dispatch " \
-        per_cent(of("dispatches", "64²", 4), 16.7) ".")
-    say("dispatches are " per_cent(passes, cloth("256² RX 6900 XT", 5)) " of them at 256² and " \
-        per_cent(passes, cloth("1024² RX 6900 XT", 5)) " at 1024² on the RX 6900 XT.")
-    say("Bending makes " of("effects", "64² bending", 3) " of the " cloth(here, 3) " dispatches")
-    say("fused passes over vertices save " cloth(here, 3) - of("dispatches", "passes over vertices fused, one a substep", 2) ".")
-    say("Both together leave " of("dispatches", "both", 2) ", which is below the " of("dispatches", "64²", 6))
+    return of(part, row " RX 580", column) == roof && of(part, row " RX Vega 64", column) == roof \
+        && of(part, row " RX 6900 XT", column) == roof
 }
-function range(least, most) { return least < most ? least " to " most : most "" }
-END {
-    if (!head || spills) { print "radv.csv has spills, or no rows" > "/dev/stderr"; bad = 1 }
-    for (family in families) {
-        f = most["float" SUBSEP family]; d = most["double" SUBSEP family]
-        if (!least_f || f < least_f) least_f = f
-        if (!least_d || d < least_d) least_d = d
-        if (f > top_f) { top_f = f; name_f = kernel["float" SUBSEP family] }
-        if (d > top_d) { top_d = d; name_d = kernel["double" SUBSEP family] }
+
+function claims_of_cloth(    here, newest, passes, of_64)
+{
+    newest = "RX 6900 XT"
+    here = "64² " newest
+    passes = cloth(here, 8)
+    name("At 64², the default scene,")
+    claim(cloth(here, 3) " dispatches are too many: on the RX 6900 XT they take " passes " ms, " \
+          sprintf("%.1f", passes / cloth(here, 5)) " times what the bytes take", 1)
+    claim("a chain of single waves takes " cloth(here, 7) " ms more", 1)
+    claim("On the two older GPUs the chain of waves is the largest roof.",
+          cloth("64² RX 580", 9) == "waves" && cloth("64² RX Vega 64", 9) == "waves")
+    claim("instructions take " per_cent(cloth(here, 6), passes) " of the dispatches' time on the RX 6900 XT and " \
+          per_cent(cloth("64² RX 580", 6), cloth("64² RX 580", 8)) " on the RX 580.", 1)
+    claim("Of a step of 16.7 ms that is " per_cent(passes, 16.7) "; with a driver that takes 3 µs a dispatch " \
+          per_cent(of("dispatches", "64²", 4), 16.7) ".", 1)
+    claim("From 128² on, bytes are the largest roof on all three GPUs",
+          largest("cloth", "128²", 9, "bytes") && largest("cloth", "256²", 9, "bytes") \
+          && largest("cloth", "512²", 9, "bytes") && largest("cloth", "1024²", 9, "bytes"))
+    claim("dispatches are " per_cent(passes, cloth("256² " newest, 5)) " of them at 256² and " \
+          per_cent(passes, cloth("1024² " newest, 5)) " at 1024² on the RX 6900 XT.", 1)
+}
+function claims_of_dispatches(    substeps, bending, waves)
+{
+    substeps = of("dispatches", "colours and all in one dispatch a substep", 2)
+    bending = of("passes", "64² bending `xpbd_hinge`", 4)
+    claim("Bending makes " bending " of the " cloth("64² RX 6900 XT", 3) " dispatches: " bending / substeps \
+          " colours, " substeps " substeps.", 1)
+    claim("fused passes over vertices save " cloth("64² RX 6900 XT", 3) \
+          - of("dispatches", "passes over vertices fused, one a substep", 2) ".", 1)
+    claim("Both together leave " of("dispatches", "both", 2) ", which is below the " of("dispatches", "64²", 6) " at", 1)
+    waves = sprintf("%.0f", of("passes", "64² bending `xpbd_hinge`", 5) / 64)
+    claim("At 64² a colour of bending has " waves " waves of 64 at the mean, for 160 SIMDs.",
+          of("gpus", "RX 6900 XT", 3) * of("gpus", "RX 6900 XT", 4) == 160)
+}
+function claims_of_gradients(    ok, side, gpu, sides, gpus)
+{
+    split("64² 128² 256² 512² 1024²", sides, " ")
+    split("RX 580,RX Vega 64,RX 6900 XT", gpus, ",")
+    ok = 1
+    for (side in sides)
+        for (gpu in gpus)
+            ok = ok && gradient(sides[side], "sell", gpus[gpu], 8) <= gradient(sides[side], "csr", gpus[gpu], 8) / 2 \
+                && gradient(sides[side], "sell", gpus[gpu], 5) <= gradient(sides[side], "csr", gpus[gpu], 5)
+    claim("Rows in slices (sell) have half the chain of csr or less, and never more bytes.", ok)
+    ok = 1
+    for (gpu in gpus) {
+        ok = ok && gradient("64²", "csr", gpus[gpu], 10) != "bytes" && gradient("64²", "sell", gpus[gpu], 10) != "bytes"
+        for (side = 3; side <= 5; ++side)
+            ok = ok && gradient(sides[side], "csr", gpus[gpu], 10) == "bytes" \
+                && gradient(sides[side], "sell", gpus[gpu], 10) == "bytes"
     }
-    say("No kernel spills.")
-    say("The widest in float is `" name_f "`, " range(least_f, top_f) " vector registers, and in double `" \
-        name_d "`, " range(least_d, top_d) ".")
-    say_of_model()
-    exit bad
+    claim("An iteration of conjugate gradients waits for its waves or dispatches at 64² and for its bytes from 256² on.", ok)
+}
+function gradient(side, format, gpu, column) { return of("gradients", side " " format " " gpu, column) }
+
+function range(least, most) { return least < most ? least " to " most : most "" }
+# Of radv.csv, whose rows repeat a family: the widest kernel of a precision, by family.
+function claims_of_kernels(    i, key, wide, spills, p, precision)
+{
+    for (i = 1; i <= kernels; ++i) {
+        spills += spilled[i]
+        key = of_kernel[i, "precision"] SUBSEP of_kernel[i, "family"]
+        if (of_kernel[i, "vgprs"] + 0 > most[key]) { most[key] = of_kernel[i, "vgprs"] + 0; widest[key] = of_kernel[i, "kernel"] }
+    }
+    for (key in most) {
+        split(key, p, SUBSEP)
+        precision = p[1]
+        if (!(precision in least) || most[key] < least[precision]) least[precision] = most[key]
+        if (most[key] > top[precision]) { top[precision] = most[key]; named[precision] = widest[key] }
+    }
+    claim("No kernel spills.", kernels > 0 && !spills)
+    claim("The widest in float is `" named["float"] "`, " range(least["float"], top["float"]) \
+          " vector registers, and in double `" named["double"] "`, " range(least["double"], top["double"]) ".", 1)
+}
+FILENAME != ARGV[1] && !/^#/ {
+    n = split($0, of_line, ",")
+    if (!radv_columns) { radv_columns = n; for (i = 1; i <= n; ++i) radv_head[i] = of_line[i] }
+    else {
+        ++kernels
+        for (i = 1; i <= n; ++i) of_kernel[kernels, radv_head[i]] = of_line[i]
+        spilled[kernels] = of_kernel[kernels, "spilled_vgprs"] + of_kernel[kernels, "spilled_sgprs"]
+    }
+}
+function claims()
+{
+    claims_of_cloth()
+    claims_of_dispatches()
+    claims_of_gradients()
+    claims_of_kernels()
 }

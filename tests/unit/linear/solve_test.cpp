@@ -58,6 +58,25 @@ TEST_CASE("a right-hand side of any size that double holds is solved", "[linear]
         CHECK(solution.x[i] / factor == Approx(exact[i]).epsilon(1e-6));
 }
 
+TEST_CASE("a right-hand side of the largest numbers is solved in every format", "[linear][solve]")
+{
+    constexpr double kLargest = 1.7e308; // two of them have no length in double
+    std::vector<Triplet> entries;
+    for (std::uint32_t i = 0; i < 30; ++i)
+        entries.push_back({i, i, 1e5});
+    const SparseMatrix a = from_triplets(30, 30, entries);
+    SolveOptions options = big();
+    options.precision = GENERATE(SolvePrecision::float64, SolvePrecision::mixed, SolvePrecision::float32);
+    options.format =
+        GENERATE(Format::dense, Format::coo, Format::csr, Format::ell, Format::sell, Format::bcsr3);
+    CAPTURE(to_string(options.precision), to_string(options.format));
+    const Solution solution =
+        solve(test_device("cpu:serial"), a, std::vector<double>(a.rows, kLargest), options);
+    CHECK(solution.report.status == Status::converged);
+    for (const double x : solution.x)
+        CHECK(x / 1e303 == Approx(1.7).epsilon(1e-6));
+}
+
 TEST_CASE("ell is used where it is asked for, with a note where it pads much", "[linear][solve]")
 {
     SparseMatrix a = poisson2d(16);

@@ -3,6 +3,7 @@
 
 #include "taut/plan/plan.hpp"
 #include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/registry.hpp"
 
 #include <algorithm>
 
@@ -84,6 +85,34 @@ TEST_CASE("dispatches follow the formula: substeps (1 + iterations colours + 1)"
                 sum += effect.dispatches_per_step;
             CHECK(sum == plan.passes.size());
         }
+}
+
+TEST_CASE("what an effect costs is the sum of what its kernels do")
+{
+    Scene implicit = test::everything();
+    implicit.method.type = MethodKind::implicit_euler; // its solves are recorded, not dispatched one by one
+    for (const Scene& scene : {test::everything(), implicit})
+    {
+        const Plan plan = make_plan(scene);
+        for (const EffectCost& effect : plan.effects)
+        {
+            CAPTURE(effect.name);
+            std::uint64_t dispatches = 0, bytes = 0;
+            for (const KernelCost& kernel : effect.kernels)
+            {
+                const auto own =
+                    std::count_if(plan.passes.begin(), plan.passes.end(), [&](const Dispatch& pass) {
+                        return pass.label == effect.name && full_name(*pass.kernel) == kernel.name;
+                    });
+                CHECK(own == static_cast<long>(kernel.dispatches_per_step));
+                CHECK(kernel.bytes_per_step > 0);
+                dispatches += kernel.dispatches_per_step;
+                bytes += kernel.bytes_per_step;
+            }
+            CHECK(dispatches == effect.dispatches_per_step);
+            CHECK(bytes == effect.bytes_per_step);
+        }
+    }
 }
 
 TEST_CASE("no barrier is missing, and one taken away is found")

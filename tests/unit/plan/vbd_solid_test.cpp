@@ -57,7 +57,7 @@ std::vector<std::string> kernels_of(const Plan& plan)
 {
     for (const EffectCost& effect : plan.effects)
         if (effect.name == "vbd_solve")
-            return effect.kernels;
+            return effect.kernel_names();
     return {};
 }
 

@@ -72,4 +72,16 @@ TEST_CASE("floors are named, drawn, and told apart", "[cost]")
     CHECK_FALSE(plot.floors[2].of_all); // other methods have no linear solve: no shade behind their points
     CHECK(plot.floors[1].words == "rest test, 1e-05");
     CHECK(svg(plot).find("rest test") != std::string::npos);
+    CHECK(svg(plot).find("one rounding of double") == std::string::npos);
+}
+
+TEST_CASE("a study of both precisions draws both roundings, however far below its points", "[cost]")
+{
+    CostStudy study = table({made(1, 1e-6, 1), made(2, 1e-12, 2)}, 1e-16);
+    study.points[1].precision = Precision::float64;
+    const std::string both = svg(cost_plot(study, CostAxis::time));
+    CHECK(both.find("one rounding of float") != std::string::npos);
+    CHECK(both.find("one rounding of double") != std::string::npos); // four decades below all
+    study.points.pop_back();
+    CHECK(svg(cost_plot(study, CostAxis::time)).find("one rounding of double") == std::string::npos);
 }

@@ -31,6 +31,37 @@ TEST_CASE("a reference that is not good enough is said at once, and what bound i
     CHECK(result.why.find("--error of ") != std::string::npos);
 }
 
+TEST_CASE("a reference that ends inside out is said at once: no setting that comes near it is accepted",
+          "[tune]")
+{
+    Scene scene;
+    Body body;
+    body.shape.kind = ShapeKind::box;
+    body.shape.box_cells = {2, 2, 2};
+    body.shape.size = {0.6, 0.6};
+    body.material = solid_material();
+    body.material.model = SolidModel::springs;
+    body.material.density = 50;
+    body.material.youngs_modulus = 100; // a cushion that its own weight presses through the floor
+    body.material.volume_stiffness = 0;
+    Pin pin;
+    pin.faces = {"bottom"};
+    body.pins = {pin};
+    scene.bodies = {body};
+    scene.damping = 1;
+    scene = resolve(scene);
+    TuneOptions options = by_prior(0.01);
+    options.kind = CostKind::at_rest;
+    const TuneResult result = tune(scene, serial(), options);
+    CHECK(result.answer == TuneAnswer::unsound_reference);
+    CHECK(to_string(result.answer) == "unsound_reference");
+    CHECK(result.tried.empty());
+    CHECK(result.why.find("tetrahedra inside out, accept.inverted is 0") != std::string::npos);
+    scene.accept.inverted = 1000;
+    options.progress = [](std::size_t, std::size_t) { return false; };
+    CHECK(tune(scene, serial(), options).answer == TuneAnswer::none_of_tried);
+}
+
 TEST_CASE("a moving start keeps the frames that its reference is good enough for", "[tune]")
 {
     tuning::Start start{swinging(6, 200, 0.05), {}, {}, {}, "e_traj", 20};
