@@ -28,6 +28,7 @@ function cells(line,    n, field)
             field = substr(line, 2, RLENGTH - 2)
             gsub(/""/, "\"", field)
             line = substr(line, RLENGTH + 1)
+            if (line == ",") { cell[++n] = field; field = "" }
             sub(/^,/, "", line)
         } else if (match(line, /,/)) {
             field = substr(line, 1, RSTART - 1)
@@ -49,11 +50,19 @@ function text_of(table, row, column)
 }
 function v(table, row, column) { return text_of(table, row, column) + 0 }
 function among(x, low, high) { return low <= x && x <= high }
-function about(x, given,    unit, point)
+function about(x, given,    part, unit, point)
 {
-    point = index(given, ".")
-    unit = point ? 10 ^ (point - length(given)) : 1
+    split(given, part, "e")
+    point = index(part[1], ".")
+    unit = (point ? 10 ^ (point - length(part[1])) : 1) * 10 ^ (part[2] + 0)
     return x - given <= 0.5001 * unit && given - x <= 0.5001 * unit
+}
+# Whether a number of a file is what a page shows: to the digits of the page or, of a number with a point, to the five that the file
+# has at least.
+function shows(kept, given,    most)
+{
+    most = given !~ /\./ ? 0 : 5.01e-5 * (kept < 0 ? -kept : kept)
+    return about(kept + 0, given) || (kept - given <= most && given - kept <= most)
 }
 function all_are(table, column, text,    i)
 {

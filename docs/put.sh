@@ -61,17 +61,18 @@ check_tables()
     return $differing
 }
 
-# check_bench PAGE PART FILE [COLUMN]: the first table of a part is FILE of tests/bench/results, row by row, to the digits
-# of the page (bench/rows.awk); COLUMN, a number, is in per cent on the page. Status 1 with what differs.
+# check_bench PAGE PART FILE [COLUMN [SOME]]: the first table of a part is FILE of tests/bench/results, row by row, to the digits
+# of the page (bench/rows.awk), or SOME (1) of its rows; COLUMN, a number, is in per cent on the page. Status 1 with what differs.
 check_bench()
 {
     sed -n "/^<!-- $2 -->\$/,/^<!-- end -->\$/p" "$1" | awk '/^\|/ { ++n; if (n > 2) print; next } n { exit }' > "$scratch/of_page"
-    awk -v percent="${4:-0}" -f bench/rows.awk -f claims.awk "$scratch/of_page" "../tests/bench/results/$3" ||
+    awk -v percent="${4:-0}" -v some="${5:-0}" -f bench/rows.awk -f claims.awk "$scratch/of_page" "../tests/bench/results/$3" ||
         { echo "$1: the table \"$2\" is not $3" >&2; return 1; }
 }
 
 # check_numbers PAGE PART FILE KEYS [TABLE [COLUMNS]]: the numbers of a part's table (the first, or TABLE) that is laid out
-# otherwise than its file are fields of the rows that its first KEYS cells choose (bench/numbers.awk); COLUMNS are left out.
+# otherwise than its file are fields of the rows that its first cells choose (bench/numbers.awk): "1 5" are the fields of the file
+# that these cells are. COLUMNS of the page are left out.
 check_numbers()
 {
     sed -n "/^<!-- $2 -->\$/,/^<!-- end -->\$/p" "$1" | awk -v wanted="${5:-1}" '

@@ -3,7 +3,7 @@
 #   tests/matrix.sh [PART...]      all by default
 # release: tests/run.sh, and the benches are built. headers: each file, and each installed header, alone and without precompiled
 # headers, so that it includes what it uses. asan (address and undefined), tsan: the presets. clang: the release build by clang, where it is
-# installed. odr: types that two files define differently, by link-time optimisation. stable, testing:
+# installed. odr: types that two files define differently (tests/odr.sh, of which ctest runs the same). stable, testing:
 # tests/run.sh in a chroot of that Debian (tests/chroot.sh). executors: conformance, physics, golden scenes and
 # linear systems on every executor, of which ctest runs some. hard: the hard cases and the whole map in full on every
 # executor (hours). mutants: every 10th mutant that tests/mutants.csv does not answer, for half an hour. A part
@@ -57,12 +57,7 @@ part_hard() {
         "${run[@]}" LP_NUM_THREADS="${LP_NUM_THREADS:-1}" "$program" "F8: the cells end*"
 }
 
-# Types that differ from file to file, as the compiler sees them when it has the whole program.
-part_odr() {
-    cd "$root" && cmake -S . -B build/odr -DCMAKE_BUILD_TYPE=Release \
-        -DCMAKE_CXX_FLAGS="-flto=auto -Wodr -Werror=odr" &&
-        cmake --build build/odr --target taut-cli --parallel "$jobs"
-}
+part_odr() { "$root/tests/odr.sh" "$root/build/odr"; }
 
 # What ctest runs on cpu:serial and cpu alone (TAUT_TEST_SHORT), or in part on software drivers.
 part_executors() {

@@ -11,7 +11,7 @@ function cloth(side) { return v("medians", "native parallel, hanging cloth " sid
 # Targets of conjugate gradients: five ratios at most so much, and the speed of the product at least 0.8 of a copy's.
 table == "linear_peers" && cell[1] ~ /^ratio/ && n > 9 && cell[10] != "" {
     ++asked
-    missed += cell[8] + 0 > cell[10] + 0
+    if (cell[8] + 0 > cell[10] + 0) by[++missed] = cell[8] / cell[10] - 1
 }
 table == "linear_peers" && cell[1] == "product" { speed[cell[2]] = cell[8] + 0 }
 # Least and largest time of software drivers over that of native code.
@@ -36,7 +36,8 @@ function claims(    i, what, found)
     for (i = 1; i <= rows["solid"]; ++i)
         if (row_name["solid", i] ~ /^native parallel/)
             claim("box of tetrahedra, 0.68 (0.6)", about(v("solid", row_name["solid", i], "ratio"), "0.68"))
-    claim("linear systems miss two of six targets", asked == 5 && missed + (speed["taut csr double"] < 0.8 * speed["memcpy, 2 threads"]) == 2)
+    claim("linear systems miss two of six targets, by 10 and 26 %", asked == 5 && missed + (speed["taut csr double"] < 0.8 * speed["memcpy, 2 threads"]) == 2 \
+          && about(100 * by[1], "10") && about(100 * by[2], "26"))
     claim("take 3 to 82 times as long as native code", about(quickest, "3") && about(slowest, "82"))
     claim("adaptive activation with nothing active, 1.15 of mass-spring (1.1)",
           about(v("acad", "acad, nothing active", "ratio"), "1.15"))

@@ -7,6 +7,7 @@
 
 #include "colouring_parts.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 

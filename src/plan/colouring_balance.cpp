@@ -8,6 +8,7 @@
 
 #include "colouring_parts.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace taut::colouring {

@@ -63,12 +63,12 @@ struct PlanBuffer
     bool host_written = false;      ///< new contents before every step
 };
 
-/// What the passes of one kernel cost in one time step, of those that an effect asked for.
+/// What the passes of one kernel cost in one time step; those of one effect.
 struct KernelCost
 {
     std::string name; ///< "distance", "distance:lambda"
     std::uint64_t dispatches_per_step = 0;
-    std::uint64_t bytes_per_step = 0; ///< as of an effect
+    std::uint64_t bytes_per_step = 0; ///< as EffectCost::bytes_per_step
 };
 
 /// What one effect costs in one time step.

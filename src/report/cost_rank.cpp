@@ -137,12 +137,12 @@ std::vector<PlotFloor> plot_floors(const CostStudy& study)
     const auto has = [&](std::string_view word) {
         return std::any_of(floors.begin(), floors.end(), [&](const CostFloor& f) { return f.word == word; });
     };
-    const bool compares =
-        has("float") && has("double"); // precisions: then both roundings are what is looked for
+    // A study of both precisions is about their rounding.
+    const bool of_rounding = has("float") && has("double");
     std::vector<PlotFloor> out;
     for (const CostFloor& floor : floors)
         out.push_back({floor.error, floor.words, floor.word == "reference" || floor.word == "rest",
-                       compares && (floor.word == "float" || floor.word == "double")});
+                       of_rounding && (floor.word == "float" || floor.word == "double")});
     return out;
 }
 

@@ -56,10 +56,10 @@ struct Look
     int variant;
 };
 
-/// Both axes of a plot.
-/// Floors further below all points would only squeeze them.
+/// A floor below this part of the lowest point would only squeeze the points.
 constexpr double kFar = 1e-2;
 
+/// Both axes of a plot.
 struct Area
 {
     explicit Area(const Plot& plot) : linear(plot.x_linear), most(plot.y_most)

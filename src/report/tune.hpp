@@ -51,7 +51,7 @@ enum class TuneAnswer
     found,
     no_reference,      ///< none can be trusted
     poor_reference,    ///< its own error takes too much of the bound: nothing was tried
-    unsound_reference, ///< more tetrahedra end inside out than the scene accepts: nothing was tried
+    unsound_reference, ///< it ends with more tetrahedra inside out than the scene accepts: nothing was tried
     none_of_tried      ///< of `tried` none keeps the bound
 };
 std::string_view to_string(TuneAnswer answer); ///< "found", "no_reference", ...

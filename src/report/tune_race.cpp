@@ -110,7 +110,7 @@ std::pair<TuneAnswer, std::string> refusal(const Start& start, bool fits, const 
         return {TuneAnswer::no_reference, no_reference(result, options)};
     if (!fits)
         return {TuneAnswer::poor_reference, poor_reference(result)};
-    const bool ends = !start.reference.frames.empty(); // by volume there is none to end
+    const bool ends = !start.reference.frames.empty(); // a reference of volumes has no frames
     const std::uint64_t inverted =
         ends ? measure_volume(start.scene, start.reference.frames.back()).inverted : 0;
     if (inverted > start.scene.accept.inverted)

@@ -128,9 +128,9 @@ std::string unsound_reference(std::uint64_t inverted, const Accept& accept)
 {
     return "The reference ends with " + std::to_string(inverted) +
            " tetrahedra inside out, accept.inverted is " + std::to_string(accept.inverted) +
-           ", so nothing was tried: a run that comes near it is `unconverged`, whatever its setting. The "
-           "material "
-           "does not carry its load: take a stiffer one, or one that keeps its volume, or accept more.";
+           ", so nothing was tried: a run that comes near it is `unconverged`, whatever its setting. "
+           "The material does not carry its load: take a stiffer one, or one that keeps its volume, or "
+           "accept more.";
 }
 
 std::string none_of_tried(const TuneResult& result)

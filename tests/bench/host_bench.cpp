@@ -37,7 +37,7 @@ double seconds_of(const std::function<void()>& work)
     return least;
 }
 
-/// A grid of 1,024 x 1,024 cells with so many further springs, as the text of a scene file.
+/// A grid of 1,024 x 1,024 vertices with so many further springs, as the text of a scene file.
 std::string scene_of(std::uint32_t springs)
 {
     std::string text = R"({"taut": 1, "bodies": [{"grid": {"cells": [1023, 1023]}, "springs": [)";

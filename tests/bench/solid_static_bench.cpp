@@ -12,6 +12,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>

@@ -1,6 +1,8 @@
-// What a run costs besides its steps, as CSV: taut_start_bench [N]   cloth of N x N cells, 2 to 512; default
-// 1024 Each part of a start and what follows the last step, in seconds of processor time (all threads, so
-// that neighbours on the machine count little) and in steps of the same cloth on one core, then how much
+// taut_start_bench [N]: what a run costs besides its steps, as CSV; cloth of N x N cells, 1024 unless told
+// otherwise.
+//
+// Each part of a start and what follows the last step, in seconds of processor time (all threads, so that
+// neighbours on the machine count little) and in steps of the same cloth on one core, then how much
 // memory the process has held at most up to there, over the bytes that the plan allocates.
 
 #include "conditions.hpp"

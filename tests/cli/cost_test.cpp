@@ -115,6 +115,21 @@ TEST_CASE("tune prints a method block that a scene takes, or says that nothing k
     CHECK(folder.taut(no_time).out.find("No setting was tried: the time was up.\n") != std::string::npos);
 }
 
+TEST_CASE("tune has a setting that keeps 1 % of the project's own hanging cloth", "[tune]")
+{
+    const Folder folder;
+    const Result result =
+        folder.taut({"tune", TAUT_SOURCE_DIR "/examples/scenes/hanging.json", "--error", "0.01", "--frames",
+                     "12", "--prior-only", "--device", "cpu:serial", "--json"});
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    const auto answer = program::parse(result.out);
+    CHECK(answer["answer"] == "found");
+    CHECK(answer["frames"] == 12);
+    CHECK(answer["confirmed_error"].get<double>() <= 0.01);
+    CHECK(answer["starts"] == 3); // each perturbed one, held against a bound of its own
+}
+
 TEST_CASE("tune by volume bounds e_V of a scene of cloth and a solid, and asks for a body that has a volume")
 {
     const Folder folder;

@@ -2,6 +2,8 @@
 
 #include "support/spmv.hpp"
 
+#include <algorithm>
+
 using namespace taut;
 using namespace taut::conformance;
 

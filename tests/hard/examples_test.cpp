@@ -2,6 +2,7 @@
 
 #include "hard/cases.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace taut::hard {

@@ -3,6 +3,8 @@
 #endif
 #include "support/skip.hpp"
 
+#include <iostream>
+
 int main(int argc, char** argv)
 {
     Catch::Session session;
