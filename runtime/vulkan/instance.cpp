@@ -20,7 +20,10 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* log)
 {
-    static_cast<ValidationLog*>(log)->add(data->pMessage);
+    std::string text = data->pMessage;
+    if (data->pMessageIdName != nullptr && text.find(data->pMessageIdName) == std::string::npos)
+        text = std::string(data->pMessageIdName) + ": " + text; // newer layers leave it out of the text
+    static_cast<ValidationLog*>(log)->add(text.c_str());
     return VK_FALSE;
 }
 
@@ -121,7 +124,7 @@ struct Wish
             info.flags |= kEnumeratePortability;
         }
         if (log != nullptr)
-            add_validation(*log);
+            add_validation(loader, *log);
         info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
         info.ppEnabledExtensionNames = extensions.data();
     }
@@ -129,7 +132,7 @@ struct Wish
     Wish(const Wish&) = delete;
     Wish& operator=(const Wish&) = delete;
 
-    void add_validation(ValidationLog& log)
+    void add_validation(PFN_vkGetInstanceProcAddr loader, ValidationLog& log)
     {
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
@@ -140,6 +143,21 @@ struct Wish
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &layer;
+        watch_shaders(loader);
+    }
+
+    /// Newer layers look at what shaders read and write only when they are asked to.
+    void watch_shaders([[maybe_unused]] PFN_vkGetInstanceProcAddr loader)
+    {
+#ifdef VK_EXT_layer_settings
+        if (!has_extension(loader, kValidationLayer, VK_EXT_LAYER_SETTINGS_EXTENSION_NAME))
+            return;
+        extensions.push_back(VK_EXT_LAYER_SETTINGS_EXTENSION_NAME);
+        settings.settingCount = 1;
+        settings.pSettings = &shader_accesses;
+        settings.pNext = info.pNext;
+        info.pNext = &settings;
+#endif
     }
 
     VkApplicationInfo app = start<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
@@ -149,6 +167,13 @@ struct Wish
     VkDebugUtilsMessengerCreateInfoEXT messenger = {};
     VkValidationFeatureEnableEXT synchronization =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+#ifdef VK_EXT_layer_settings
+    VkBool32 yes = VK_TRUE;
+    VkLayerSettingEXT shader_accesses = {kValidationLayer, "syncval_shader_accesses_heuristic",
+                                         VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &yes};
+    VkLayerSettingsCreateInfoEXT settings =
+        start<VkLayerSettingsCreateInfoEXT>(VK_STRUCTURE_TYPE_LAYER_SETTINGS_CREATE_INFO_EXT);
+#endif
     std::vector<const char*> extensions;
     const char* layer = kValidationLayer;
 };

@@ -14,7 +14,6 @@
 
 using namespace taut;
 using namespace taut::hardware;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -10,7 +10,6 @@
 
 using namespace taut;
 using namespace taut::hardware;
-using Catch::Matchers::Contains;
 
 namespace {
 

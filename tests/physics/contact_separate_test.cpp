@@ -156,7 +156,7 @@ TEST_CASE("a scene that is no scene is refused before its surfaces are looked at
         scene.contact.start = option_named<ContactStart>(start);
         scene.bodies[0].pins = {Pin{}};
         scene.bodies[0].pins[0].vertices = {100000};
-        CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")), Catch::Contains("pins[0].vertices"));
+        CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")), Contains("pins[0].vertices"));
     }
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("what cannot be taken apart is refused, and named")
         test::hold_all(body);
     scene.contact.start = ContactStart::separate;
     CHECK_THROWS_WITH(World(scene, test_device("cpu:serial")),
-                      Catch::Contains("could not be taken apart") && Catch::Contains("(\"first\")"));
+                      Contains("could not be taken apart") && Contains("(\"first\")"));
 }
 
 TEST_CASE("a start nearer than the gap that is let out by contact has not made energy")

@@ -327,7 +327,6 @@ TEST_CASE("worlds that divide bodies, or let them sleep, refuse those that meet"
         }
         return "";
     };
-    using Catch::Matchers::Contains;
     CHECK_THAT(refusal([&] { HybridWorld(resolve(scene), device, test_device("cpu")); }),
                Contains("hybrid") && Contains("leave contact out"));
     CHECK_THAT(refusal([&] { SleepWorld(resolve(scene), device); }), Contains("cannot sleep"));

@@ -290,7 +290,6 @@ TEST_CASE("the guarantee is the same bit for bit on every executor")
 
 TEST_CASE("the guarantee is refused by name where it cannot be given")
 {
-    using Catch::Matchers::Contains;
     Scene alone = test::guarded_scene({level_sheet(3, 0.1, {0, 0, 0})});
     CHECK_THAT(refusal_of(alone), Contains("contact.guarantee") && Contains("no surfaces meet"));
     alone.bodies[0].contact.self = true;

@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.22)
-# Sources stay readable: no line over 110 columns, no file over 400 lines. Needs -DSOURCE; git lists the files
-# where there is a checkout.
+# Sources stay readable: no line over 110 columns, no file over 400 lines; and tests compile with Catch2 2 and 3, whose
+# Contains is of texts in the one and of lists in the other. Needs -DSOURCE; git lists the files where there is a checkout.
 set(kWidest 110)
 set(kLongest 400)
 set(extensions "cpp|hpp|h|comp|glsl|vert|frag")
@@ -21,7 +21,7 @@ foreach(file IN LISTS files)
     endif()
     math(EXPR read "${read} + 1")
     execute_process(COMMAND awk -v widest=${kWidest} -v longest=${kLongest}
-        "length($0) > widest { print FNR \": \" length($0) \" columns\" } END { if (NR > longest) print NR \" lines\" }"
+        "length($0) > widest { print FNR \": \" length($0) \" columns\" } FILENAME !~ /support.catch/ && /Catch::(Matchers::)?Contains/ { print FNR \": Contains of Catch, not of support/catch.hpp\" } END { if (NR > longest) print NR \" lines\" }"
         ${SOURCE}/${file} OUTPUT_VARIABLE found RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "awk could not read ${file}")
@@ -35,5 +35,5 @@ if(read LESS 100)
     message(FATAL_ERROR "only ${read} sources found below ${SOURCE}")
 endif()
 if(faults)
-    message(FATAL_ERROR "more than ${kWidest} columns or ${kLongest} lines:\n${faults}")
+    message(FATAL_ERROR "more than ${kWidest} columns or ${kLongest} lines, or what one Catch2 lacks:\n${faults}")
 endif()

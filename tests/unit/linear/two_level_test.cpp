@@ -182,8 +182,8 @@ TEST_CASE("what TwoLevel cannot be made of is refused", "[linear][two_level]")
     std::vector<std::uint32_t> many;
     for (std::uint32_t v = 0; v < kRows / 3; ++v)
         many.push_back(v % (TwoLevel::kMostAggregates + 1));
-    CHECK_THROWS_WITH(TwoLevel(device, rows, a, inverse, all), Catch::Contains("bcsr3"));
-    CHECK_THROWS_WITH(TwoLevel(device, blocks, a, inverse, few), Catch::Contains("each of its block rows"));
-    CHECK_THROWS_WITH(TwoLevel(device, blocks, a, inverse, none), Catch::Contains("0 aggregates"));
-    CHECK_THROWS_WITH(TwoLevel(device, blocks, a, inverse, many), Catch::Contains("1 to 80"));
+    CHECK_THROWS_WITH(TwoLevel(device, rows, a, inverse, all), Contains("bcsr3"));
+    CHECK_THROWS_WITH(TwoLevel(device, blocks, a, inverse, few), Contains("each of its block rows"));
+    CHECK_THROWS_WITH(TwoLevel(device, blocks, a, inverse, none), Contains("0 aggregates"));
+    CHECK_THROWS_WITH(TwoLevel(device, blocks, a, inverse, many), Contains("1 to 80"));
 }

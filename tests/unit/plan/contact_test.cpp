@@ -15,7 +15,6 @@
 #include <set>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -37,8 +37,8 @@ TEST_CASE("a collider that fits through the triangles of a body is warned of, by
     REQUIRE(found.size() == 1);
     CHECK(!found[0].error);
     CHECK(found[0].field == "colliders[0]");
-    CHECK_THAT(found[0].text, Catch::Contains("bodies[0] (sheet)") && Catch::Contains("0.05 m") &&
-                                  Catch::Contains("\"meets\": \"surface\""));
+    CHECK_THAT(found[0].text,
+               Contains("bodies[0] (sheet)") && Contains("0.05 m") && Contains("\"meets\": \"surface\""));
     box.half_size = {0.04, 0.5, 0.04}; // a post: 0.057 m round
     CHECK(issues_of(8, box).size() == 1);
     CHECK(issues_of(14, box).empty());

@@ -109,7 +109,6 @@ TEST_CASE("a file that is no field is refused by its line, or by its point")
         std::string text = good;
         return refused_text(text.replace(text.find(from), from.size(), to));
     };
-    using Catch::Matchers::Contains;
     CHECK_THAT(refused(folder.path / "none.sdf"), Contains("none.sdf") && Contains("no such file"));
     CHECK_THAT(refused_text(""), Contains("bad.sdf"));
     CHECK_THAT(with("13 13 13", "13 1 13"), Contains("bad.sdf: line 1") && Contains("2 to 2^30"));
@@ -133,7 +132,6 @@ TEST_CASE("a field without an inside, or with a border that is inside, is no col
         scene.colliders[0].field = std::make_shared<const DistanceField>(std::move(field));
         return refusal(scene);
     };
-    using Catch::Matchers::Contains;
     CHECK(refused_field(ball_field()) == "nothing");
     CHECK_THAT(refused_field(ball_field(0.9)), Contains("colliders[0].distance_field") && Contains("border"));
     DistanceField outside = ball_field();
@@ -165,8 +163,7 @@ TEST_CASE("a scene names its grid, which is scaled, turned about its origin and 
     CHECK(glm::distance(solid.half, glm::dvec3(0.375)) < 1e-12);
     CHECK(solid.field_distance({0, 0, 0}) == Approx(-0.25));
     CHECK(solid.field_distance(frame.inside({1, 0.3, -1})) == Approx(0.05).margin(1e-3));
-    CHECK_THAT(refused(text, folder.path / "elsewhere"),
-               Catch::Matchers::Contains("colliders[0].distance_field.file"));
+    CHECK_THAT(refused(text, folder.path / "elsewhere"), Contains("colliders[0].distance_field.file"));
 }
 
 TEST_CASE(
@@ -182,7 +179,6 @@ TEST_CASE(
                                  scale + "}}]}";
         return refused(text, folder.path);
     };
-    using Catch::Matchers::Contains;
     CHECK(refused_scene("0.24", "1") == "nothing");
     CHECK_THAT(refused_scene("0.26", "1"), Contains("colliders[0].distance_field") && Contains("--margin"));
     CHECK_THAT(refused_scene("0.001", "1e-30"), Contains("distance_field.scale"));

@@ -63,7 +63,7 @@ TEST_CASE("what a collider meets is told in the scene file by one of three words
         "colliders": [{"sphere": {}, "meets": ")";
     CHECK(parse_scene(scene + "surface\"}]}").colliders[0].meets == ColliderMeets::surface);
     CHECK_THROWS_WITH(parse_scene(scene + "faces\"}]}"),
-                      Catch::Contains("colliders[0].meets is \"faces\"") && Catch::Contains("\"vertices\""));
+                      Contains("colliders[0].meets is \"faces\"") && Contains("\"vertices\""));
 }
 
 TEST_CASE("a distance field cannot be told to meet triangles", "[face]")
@@ -78,5 +78,5 @@ TEST_CASE("a distance field cannot be told to meet triangles", "[face]")
     REQUIRE(issues.size() == 1);
     CHECK(issues[0].error);
     CHECK(issues[0].field == "colliders[0].meets");
-    CHECK_THAT(issues[0].text, Catch::Contains("kinematic"));
+    CHECK_THAT(issues[0].text, Contains("kinematic"));
 }

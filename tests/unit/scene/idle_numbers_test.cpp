@@ -6,7 +6,6 @@
 #include <functional>
 
 using namespace taut;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -43,10 +43,10 @@ TEST_CASE("solids that are few tetrahedra across, or hardly give way, are warned
     REQUIRE(thin.size() == 1);
     CHECK(!thin[0].error);
     CHECK(thin[0].field == "bodies[0].box.cells");
-    CHECK_THAT(thin[0].text, Catch::Contains("2 tetrahedra across") && Catch::Contains("at least 4"));
+    CHECK_THAT(thin[0].text, Contains("2 tetrahedra across") && Contains("at least 4"));
     const std::vector<SceneIssue> rubber = locking_issues(box_of(8, 5, 8, 0.49));
     REQUIRE(rubber.size() == 1);
-    CHECK_THAT(rubber[0].text, Catch::Contains("0.49") && Catch::Contains("at least 8"));
+    CHECK_THAT(rubber[0].text, Contains("0.49") && Contains("at least 8"));
     CHECK(locking_issues(box_of(8, 8, 8, 0.49)).empty());
     Scene springs = box_of(8, 4, 4);
     springs.bodies[0].material.model = SolidModel::springs;
