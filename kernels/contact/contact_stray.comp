@@ -48,12 +48,14 @@ KERNEL(count)
 #elif GUARD
     rvec3 way = rvec3((position[i] - place[2u * i]) + delta[i]);
     rvec3 forecast = rvec3(place[2u * i + 1u]) * real(substeps);
-    bool stays = beyond_forecast(way, forecast) <= real(bound) + REAL(0.5) * sway() * length(forecast);
+    real far = beyond_forecast(way, forecast);
+    bool stays = IS_FINITE(far) && far <= real(bound) + REAL(0.5) * sway() * length(forecast);
     COUNT_EVENT_IF(!stays, lost, TAUT_CONTACT_STRAYED);
 #else
     real known = real(min(control[TAUT_CONTACT_SINCE] + 1u, substeps));
     rvec3 off = rvec3(((position[i] - place[2u * i]) + delta[i]) - place[2u * i + 1u] * known);
-    bool stays = dot(off, off) <= real(bound) * real(bound); // what is no number does not
+    real far = dot(off, off);
+    bool stays = IS_FINITE(far) && far <= real(bound) * real(bound);
     COUNT_EVENT_IF(!stays, lost, TAUT_CONTACT_STRAYED);
 #endif
 }
