@@ -61,6 +61,7 @@ function about(x, given,    part, unit, point)
 # has at least.
 function shows(kept, given,    most)
 {
+    kept += 0
     most = given !~ /\./ ? 0 : 5.01e-5 * (kept < 0 ? -kept : kept)
     return about(kept + 0, given) || (kept - given <= most && given - kept <= most)
 }

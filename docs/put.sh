@@ -1,4 +1,4 @@
-# For the update.sh of the pages, and for check.sh: check_tables and check_bench.
+# For the update.sh of the pages, and for check.sh: check_tables, check_bench and check_numbers.
 #
 # put PAGE PART FILE: what stands between "<!-- PART -->" and "<!-- end -->" of a page becomes the
 # text of a file. `scratch` is the caller's folder.

@@ -47,5 +47,4 @@ function claims()
           least["ball", "pbd"] > 0.01 && curve["ball", "pbd", 128] > curve["ball", "pbd", 16] && \
           curve["ball", "pbd", 16] > curve["ball", "pbd", 1])
     name("The reference R3")
-    name("differences of some hundredths of a millisecond") # noise, not a finding
 }

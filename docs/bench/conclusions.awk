@@ -13,7 +13,7 @@ function claims_of_steps()
     claim("A step on two cores takes 0.88, 0.59 and 0.60 of the OpenMP program's time at 64², 128² and 256², where 0.6 was wanted; best against best, 0.79, 0.75 and 0.67.",
           about(ratio(64), "0.88") && about(ratio(128), "0.59") && about(ratio(256), "0.60") \
           && about(best_ratio(64), "0.79") && about(best_ratio(128), "0.75") && about(best_ratio(256), "0.67"))
-    claim("a constraint of 256² and its share of the vertices takes 3.7 ns of one core, and 5.9 of the OpenMP program's two threads together;",
+    claim("A constraint of 256² and its share of the vertices take 3.7 ns of one core, and 5.9 of the OpenMP program's two threads together;",
           about(of_one("native serial", 1), "3.7") && about(of_one("plain OpenMP", 2), "5.9"))
     claim("two cores do 1.4 (64²) to 1.9 times as much as one.", about(gain(64), "1.4") && about(gain(256), "1.9"))
     claim("The sweep alone takes 0.45 of the plain serial loop on one core; software Vulkan and OpenGL take 12.4 times as long as that loop.",

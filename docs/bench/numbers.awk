@@ -3,8 +3,9 @@
 #   awk -v keys="1 5" [-v skip=" 3 4 "] -f bench/numbers.awk -f claims.awk PAGE_ROWS BENCH.csv
 # The first cells of a row of the page choose rows of the CSV: those that have them as the fields of `keys`, here the first and the
 # fifth. What another cell begins with, if it is a number, must be a field of these rows, whichever, to the digits of the page (shows()
-# of claims.awk). What stands in brackets or in a column of `skip` is formed from several rows and not held, nor are texts. Tables
-# that have the columns of their file are for check_bench.
+# of claims.awk). What stands in brackets or in a column of `skip` is formed from several rows and not held, nor are texts, of
+# which a target ("≤ 0.7, missed") is one. Without keys any number of the file will do. Tables that have the columns of their file
+# are for check_bench.
 function plain(text)
 {
     gsub(/\([^)]*\)|[`*]|[²%°]/, "", text)

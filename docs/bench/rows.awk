@@ -7,7 +7,7 @@ function same(shown, kept, column,    side)
 {
     if (shown == kept || (shown == "" && kept == "0")) return 1
     if (shown ~ /^[0-9]+²$/) return shown + 0 == kept + 0
-    if (split(shown, side, " x ") == 2) return side[1] * side[2] == kept + 0
+    if (shown ~ /^[0-9]+ x [0-9]+$/ && split(shown, side, " x ") == 2) return side[1] * side[2] == kept + 0
     if (kept !~ /^-?[0-9.]+(e[-+][0-9]+)?$/ || shown !~ /^-?[0-9.]+(e[-+]?[0-9]+)?$/) return 0
     return column == percent ? about(100 * kept, shown) : shows(kept, shown)
 }
@@ -19,7 +19,7 @@ FILENAME != ARGV[ARGC - 1] { sub(/^\| /, ""); sub(/ \|$/, ""); line[++shown_rows
     if (some) {
         for (row = 1; row <= shown_rows; ++row) if (index(line[row], cell[1] " | ") == 1) break
         if (row > shown_rows) next
-        ++seen
+        if (!hit[row]++) ++seen
     }
     else if (++row > shown_rows) next
     got = split(line[row], of_page, / *\| */)
@@ -28,6 +28,7 @@ FILENAME != ARGV[ARGC - 1] { sub(/^\| /, ""); sub(/ \|$/, ""); line[++shown_rows
             print "row " row ": \"" of_page[i] "\" is not " cell[i] > "/dev/stderr"
             differs = 1
         }
+    if (got > n) { print "row " row ": more cells than the file has" > "/dev/stderr"; differs = 1 }
     next
 }
 END {

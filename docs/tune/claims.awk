@@ -25,5 +25,4 @@ function claims()
     claim("every search ends within a minute.", longest() <= 60)
     claim("the material of `acad_compress` does not carry its load", is("acad_compress", "unsound_reference"))
     claim("plates (`fabric/overhang`) are not in the static reference", is("fabric/overhang", "no_reference"))
-    name("after 30 simulated seconds")
 }
