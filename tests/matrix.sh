@@ -57,7 +57,7 @@ part_hard() {
         "${run[@]}" LP_NUM_THREADS="${LP_NUM_THREADS:-1}" "$program" "F8: the cells end*"
 }
 
-part_odr() { "$root/tests/odr.sh" "$root/build/odr"; }
+part_odr() { "$root/tests/odr.sh" "$root/build/release" "$root/build/odr"; }
 
 # What ctest runs on cpu:serial and cpu alone (TAUT_TEST_SHORT), or in part on software drivers.
 part_executors() {
