@@ -1,9 +1,10 @@
 include(${CMAKE_CURRENT_LIST_DIR}/taut_elements.cmake)
 
-# taut_check_kernels(KERNELS...): stops the configuration on two kernels of one stem and on a kernel without a
-# test: tests/conformance/<stem>_test.cpp must exist; of a kernel that is compiled for elements, one a kernel,
+# taut_check_kernels(KERNELS...): stops the configuration on two kernels of one stem, on a comparison that is negated in a kernel
+# or a file that kernels include, and on a kernel without a test: tests/conformance/<stem>_test.cpp must exist; of a kernel that is compiled for elements, one a kernel,
 # <stem>_<element>_test.cpp. tests/rules/kernel_rules.cmake plants such kernels.
 function(taut_check_kernels)
+    taut_check_comparisons()
     set(stems)
     foreach(kernel IN LISTS ARGN)
         cmake_path(GET kernel STEM stem)
@@ -18,6 +19,18 @@ function(taut_check_kernels)
         endforeach()
         if(NOT DEFINED elements)
             taut_check_kernel_test(${kernel} ${stem})
+        endif()
+    endforeach()
+endfunction()
+
+# OpenGL may take !(a <= b) for a > b, which differs where one is no number; IS_FINITE asks for that.
+function(taut_check_comparisons)
+    file(GLOB_RECURSE texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.comp ${PROJECT_SOURCE_DIR}/kernels/*.glsl)
+    foreach(text IN LISTS texts)
+        file(STRINGS ${text} negated REGEX "^[^/#]*!\\(([^()]|\\([^()]*\\))*[<>]")
+        if(negated)
+            message(FATAL_ERROR "${text} negates a comparison, which drivers turn round without regard to NaN: ${negated}; "
+                "write the opposite comparison, and IS_FINITE where NaN matters")
         endif()
     endforeach()
 endfunction()

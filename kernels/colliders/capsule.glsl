@@ -53,7 +53,7 @@ INLINE Contact capsule_contact(CapsuleCollider c, CapsuleCollider next, rvec3 x,
     rvec3 up = rvec3(real(0), c.half_length, real(0));
     real entry = min(side, min(time_into_ball(a - up, travel, rr), time_into_ball(a + up, travel, rr)));
     rbool enters = came_from_outside && entry <= real(1);
-    rbool far_side = enters && !(dot(qa, qe) > real(0) && dot(qe, qe) < rr);
+    rbool far_side = enters && (dot(qa, qe) <= real(0) || dot(qe, qe) >= rr);
     rvec3 meets = SELECT(far_side, a + travel * entry, e);
     rvec3 towards = off_axis(meets, c.half_length);
     real size = length(towards);

@@ -28,7 +28,7 @@ INLINE Contact sphere_contact(SphereCollider c, real substep, real substeps, rve
     real entry = SELECT(square > real(0), max((-along - root) / square, real(0)), real(2));
     rbool came_from_outside = outside >= REAL(-1e-3) * r * r && along < real(0);
     rbool enters = came_from_outside && discriminant > real(0) && entry <= real(1);
-    rbool far_side = enters && !(dot(a, e) > real(0) && dot(e, e) < r * r);
+    rbool far_side = enters && (dot(a, e) <= real(0) || dot(e, e) >= r * r);
     rvec3 towards = SELECT(far_side, a + travel * entry, e);
     real size = length(towards);
     // A vertex exactly at the centre leaves upwards: any direction is as good.

@@ -128,7 +128,7 @@ KERNEL(count)
     bool leaves = !keeps_to(from + whole, forecast, about.w);
     if (about.w < real(-1.5))
     {
-        bool strays = !(beyond_forecast(from + whole, forecast) <= (real(-2) - about.w) * REAL(1.0001));
+        bool strays = beyond_forecast(from + whole, forecast) > (real(-2) - about.w) * REAL(1.0001);
         COUNT_EVENT_IF(strays, lost, TAUT_CONTACT_PINCHED);
     }
     else if (asked[i] > 0u || asked[count] > 0u || leaves)
@@ -153,8 +153,9 @@ KERNEL(count)
             fits = fits && dot(ask.normal, way) >= -ask.room - REAL(0.125) * ask.margin;
             parted = parted && ask.room > REAL(-1e29);
         }
-        bool longer = !pushed && !(dot(way, way) <= dot(whole, whole) * REAL(1.0001));
-        if (!fits || longer || !parted)
+        real size = dot(way, way);
+        bool longer = !pushed && size > dot(whole, whole) * REAL(1.0001);
+        if (!fits || longer || !parted || !IS_FINITE(size))
             way = rvec3(real(0));
         bool cut = way.x != whole.x || way.y != whole.y || way.z != whole.z;
         if (cut)

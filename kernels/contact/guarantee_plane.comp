@@ -50,7 +50,7 @@ INLINE Separator widest_of(rbool edges, rvec3 e1, rvec3 e2, rvec3 e3, real enoug
 {
     rvec3 way = closest_of_pair(edges, e1, e2, e3).way;
     Separator best = separator_along(way, e1, e2, e3, edges);
-    rbool narrow = !(best.gap > enough);
+    rbool narrow = best.gap <= enough;
     if (ANY(narrow && edges))
     {
         Separator other = separator_of_edges(way, e1, e2, e3);
@@ -105,7 +105,7 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     rbool meet = sum > real(0);
     real of_second = second / SELECT(meet, sum, real(1));
     real share = SELECT(meet, min(max(of_second, REAL(0.05)), REAL(0.95)), real(0.5));
-    rbool tight = !(s.gap > real(2) * m);
+    rbool tight = s.gap <= real(2) * m;
     rbool apart = s.gap > REAL(0.75) * m;
     real plane = SELECT(tight, real(0.5) * (s.low + s.high), (s.high + m) + share * (s.gap - real(2) * m));
     // Where held corners end.
@@ -134,7 +134,7 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
                              SELECT(free3, SELECT(apart, room3, -none), none));
     real end_low = SELECT(edges, min(ahead0, end1), ahead0);
     real end_high = SELECT(edges, max(end2, end3), max(end1, max(end2, end3)));
-    rbool asks = !(apart && end_low - end_high > real(2) * m);
+    rbool asks = !apart || end_low - end_high <= real(2) * m;
     COUNT_EVENT_IF(asks, asked, p.a);
     COUNT_EVENT_IF(asks, asked, p.b);
     COUNT_EVENT_IF(asks, asked, p.c);

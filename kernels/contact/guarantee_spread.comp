@@ -30,7 +30,7 @@ COUNTERS(6, next);    // the same after this round; LAST: word `vertices`, corne
 /// Whether a corner that goes all its way ends beyond its side of the plane.
 INLINE bool is_beyond(uint v, rvec3 normal, real room)
 {
-    return !(dot(normal, rvec3(delta[v]) - rvec3(low[v])) >= -room);
+    return dot(normal, rvec3(delta[v]) - rvec3(low[v])) < -room;
 }
 
 KERNEL(capacity)

@@ -119,7 +119,7 @@ void invert(uint block)
     Factors f = factors_of(xy, xz, yz, diagonal);
     bool regular = f.pivot1 > real(0) && f.pivot2 > real(0);
     // The smallest eigenvalue is at least 4/9 of the determinant, because the three add up to 3.
-    if (!(regular && REAL(0.4444444444444444) * (f.pivot1 * f.pivot2) >= least_eigenvalue()))
+    if (!regular || REAL(0.4444444444444444) * (f.pivot1 * f.pivot2) < least_eigenvalue())
     {
         diagonal += least_eigenvalue();
         f = factors_of(xy, xz, yz, diagonal);

@@ -40,8 +40,8 @@ uint acad_next(uint flag, bool may, rvec3 d, real rest_length, AcadLimits at)
     PRECISE real slack = rest_length * at.slack;
     PRECISE real shorter = rest_length * at.shorter;
     PRECISE real unloaded = rest_length * at.unloaded;
-    bool stays = (flag == TAUT_ACAD_ROW && !(squared < slack * slack)) ||
-                 (flag == TAUT_ACAD_PRESSED && !(squared > unloaded * unloaded));
+    bool stays = (flag == TAUT_ACAD_ROW && squared >= slack * slack) ||
+                 (flag == TAUT_ACAD_PRESSED && squared <= unloaded * unloaded);
     bool can = may && rest_length > real(0);
     uint fresh = can && squared < shorter * shorter ? TAUT_ACAD_PRESSED : TAUT_ACAD_SPRING;
     fresh = can && squared > longer * longer ? TAUT_ACAD_ROW : fresh;

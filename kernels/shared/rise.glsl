@@ -21,7 +21,7 @@ real beyond_log(real u)
     real factor = real(2);
     for (uint k = 0u; k < 10u; ++k)
     {
-        bool far = !(whole > REAL(0.8) && whole < real(1.25));
+        bool far = whole <= REAL(0.8) || whole >= real(1.25);
         whole = far ? sqrt(whole) : whole;
         factor = far ? factor + factor : factor;
     }

@@ -111,7 +111,7 @@ Singular singular_of(rvec3 f0, rvec3 f1, rvec3 f2)
     d.u0 = len > real(0) ? a / len : most;
     b -= d.u0 * dot(d.u0, b);
     real wide = length(b);
-    bool thin = !(wide > REAL(1e-6) * len);
+    bool thin = wide <= REAL(1e-6) * len;
     d.u1 = thin ? aside(d.u0) : b / wide;
     d.u2 = cross(d.u0, d.u1);
     d.s = rvec3(len, thin ? real(0) : wide, dot(d.u2, e));

@@ -16,7 +16,7 @@ uint row_word(uint k, uint word)
 /// Whether v counts for an element before another of its vertices.
 bool leads(uint v, uint other, real inverse_mass)
 {
-    return v < other || !(inverse_mass > real(0));
+    return v < other || inverse_mass <= real(0);
 }
 
 #if HINGES
@@ -44,7 +44,7 @@ bool counts_for(uint v, BendingConstraint c)
     if (position[c.edge0].w > real(0)) return false;
     if (v == c.edge1) return true;
     if (position[c.edge1].w > real(0)) return false;
-    return v == c.wing0 || !(position[c.wing0].w > real(0));
+    return v == c.wing0 || position[c.wing0].w <= real(0);
 }
 #endif
 

@@ -32,7 +32,7 @@ KERNEL(count)
     rvec4 v = velocity[i];
     v += rvec4(step_values[0].gravity_x, step_values[0].gravity_y, step_values[0].gravity_z, real(0)) * h;
     real speed = length(rvec3(v));
-    rbool fast = moves && !(speed <= limit);
+    rbool fast = moves && speed > limit;
     if (ANY(fast))
     {
         v = SELECT(fast, v * (limit / speed), v);

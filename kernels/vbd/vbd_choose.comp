@@ -51,7 +51,7 @@ GROUP_KERNEL(64)
     real rise = held ? sum[0] : sum[0] + (dot(mean, guess) - (real(0.5) * sum[1]) * dot(mean, mean));
     uint at = TAUT_VBD_SUMS * mine + 10u;
     rvec3 way = mean + rvec3(sums[at], sums[at + 1u], sums[at + 2u]);
-    uint last = group < groups && !(rise <= real(0)) ? row[own + 2u] : 0u;
+    uint last = group < groups && (rise > real(0) || !IS_FINITE(rise)) ? row[own + 2u] : 0u;
     EACH_BEGIN(row[own + 1u], last)
     uint v = row[words * row[rows + uint(i)]];
     rvec4 d = delta[v];

@@ -145,7 +145,7 @@ real tetrahedra_rise(uint k, uint v)
         Edge e2 = edge_of(v0, v2);
         Edge e3 = edge_of(v0, v3);
 #if ELASTIC
-        if (!(t.mu > real(0))) // a held volume: its edges are in cubes of metres, not stretches
+        if (t.mu <= real(0)) // a held volume: its edges are in cubes of metres, not stretches
         {
 #endif
             real size = real(1) / real(6);

@@ -156,7 +156,7 @@ void solve(uint k)
         mixed += rvec3(n.x * n.y, n.x * n.z, n.y * n.z) * along;
         if (report != 0u)
         {
-            if (!usable && s.rest_length > real(0) && (v < s.b || !(far.w > real(0))))
+            if (!usable && s.rest_length > real(0) && (v < s.b || far.w <= real(0)))
                 COUNT_EVENT(events, TAUT_EVENT_DEGENERATE);
         }
     }

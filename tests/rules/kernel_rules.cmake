@@ -1,4 +1,4 @@
-# A kernel without a test and a second kernel of the same stem stop the configuration.
+# A kernel without a test, a second kernel of the same stem and a negated comparison stop the configuration.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 
 tree("include(${SOURCE}/cmake/kernel_rules.cmake)\nfile(GLOB_RECURSE kernels kernels/*.comp)\ntaut_check_kernels(\${kernels})")
@@ -19,3 +19,9 @@ plant(tests/conformance/meet_cone_test.cpp "// test")
 must_pass("a kernel for a shape with its test")
 plant(kernels/collide/wind.comp "// text")
 must_stop("two kernels of one stem" "two kernels are called wind.comp")
+
+file(REMOVE ${WORK}/tree/kernels/collide/wind.comp)
+plant(kernels/shared/far.glsl "bool near(real a) { return (a < real(1)) && !is_far(a); } // !(a < b)")
+must_pass("a comparison and a negation")
+plant(kernels/shared/far.glsl "bool far(vec2 a) { return !(dot(a, a) <= 1.0); }")
+must_stop("a negated comparison" "far.glsl negates a comparison")
