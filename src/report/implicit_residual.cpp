@@ -8,11 +8,10 @@
 #include "taut/report/implicit_residual.hpp"
 
 #include "taut/plan/methods.hpp"
-#include "taut/report/contact.hpp"
 #include "taut/report/contact_depth.hpp"
-#include "taut/report/crossing_shapes.hpp"
 #include "taut/report/energy_budget.hpp"
 #include "taut/report/load_residual.hpp"
+#include "taut/report/touching.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -119,62 +118,12 @@ void mark_limited(const View& view, std::vector<bool>& marks)
     }
 }
 
-/// Of a cell: between the points of a grid the way out is not quite the slope of the distance: vertices rest
-/// that far beside the surface. Without it examples/scenes/distance_field.json ends with a primal residual
-/// of 55, what the ring carries; with it of 0.65.
-constexpr double kOffGrid = 2e-3;
-
-/// Marks the corners of a body's triangles that a collider holds: no further from it than `near` of a corner.
-template <typename Near>
-void mark_held_triangles(const View& view, std::size_t body, const Collider& collider, const Near& near,
-                         std::vector<bool>& marks)
-{
-    const SolidShape shape = solid_shape(collider);
-    const ColliderFrame frame = frame_at(collider, view.world.time());
-    const std::size_t first = view.model.body_start[body];
-    for (const auto& [a, b, c] : view.world.scene().bodies[body].mesh.triangles)
-    {
-        const std::size_t corner[] = {first + a, first + b, first + c};
-        TriangleCorners own;
-        double way = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            own[k] = frame.inside(view.x[corner[k]]);
-            way = std::max(way, near(corner[k]));
-        }
-        if (comes_near(shape, own, way))
-            for (const std::size_t v : corner)
-                marks[v] = true;
-    }
-}
-
 } // namespace
 
 bool has_effect(const View& view, std::string_view name)
 {
     return std::any_of(view.plan.effects.begin(), view.plan.effects.end(),
                        [&](const EffectCost& e) { return e.name == name; });
-}
-
-std::vector<bool> touching_colliders(const View& view, std::span<const double> ways)
-{
-    const Scene& scene = view.world.scene();
-    const auto near = [&](std::size_t i) {
-        return view.model.gap[i] + 1e-6 * view.model.diameter + (ways.empty() ? 0 : ways[i]);
-    };
-    std::vector<bool> out(view.x.size(), false);
-    std::vector<SurfaceRule> rules(scene.bodies.begin(), scene.bodies.end());
-    for (const Collider& c : scene.colliders)
-    {
-        const double beside = c.field ? kOffGrid * c.field->cell : 0;
-        const reference::Surface surface = reference::surface_at(c, view.world.time());
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = out[i] || surface.touch(view.x[i], 0).height <= near(i) + beside;
-        for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-            if (rules[b].meets(c))
-                mark_held_triangles(view, b, c, near, out);
-    }
-    return out;
 }
 
 void measure_implicit_residual(const View& view, StepReport& out)
@@ -185,7 +134,8 @@ void measure_implicit_residual(const View& view, StepReport& out)
     const double gravity = glm::length(last->model->gravity);
     std::vector<double> size(view.x.size(), 0.0);
     add_force_sizes(*last->model, view.x, size);
-    const std::vector<bool> touches = touching_colliders(view);
+    const std::vector<bool> touches =
+        touching_colliders(view.world.scene(), view.model, view.x, view.world.time());
     double worst = 0, lefts = 0, sizes = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
@@ -272,7 +222,7 @@ void put_loads(const View& view, Substep& last)
             // One that a collider pushed may have left it in the same substep.
             ways.push_back(glm::length(last.moved[i]) + gravity * h * h);
         }
-    last.left.touches = touching_colliders(view, ways);
+    last.left.touches = touching_colliders(view.world.scene(), view.model, view.x, view.world.time(), ways);
     for (std::size_t i = 0; i < ways.size(); ++i)
         last.left.touches[i] = last.left.touches[i] || view.model.flows[i];
     mark_limited(view, last.left.touches);

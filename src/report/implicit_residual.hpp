@@ -7,10 +7,6 @@
 
 namespace taut {
 
-/// Of each vertex whether it, or a triangle of it that meets colliders (scene/faces.hpp), is no further than
-/// its way from where a collider holds it. `ways`: m, by vertex; empty: 0.
-std::vector<bool> touching_colliders(const reference::View& view, std::span<const double> ways = {});
-
 /// Whether the plan has the effect of that name.
 bool has_effect(const reference::View& view, std::string_view name);
 

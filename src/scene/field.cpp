@@ -24,6 +24,14 @@ std::string shown_value(const nlohmann::json& value)
     return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
+[[noreturn]] void list(std::vector<SceneIssue>& issues, std::string path, std::string text)
+{
+    issues.push_back({true, std::move(path), std::move(text)});
+    if (issues.size() > kMostIssues)
+        throw ListFull();
+    throw Listed();
+}
+
 /// What to say to one who writes a key that means something elsewhere; empty if nothing is known.
 std::string_view advice(const Table& table, std::string_view key)
 {
@@ -39,7 +47,7 @@ Field::Field(const nlohmann::json& value, const std::string& file, std::string p
              std::vector<SceneIssue>* issues)
     : value_(&value),
       file_(&file),
-      path_(std::move(path)),
+      base_(std::make_shared<const std::string>(std::move(path))),
       issues_(issues)
 {}
 
@@ -55,43 +63,49 @@ void Field::attempt(const std::function<void()>& part)
 
 void Field::fail(const std::string& text) const
 {
+    const std::string here = path();
     if (issues_)
-    {
-        issues_->push_back({true, path_, path_.empty() ? "the scene " + text : text});
-        throw Listed();
-    }
-    throw Error(ErrorCode::bad_input, *file_ + ": " + (path_.empty() ? "the scene" : path_) + " " + text);
+        list(*issues_, here, here.empty() ? "the scene " + text : text);
+    throw Error(ErrorCode::bad_input, *file_ + ": " + (here.empty() ? "the scene" : here) + " " + text);
 }
 
 void Field::fail_at(std::string_view key, const std::string& text, const std::string& listed) const
 {
     if (issues_)
-    {
-        issues_->push_back({true, path_of(key), listed});
-        throw Listed();
-    }
+        list(*issues_, path_of(key), listed);
     fail(text);
+}
+
+std::string Field::path() const
+{
+    std::string out = *base_;
+    if (index_ != kNoIndex)
+        out += '[' + std::to_string(index_) + ']';
+    if (!key_.empty())
+        out += (out.empty() ? "" : ".") + std::string(key_);
+    return out;
 }
 
 std::string Field::path_of(std::string_view key) const
 {
     const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '$'; };
     if (key.empty() || key.size() > 60 || !std::all_of(key.begin(), key.end(), plain))
-        return path_ + '[' + shown_value(std::string(key)) + ']'; // what a file may have for a key
-    return (path_.empty() ? "" : path_ + ".") + std::string(key);
+        return path() + '[' + shown_value(std::string(key)) + ']'; // what a file may have for a key
+    const std::string here = path();
+    return (here.empty() ? "" : here + ".") + std::string(key);
 }
 
 void Field::refuse(const std::string& right) const { fail("is " + shown_value(*value_) + "; " + right); }
 
 const Field& Field::object(const Table& table)
 {
-    const std::vector<std::string_view> known = names(table);
     if (!value_->is_object())
-        refuse("it must be an object with the keys " + listing(known));
+        refuse("it must be an object with the keys " + listing(names(table)));
     for (const auto& item : value_->items())
     {
         if (table.find(item.key()))
             continue;
+        const std::vector<std::string_view> known = names(table);
         const std::string_view hint = advice(table, item.key());
         const std::string close = nearest(item.key(), known);
         const auto right = [&](const char* all) {
@@ -116,7 +130,16 @@ std::optional<Field> Field::find(std::string_view key) const
     const auto member = value_->find(std::string(key));
     if (member == value_->end())
         return std::nullopt;
-    return Field(*member, *file_, path_of(key), issues_);
+    Field out = *this;
+    out.value_ = &*member;
+    out.table_ = nullptr;
+    if (!key_.empty())
+    {
+        out.base_ = std::make_shared<const std::string>(path());
+        out.index_ = kNoIndex;
+    }
+    out.key_ = key;
+    return out;
 }
 
 double Field::number() const
@@ -152,10 +175,19 @@ std::vector<Field> Field::elements() const
 {
     if (!value_->is_array())
         refuse("it must be a list [ ... ]");
+    Field element = *this;
+    element.table_ = nullptr;
+    if (index_ != kNoIndex || !key_.empty())
+        element.base_ = std::make_shared<const std::string>(path());
+    element.key_ = {};
     std::vector<Field> out;
     out.reserve(value_->size());
     for (std::size_t i = 0; i < value_->size(); ++i)
-        out.emplace_back((*value_)[i], *file_, path_ + '[' + std::to_string(i) + ']', issues_);
+    {
+        element.value_ = &(*value_)[i];
+        element.index_ = i;
+        out.push_back(element);
+    }
     return out;
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,13 @@ struct Table;
 /// What a reader throws once it has put a mistake on a list; attempt() goes on behind it.
 struct Listed
 {};
+
+/// What it throws where the list is full.
+struct ListFull
+{};
+
+/// Mistakes that are listed of one file; who has more of them has made one of them a million times.
+inline constexpr std::size_t kMostIssues = 1000;
 
 /// A view of one JSON value. All readers throw Error{bad_input}: file, path, what is there, what
 /// would be right. With a list of issues they put it there instead, and what can be read is read. Only types
@@ -69,11 +77,17 @@ public:
     [[noreturn]] void fail_at(std::string_view key, const std::string& text, const std::string& listed) const;
 
 private:
+    static constexpr std::size_t kNoIndex = ~std::size_t(0);
+
+    std::string path() const;
     std::string path_of(std::string_view key) const;
 
     const nlohmann::json* value_;
     const std::string* file_;
-    std::string path_;
+    // "BASE[INDEX].KEY", put together where a mistake asks for it: a list has millions of elements.
+    std::shared_ptr<const std::string> base_;
+    std::size_t index_ = kNoIndex;
+    std::string_view key_; // of a table
     const Table* table_ = nullptr;
     std::vector<SceneIssue>* issues_;
 };

@@ -48,6 +48,17 @@ void add_missing_files(const Scene& scene, const std::filesystem::path& director
         look(scene.colliders[c].field_file, "colliders", c);
 }
 
+/// What is left out may be all of the errors: the last line says whether there are any.
+void cut_short(std::vector<SceneIssue>& issues)
+{
+    if (issues.size() <= scene_file::kMostIssues)
+        return;
+    const bool error = any_error(issues);
+    issues.resize(scene_file::kMostIssues);
+    issues.push_back(
+        {error, "", "the scene has more mistakes than these; mend the first ones and check it again"});
+}
+
 } // namespace
 
 std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* scene,
@@ -58,7 +69,12 @@ std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* sce
     std::vector<SceneIssue> issues;
     const nlohmann::json tree = scene_file::parse_json(text, name);
     Scene found;
-    Field::attempt([&] { read_table(Field(tree, name, {}, &issues), scene_file::kSceneTable, &found); });
+    try
+    {
+        Field::attempt([&] { read_table(Field(tree, name, {}, &issues), scene_file::kSceneTable, &found); });
+    }
+    catch (const scene_file::ListFull&)
+    {}
     if (issues.empty())
         issues = check(found);
     else
@@ -66,6 +82,7 @@ std::vector<SceneIssue> check_file(const std::filesystem::path& file, Scene* sce
             issues.push_back(std::move(issue));
     if (any_error(issues))
         add_missing_files(found, file.parent_path(), issues);
+    cut_short(issues);
     if (method_keys)
         *method_keys = scene_file::keys_of(tree, "method");
     if (scene)

@@ -153,6 +153,8 @@ void read_value(const Field& value, const Key& key, void* member)
 std::vector<const Key*> choose(const Field& field, const Table& table)
 {
     std::vector<const Key*> chosen;
+    if (std::none_of(table.keys.begin(), table.keys.end(), [](const Key& key) { return key.is_choice; }))
+        return chosen;
     std::vector<std::string_view> all;
     for (const Key& key : table.keys)
     {

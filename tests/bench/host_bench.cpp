@@ -47,6 +47,15 @@ std::string scene_of(std::uint32_t springs)
     return text + "]}]}";
 }
 
+double read_alone(std::uint32_t springs)
+{
+    const std::string text = scene_of(springs);
+    return seconds_of([&] {
+        if (parse_scene(text).bodies.at(0).springs.size() != springs)
+            throw std::runtime_error("the scene has not the springs that were written");
+    });
+}
+
 double read_and_check(std::uint32_t springs)
 {
     const std::string text = scene_of(springs);
@@ -101,6 +110,7 @@ int main(int argc, char** argv)
         std::printf("# %s\nwhat,count,s,ns each,growth\n",
                     bench::conditions("taut_host_bench", argc, argv).c_str());
         const auto itself = [](std::uint32_t n) { return n; };
+        rows("read springs", read_alone, itself, 250000, 1000000);
         rows("read and check springs", read_and_check, itself, 250000, 1000000);
         rows(
             "set_force of each vertex", set_each, [](std::uint32_t side) { return side * side; }, 128, 256);

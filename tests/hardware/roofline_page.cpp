@@ -215,7 +215,7 @@ std::string page_dispatches(const Table& table, std::uint32_t most)
     const std::vector<KernelWork> parts = by_kernel(table, gpu.family, plan);
     const double coloured = passes(parts, true), others = passes(parts, false), substeps = plan.substeps;
     const double bending = passes(parts, true, "bending");
-    text += "\n| a step of the default scene | dispatches | ms at 0.876 µs | ms at 3 µs "
+    text += "\n| a step of that scene | dispatches | ms at 0.876 µs | ms at 3 µs "
             "|\n|---|---:|---:|---:|\n";
     const auto line = [&](const char* what, double dispatches) {
         text += row({what, shown(dispatches, 4), time(dispatches * kRecorded.seconds, 1e-3),

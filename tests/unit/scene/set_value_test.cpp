@@ -2,6 +2,7 @@
 #include "temporary.hpp"
 
 #include "taut/runtime/base/error.hpp"
+#include "taut/scene/field.hpp"
 #include "taut/scene/settings.hpp"
 
 using namespace taut;
@@ -68,6 +69,23 @@ TEST_CASE("a key that no path can have stands in brackets, in quotes and short")
     CHECK(field_of("method.substeps") == "[\"method.substeps\"]");
     CHECK(field_of("\\u001b[2J") == "[\"\\u001b[2J\"]");
     CHECK(field_of(std::string(5000, 'x')).size() < 70);
+}
+
+TEST_CASE("of a file with thousands of mistakes the first are listed, each under its path")
+{
+    const Temporary folder;
+    std::string springs;
+    for (int k = 0; k < 3000; ++k)
+        springs +=
+            std::string(k == 0 ? "" : ", ") + R"({"a": 0, "b": "one", "rest_length": 1, "compliance": 0})";
+    const auto issues =
+        check_file(folder.write("many.json", R"({"taut": 1, "bodies": [{"grid": {}, "springs": [)" + springs +
+                                                 R"(], "pins": [{"at": 1}]}]})"));
+    REQUIRE(issues.size() == scene_file::kMostIssues + 1);
+    CHECK(issues[0].field == "bodies[0].pins[0].at");
+    CHECK(issues[999].field == "bodies[0].springs[998].b");
+    CHECK(issues.back().error);
+    CHECK_THAT(issues.back().text, Contains("more mistakes than these"));
 }
 
 TEST_CASE("a scene without bodies is told that nothing happens in it")
