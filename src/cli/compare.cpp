@@ -138,7 +138,7 @@ Json to_json(const CompareRow& row)
     json["primal_residual"] = known(row.residuals.primal);
     json["dual_residual"] = known(row.residuals.dual);
     json["difference"] = row.difference ? Json(*row.difference) : Json();
-    json["series"] = looks_json(row.looks);
+    json["series"] = series_json(row.series);
     return json;
 }
 
@@ -172,7 +172,7 @@ int compare_variants(const CompareCommand& command)
     if (!command.folder.empty())
     {
         write_file(command.folder / "compare.csv", compare_csv(rows));
-        write_file(command.folder / "compare_series.csv", compare_looks_csv(rows));
+        write_file(command.folder / "compare_series.csv", compare_series_csv(rows));
         write_svg(command.folder / "compare_series.svg",
                   compare_series_plot(fs::path(command.scene).stem().string(), rows));
         write_file(command.folder / "compare.md", compare_markdown(rows));

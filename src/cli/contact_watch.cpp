@@ -14,10 +14,21 @@ namespace {
 
 constexpr std::uint64_t kLooks = 16; // on the way
 
+/// Triangles of which every frame is looked at.
+constexpr std::size_t kSmall = 2'500;
+
 std::string name_of(const Scene& scene, std::uint32_t body)
 {
     const std::string& name = scene.bodies[body].name;
     return "bodies[" + std::to_string(body) + "]" + (name.empty() ? "" : " (\"" + name + "\")");
+}
+
+/// The guarantee is lost where it is pinched alone, by what moves too far in a substep or leaves no place.
+std::string advice(bool guarded, const std::string& without)
+{
+    return guarded ? "; raise method.substeps, move what is led more slowly, or leave more place between "
+                     "what is led"
+                   : without + ", or let contact.guarantee be \"no_crossing\"";
 }
 
 } // namespace
@@ -44,8 +55,10 @@ void ContactWatch::after(std::uint64_t frame)
             return;
     if (surface_.parts > 1 && before_.size() == positions.size()) // not where cloth has just torn
         look_between(frame, positions);
-    if (look_due(frame, frames_, kLooks))
+    const std::uint64_t pinched = simulation_.pinched();
+    if (look_due(frame, frames_, kLooks) || surface_.triangles.size() <= kSmall || pinched > pinched_)
         look(frame, positions);
+    pinched_ = pinched;
     before_ = std::move(positions);
 }
 
@@ -114,8 +127,7 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             " pairs of triangles after frame " + std::to_string(most_frame_) + ", the first of " +
             most_bodies_ +
             (at_start_ > 0 ? "; they do so at the start, and contact does not part what has crossed"
-                           : "; raise method.substeps or contact.sweeps, or let contact.guarantee be "
-                             "\"no_crossing\"");
+                           : advice(report.contacts.guarded, "; raise method.substeps or contact.sweeps"));
         set_status(crossed, report);
     }
     // Ways are not straight between two frames. Under the guarantee they are known to be clear.
@@ -128,8 +140,7 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
             "surfaces that are to meet have passed through each other: vertices and triangles, or edges, "
             "in " +
             std::to_string(passed_) + " places, first before frame " + std::to_string(passed_frame_) +
-            "; raise method.substeps or contact.sweeps, shorten timestep, or let contact.guarantee be "
-            "\"no_crossing\"";
+            advice(report.contacts.guarded, "; raise method.substeps or contact.sweeps, shorten timestep");
         set_status(passed, report);
     }
     if (at_start_ > 0)
@@ -141,8 +152,8 @@ void ContactWatch::describe(StepReport& report, std::vector<std::string>& messag
         if (times > 0)
             messages.push_back("contact: " + std::to_string(times) + what);
     };
-    say(c.pinched, " times held vertices that move left no place for others: the guarantee does not hold "
-                   "there");
+    say(c.pinched, " times held vertices that move left others no place, or ran them over: the guarantee "
+                   "does not hold there");
     say(c.missing, " pairs found no place in their list, which has grown since");
     say(c.cut, " searches met more triangles than they may take; a thickness below the edges of the mesh "
                "avoids that");

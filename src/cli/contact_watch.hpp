@@ -18,9 +18,10 @@ public:
     /// `simulation` at its start; outlives the watch. Without contact in the scene nothing is looked at.
     ContactWatch(const Simulation& simulation, std::uint64_t frames);
 
-    /// After so many frames: looks at the last one and sixteen on the way, and each time at which surfaces
-    /// passed through others since the frame before. One that hangs together cannot pass through itself
-    /// without a triangle in another one that stays, so that is left to the looks.
+    /// After so many frames: looks at the last one and sixteen on the way, at all of few triangles, at those
+    /// in which the guarantee was pinched, and each time at which surfaces passed through others since the
+    /// frame before. One that hangs together cannot pass through itself without a triangle in another one
+    /// that stays, so that is left to the looks.
     void after(std::uint64_t frame);
 
     /// Adds what was seen: crossings make a run `unconverged`, pairs that no list held are a message.
@@ -40,6 +41,7 @@ private:
     std::vector<std::uint32_t> body_;     ///< per vertex
     std::size_t at_start_ = 0, most_ = 0; ///< pairs of triangles
     std::uint64_t most_frame_ = 0;
+    std::uint64_t pinched_ = 0; ///< as the simulation counted before
     std::size_t passed_ = 0; ///< pairs that met between two frames
     std::uint64_t passed_frame_ = 0;
     std::vector<glm::dvec3> before_;

@@ -88,7 +88,7 @@ public:
           every_(mesh_interval(options, simulation.scene())),
           moment_frames_(options.no_picture ? std::vector<std::uint64_t>{} : moment_frames(frames)),
           meshes_(options.folder),
-          looks_(frames),
+          series_(frames),
           watch_(frames),
           tunnelling_(simulation, frames),
           contact_(simulation, frames)
@@ -121,7 +121,7 @@ public:
     /// The smallest V / V0 of all frames.
     double volume_min() const { return volume_.least; }
     const std::vector<PictureMoment>& moments() const { return moments_; }
-    const std::vector<Look>& looks() const { return looks_.list(); }
+    const std::vector<TimeSample>& series() const { return series_.list(); }
     const SoundnessWatch& watch() const { return watch_; }
     const Crossings& crossings() const { return tunnelling_.found(); }
     const ContactWatch& contact() const { return contact_; }
@@ -145,7 +145,7 @@ private:
         finite_ = simulation_.events().non_finite == 0;
         if (finite_ && watch_.due(done_)) // whole() may have to put it together
             watch_.after(done_, simulation_.whole());
-        if (finite_ && looks_.due(done_))
+        if (finite_ && series_.due(done_))
             look();
         if (!finite_)
             return;
@@ -163,8 +163,8 @@ private:
         looked_torn_ = simulation_.torn();
         const double stretch =
             largest_stretch(stretchable_.springs, simulation_.positions(), stretchable_.elements);
-        looks_.add(done_, simulation_.time(), stretch,
-                   simulation_.active_share(), simulation_.solver_report());
+        series_.add(done_, simulation_.time(), stretch, simulation_.active_share(),
+                    simulation_.solver_report());
     }
 
     /// The mesh and the moment of a frame, where they are due.
@@ -203,7 +203,7 @@ private:
     std::vector<PictureMoment> moments_;
     MeshSequence meshes_;
     VolumeReport volume_ = measure_volume(simulation_.scene(), simulation_.positions());
-    Looks looks_;
+    TimeSeries series_;
     SoundnessWatch watch_;
     TunnelWatch tunnelling_;
     ContactWatch contact_;
@@ -246,7 +246,7 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.colours = world.plan().colour_counts();
     result.solvers = world.plan().solvers.size();
     result.report = measure(world);
-    result.looks = runner.looks();
+    result.series = runner.series();
     result.crossings = runner.crossings();
     result.volume_min = runner.volume_min();
     result.step_ms = runner.step_ms();

@@ -110,18 +110,18 @@ std::string errors_line(const StepReport& report)
 
 } // namespace
 
-Json looks_json(const std::vector<Look>& looks)
+Json series_json(const std::vector<TimeSample>& series)
 {
     Json list = Json::array();
-    for (const Look& look : looks)
+    for (const TimeSample& sample : series)
     {
-        list.push_back({{"frame", look.frame},
-                        {"time", look.time},
-                        {"max_stretch", look.max_stretch},
-                        {"active_share", or_null(look.active_share)},
-                        {"linear_iterations", or_null(look.linear_iterations)}});
-        if (look.volume)
-            list.back()["volume_ratio"] = *look.volume;
+        list.push_back({{"frame", sample.frame},
+                        {"time", sample.time},
+                        {"max_stretch", sample.max_stretch},
+                        {"active_share", or_null(sample.active_share)},
+                        {"linear_iterations", or_null(sample.linear_iterations)}});
+        if (sample.volume)
+            list.back()["volume_ratio"] = *sample.volume;
     }
     return list;
 }
@@ -166,7 +166,7 @@ Json to_json(const RunResult& result)
     json["load_way"] = report.load_residual >= 0 ? Json(report.load_way) : Json(nullptr);
     json["solver"] = result.solvers > 0 ? solver_json(report.solver) : Json(nullptr);
     json["active_share"] = known(report.active_share);
-    json["series"] = result.solvers > 0 ? looks_json(result.looks) : Json(nullptr);
+    json["series"] = result.solvers > 0 ? series_json(result.series) : Json(nullptr);
     json["contacts"] = report.contacts.any ? contacts_json(report) : Json(nullptr);
     json["torn"] = report.torn;
     if (result.asleep)

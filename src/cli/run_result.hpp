@@ -3,7 +3,7 @@
 
 #include "taut/cli/output.hpp"
 #include "taut/report/crossing.hpp"
-#include "taut/report/looks.hpp"
+#include "taut/report/time_series.hpp"
 #include "taut/world/hybrid.hpp"
 
 #include <optional>
@@ -26,7 +26,7 @@ struct RunResult
     std::size_t solvers = 0; ///< linear systems of a step
     StepReport report;
     Crossings crossings; ///< of bodies and colliders, over the run
-    std::vector<Look> looks; ///< of methods that solve linear systems
+    std::vector<TimeSample> series; ///< of methods that solve linear systems
     double volume_min = 1; ///< smallest V / V0 of all frames, of scenes with solids
     std::vector<double> step_ms;       ///< wall time of each frame, ms
     std::vector<EffectTime> passes;    ///< device time of one frame by effect; empty after an interruption
@@ -38,7 +38,7 @@ struct RunResult
 };
 
 /// The keys are documented in docs/program.md.
-Json looks_json(const std::vector<Look>& looks);
+Json series_json(const std::vector<TimeSample>& series);
 Json to_json(const RunResult& result);
 
 /// For people: a few lines.

@@ -32,6 +32,7 @@ public:
     double active_share() const override { return world_.active_share(); }
     std::size_t solvers() const override { return world_.plan().solvers.size(); }
     std::uint64_t torn() const override { return world_.torn(); }
+    std::uint64_t pinched() const override { return world_.contacts().pinched; }
     World& whole() override { return world_; }
 
 private:

@@ -28,6 +28,8 @@ public:
     virtual std::size_t solvers() const = 0;
     /// As World::torn; scene() and positions() change with it.
     virtual std::uint64_t torn() const { return 0; }
+    /// As ContactCounts::pinched.
+    virtual std::uint64_t pinched() const { return 0; }
     /// A world in the state of the simulation, for reports and pictures. Stays the simulation's. Where it is
     /// not the one that runs, it counts nothing: events() and solver_report() are those of the run.
     virtual World& whole() = 0;

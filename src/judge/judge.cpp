@@ -46,6 +46,11 @@ std::vector<std::optional<int>> linking_of(const Surface& surface, const std::ve
     std::vector<std::optional<int>> numbers;
     if (surface.borders.size() > Judge::kMostBorders)
         return numbers;
+    // Bodies that pass through each other may be linked now and not then.
+    const auto judged = [&](std::size_t a, std::size_t b) {
+        const std::uint32_t one = surface.borders[a].front(), other = surface.borders[b].front();
+        return surface.judged(Edge{one, one}, Edge{other, other});
+    };
     std::vector<std::vector<glm::dvec3>> curves;
     for (const auto& border : surface.borders)
     {
@@ -55,7 +60,7 @@ std::vector<std::optional<int>> linking_of(const Surface& surface, const std::ve
     }
     for (std::size_t a = 0; a < curves.size(); ++a)
         for (std::size_t b = a + 1; b < curves.size(); ++b)
-            numbers.push_back(linking_number(curves[a], curves[b]));
+            numbers.push_back(judged(a, b) ? linking_number(curves[a], curves[b]) : std::nullopt);
     return numbers;
 }
 

@@ -21,8 +21,8 @@ struct FrameVerdict
     double stretch = 0; ///< largest of |l / l0 - 1| over judged edges, l0 that of the first frame
     std::uint32_t stretched_edge = 0; ///< of Surface::edges
     double volume_change = -1;        ///< largest of |V / V0 - 1| over closed parts; -1: there is none
-    /// Of each pair of borders, (0, 1), (0, 2), (1, 2), ...; nothing where they touch. Empty beyond
-    /// kMostBorders.
+    /// Of each pair of borders, (0, 1), (0, 2), (1, 2), ...; nothing where they touch, or are not judged
+    /// against each other. Empty beyond kMostBorders.
     std::vector<std::optional<int>> linking;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 using Clockwork = std::chrono::steady_clock;
 
-void look(const World& world, std::uint64_t frame, Looks& looks, CompareRow& row)
+void add_sample(const World& world, std::uint64_t frame, TimeSeries& series, CompareRow& row)
 {
     row.report = measure(world);
     std::optional<SolverReport> solved;
@@ -22,7 +22,7 @@ void look(const World& world, std::uint64_t frame, Looks& looks, CompareRow& row
     std::optional<double> volume;
     if (row.report.volume.any)
         volume = row.report.volume.ratio;
-    looks.add(frame, row.report.time, row.report.max_stretch, row.report.active_share, solved, volume);
+    series.add(frame, row.report.time, row.report.max_stretch, row.report.active_share, solved, volume);
     row.worst_stretch = std::max(row.worst_stretch, row.report.max_stretch);
     row.worst_rms_stretch = std::max(row.worst_rms_stretch, row.report.rms_stretch);
     row.smallest_volume = std::min(row.smallest_volume, row.report.volume.least);
@@ -53,8 +53,8 @@ bool stopped(const Progress& progress) { return progress && !progress(); }
 
 void run(World& world, std::uint64_t frames, const Progress& progress, CompareRow& row)
 {
-    Looks looks(frames);
-    look(world, 0, looks, row);
+    TimeSeries series(frames);
+    add_sample(world, 0, series, row);
     row.highest_energy = row.report.kinetic_energy + row.report.potential_energy;
     std::vector<double> times;
     const auto goes_on = [&] { return rank(row.report.status) < rank(Status::diverged); };
@@ -63,17 +63,17 @@ void run(World& world, std::uint64_t frames, const Progress& progress, CompareRo
         row.interrupted = stopped(progress);
         if (row.interrupted)
         {
-            look(world, k - 1, looks, row);
+            add_sample(world, k - 1, series, row);
             break;
         }
         const auto start = Clockwork::now();
         world.step();
         world.device().wait();
         times.push_back(std::chrono::duration<double, std::milli>(Clockwork::now() - start).count());
-        if (looks.due(k))
-            look(world, k, looks, row);
+        if (series.due(k))
+            add_sample(world, k, series, row);
     }
-    row.looks = looks.list();
+    row.series = series.list();
     row.mean_volume /= row.measured;
     if (!row.interrupted)
         judge_rest(world, goes_on(), row);

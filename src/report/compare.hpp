@@ -1,9 +1,9 @@
 #pragma once
 // Variants of one scene side by side: what each costs, how far it stretches, where it ends.
 
-#include "taut/report/looks.hpp"
 #include "taut/report/residuals.hpp"
 #include "taut/report/svg_plot.hpp"
+#include "taut/report/time_series.hpp"
 
 #include <functional>
 #include <memory>
@@ -34,7 +34,7 @@ struct CompareRow
     std::uint32_t measured = 0;   ///< frames looked at
     double highest_energy = 0;    ///< J, kinetic and potential
     Residuals residuals;          ///< of one step further; -1 where there is none
-    std::vector<Look> looks;      ///< at the frames that were measured
+    std::vector<TimeSample> series; ///< at the frames that were measured
     double step_ms = 0;           ///< median wall time of a step, waiting included
     /// e_L of the last frame against the first variant that ran; empty where vertices do not correspond.
     std::optional<double> difference;
@@ -50,8 +50,8 @@ std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint6
 /// A table in Markdown, and the same as CSV.
 std::string compare_markdown(const std::vector<CompareRow>& rows);
 std::string compare_csv(const std::vector<CompareRow>& rows);
-/// The looks of all variants that ran, a line each, as CSV.
-std::string compare_looks_csv(const std::vector<CompareRow>& rows);
+/// The series of all variants that ran, a line each, as CSV.
+std::string compare_series_csv(const std::vector<CompareRow>& rows);
 /// The same as curves over time: e_V = |V - V0| / V0 of scenes with volumes, else the largest strain.
 /// Variants without a curve are listed with the reason. `scene`: the name in the title.
 Plot compare_series_plot(const std::string& scene, const std::vector<CompareRow>& rows);

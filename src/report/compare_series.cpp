@@ -1,4 +1,4 @@
-// How the variants of a comparison went over time: their looks as CSV and as a diagram.
+// How the variants of a comparison went over time: their samples as CSV and as a diagram.
 
 #include "taut/report/compare.hpp"
 #include "taut/runtime/base/csv.hpp"
@@ -15,49 +15,49 @@ constexpr double kLeast = 1e-5; // a volume in single precision is not known bet
 bool any_look_at_volume(const std::vector<CompareRow>& rows)
 {
     return std::any_of(rows.begin(), rows.end(), [](const CompareRow& row) {
-        return !row.looks.empty() && row.looks.front().volume.has_value();
+        return !row.series.empty() && row.series.front().volume.has_value();
     });
 }
 
-/// What the diagram shows of a look.
-double height(const Look& look, bool volume)
+/// What the diagram shows of a sample.
+double height(const TimeSample& sample, bool volume)
 {
-    return std::max(volume ? std::abs(1 - look.volume.value_or(1)) : look.max_stretch, kLeast);
+    return std::max(volume ? std::abs(1 - sample.volume.value_or(1)) : sample.max_stretch, kLeast);
 }
 
-/// The looks until the first that is no number; that one is named as a gap.
+/// The samples until the first that is no number; that one is named as a gap.
 void add_series(Plot& plot, const CompareRow& row, bool volume)
 {
     PlotSeries series{row.label, {}};
-    for (const Look& look : row.looks)
+    for (const TimeSample& sample : row.series)
     {
-        if (!std::isfinite(height(look, volume)))
+        if (!std::isfinite(height(sample, volume)))
         {
-            plot.gaps.push_back(row.label + ": no finite value from " + shown(look.time, 4) + " s on");
+            plot.gaps.push_back(row.label + ": no finite value from " + shown(sample.time, 4) + " s on");
             break;
         }
-        series.points.push_back({look.time, height(look, volume), ""});
+        series.points.push_back({sample.time, height(sample, volume), ""});
     }
     plot.series.push_back(std::move(series));
 }
 
 } // namespace
 
-std::string compare_looks_csv(const std::vector<CompareRow>& rows)
+std::string compare_series_csv(const std::vector<CompareRow>& rows)
 {
     const bool volume = any_look_at_volume(rows);
     std::string text = "variant,frame,time s,largest strain %,active share %,"
                        "linear iterations since the look before";
     text += volume ? ",volume %\n" : "\n";
     for (const CompareRow& row : rows)
-        for (const Look& look : row.looks)
+        for (const TimeSample& sample : row.series)
         {
-            text += csv_cell(row.label) + "," + std::to_string(look.frame) + "," + shown(look.time, 6) + "," +
-                    shown(100 * look.max_stretch, 4) + "," +
-                    (look.active_share ? shown(100 * *look.active_share, 4) : "") + "," +
-                    (look.linear_iterations ? std::to_string(*look.linear_iterations) : "");
+            text += csv_cell(row.label) + "," + std::to_string(sample.frame) + "," + shown(sample.time, 6) +
+                    "," + shown(100 * sample.max_stretch, 4) + "," +
+                    (sample.active_share ? shown(100 * *sample.active_share, 4) : "") + "," +
+                    (sample.linear_iterations ? std::to_string(*sample.linear_iterations) : "");
             if (volume)
-                text += "," + (look.volume ? shown(100 * *look.volume, 7) : "");
+                text += "," + (sample.volume ? shown(100 * *sample.volume, 7) : "");
             text += "\n";
         }
     return text;

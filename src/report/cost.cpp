@@ -128,8 +128,8 @@ public:
 
     CostStudy run()
     {
-        const cost::Question question{scene_, model_, weights_, options_, device_};
-        out_.reference = at_rest() ? cost::reference_at_rest(question) : cost::reference_of_motion(question);
+        const cost::CostInput input{scene_, model_, weights_, options_, device_};
+        out_.reference = at_rest() ? cost::reference_at_rest(input) : cost::reference_of_motion(input);
         if (!at_rest() && out_.reference.verified)
             out_.frames = out_.reference.frames.size() - 1;
         choose_metric();

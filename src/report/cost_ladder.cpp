@@ -33,9 +33,9 @@ struct Level
 class Ladder
 {
 public:
-    Ladder(const Question& q, MethodKind method) : q_(q), best_{method, {}, {}, "", 0, 0}
+    Ladder(const CostInput& input, MethodKind method) : input_(input), best_{method, {}, {}, "", 0, 0}
     {
-        next_ = std::max(kCoarsest, q.options.coarsest);
+        next_ = std::max(kCoarsest, input.options.coarsest);
     }
 
     Refined climb(std::size_t frames)
@@ -45,7 +45,7 @@ public:
         {
             run(window);
             judge(window);
-            if (enough(q_) || (good_ >= window && window == frames))
+            if (enough(input_) || (good_ >= window && window == frames))
                 break;
             const bool longer = good_ >= window || falls_ || stuck_;
             if (window < frames && longer)
@@ -61,7 +61,7 @@ private:
     /// Until there are three levels again; false: there is none finer.
     bool climbs()
     {
-        while (levels_.size() < 3 && next_ <= kFinest && !enough(q_))
+        while (levels_.size() < 3 && next_ <= kFinest && !enough(input_))
             add();
         if (levels_.empty() && refusal_)
             throw Error(*refusal_);
@@ -75,7 +75,7 @@ private:
         next_ *= 2;
         try
         {
-            Trial trial(q_.scene, double_device(q_), fine_settings(q_, best_.method, substeps));
+            Trial trial(input_.scene, double_device(input_), fine_settings(input_, best_.method, substeps));
             levels_.push_back(std::make_unique<Level>(Level{substeps, std::move(trial), {}}));
         }
         catch (const Error& error)
@@ -91,7 +91,7 @@ private:
         for (const auto& level : levels_)
         {
             const std::size_t before = level->motion.steps;
-            level->trial.extend(level->motion, window, [this] { return enough(q_); });
+            level->trial.extend(level->motion, window, [this] { return enough(input_); });
             work_ += static_cast<double>((level->motion.steps - before) * level->substeps);
         }
     }
@@ -115,8 +115,8 @@ private:
         const Frames half = frames(1);
         Frames finest = frames(2);
         if (least == window)
-            note_difference(trajectory_error(q_.weights, half, finest).value_or(0), window);
-        Refinement found = refine(q_.weights, frames(0), half, finest, kRule);
+            note_difference(trajectory_error(input_.weights, half, finest).value_or(0), window);
+        Refinement found = refine(input_.weights, frames(0), half, finest, kRule);
         good_ = good_frames(found);
         falls_ = found.frames == window && found.errors[window] < kFalls * found.errors[window / 2];
         const auto rank = [&](const Refinement& r) { return std::pair(good_frames(r), r.frames); };
@@ -138,7 +138,7 @@ private:
     std::size_t good_frames(const Refinement& found) const
     {
         std::size_t good = found.frames;
-        while (good > 0 && !(found.errors[good] <= q_.options.reference_error))
+        while (good > 0 && !(found.errors[good] <= input_.options.reference_error))
             --good;
         return good;
     }
@@ -155,14 +155,14 @@ private:
         if (window_ > 0)
             best_.reason += "; at " + std::to_string(compared_) + " it changes the motion by " +
                             shown_percent(difference_, 2) + " over " + std::to_string(window_) + " frames";
-        if (!enough(q_))
+        if (!enough(input_))
             return;
         best_.reason += "; then the time for the reference was up";
         const double further = static_cast<double>(fewest) * 1.75 * 2 * finest; // n, n/2 and n/4 substeps
         best_.times = work_ > 0 ? 1 + further / work_ : 0;
     }
 
-    const Question& q_;
+    const CostInput& input_;
     Refined best_;
     std::uint32_t next_;
     std::vector<std::unique_ptr<Level>> levels_; ///< the last three
@@ -178,9 +178,9 @@ private:
 
 } // namespace
 
-Refined climb(const Question& q, MethodKind method, std::size_t frames)
+Refined climb(const CostInput& input, MethodKind method, std::size_t frames)
 {
-    return Ladder(q, method).climb(frames);
+    return Ladder(input, method).climb(frames);
 }
 
 } // namespace taut::cost

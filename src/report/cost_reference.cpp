@@ -42,10 +42,10 @@ std::string unmodelled(const Scene& scene)
 // ---------------------------------------------------------------- at rest
 
 /// Two solves from two starts: the scene's, and where the method itself comes to rest.
-CostReference newton(const Question& q, std::string& refusal)
+CostReference newton(const CostInput& input, std::string& refusal)
 {
     CostReference out;
-    const StaticReference solved = solve_static(q.model, q.model.start);
+    const StaticReference solved = solve_static(input.model, input.model.start);
     if (!solved.converged || !solved.stable)
     {
         refusal = "R2: " + solved.reason;
@@ -53,21 +53,21 @@ CostReference newton(const Question& q, std::string& refusal)
     }
     out.name = "R2";
     out.verified = true;
-    out.frames = {q.model.start, solved.positions};
+    out.frames = {input.model.start, solved.positions};
     out.text = "Newton in fp64 on the same mesh and energy, residual " + shown(solved.relative_residual, 2) +
                " of the weight";
     if (solved.correction > 0)
         out.text += " (rounding of its forces; a further step moves " + shown(solved.correction, 2) + " m)";
-    const Motion settled = settled_run(q, MethodKind::xpbd, 20); // only a second start for Newton
+    const Motion settled = settled_run(input, MethodKind::xpbd, 20); // only a second start for Newton
     const StaticReference second =
-        settled.rests ? solve_static(q.model, settled.frames.back()) : StaticReference{};
+        settled.rests ? solve_static(input.model, settled.frames.back()) : StaticReference{};
     if (!second.converged)
     {
         out.text += "; not solved from a second start.";
         return out;
     }
-    out.error = displacement_error(q.weights, second.positions, solved.positions, q.model.start);
-    out.error_l = largest_error(q.weights, second.positions, solved.positions);
+    out.error = displacement_error(input.weights, second.positions, solved.positions, input.model.start);
+    out.error_l = largest_error(input.weights, second.positions, solved.positions);
     if (out.error.value_or(0) < 1e-6)
     {
         out.text += "; a second solve from another start agrees.";
@@ -84,15 +84,16 @@ CostReference newton(const Question& q, std::string& refusal)
 // ---------------------------------------------------------------- moving
 
 /// Frames of R3 that the budget allows, at most `frames`; too few come with a reason.
-std::size_t affordable(const Question& q, std::size_t frames, DynamicOptions options, std::string& reason)
+std::size_t affordable(const CostInput& input, std::size_t frames, DynamicOptions options,
+                       std::string& reason)
 {
     const double budget = options.max_element_steps;
-    options.duration = static_cast<double>(frames) * q.model.timestep;
+    options.duration = static_cast<double>(frames) * input.model.timestep;
     options.max_element_steps = 0; // refuses, but counts first
-    DynamicReference dry = solve_dynamic(q.model, options);
+    DynamicReference dry = solve_dynamic(input.model, options);
     const double share = dry.element_steps > 0 ? std::min(1.0, budget / dry.element_steps) : 1;
     const auto most = static_cast<std::size_t>(share * static_cast<double>(frames));
-    if (rigid_element_count(q.model) > 0)
+    if (rigid_element_count(input.model) > 0)
         reason = dry.reason;
     else if (most < std::min(frames, kFewest))
         reason = "too stiff for explicit steps: " + std::to_string(frames) + " frames need " +
@@ -102,35 +103,35 @@ std::size_t affordable(const Question& q, std::size_t frames, DynamicOptions opt
 
 /// Grows the window while every frame of it is verified: swinging cloth is chaotic, and a long run
 /// past the last frame on which step sizes agree would be for nothing.
-DynamicReference small_steps(const Question& q, std::size_t frames, std::string& stop)
+DynamicReference small_steps(const CostInput& input, std::size_t frames, std::string& stop)
 {
     DynamicOptions options;
     options.safety = 0.5;
-    options.max_element_steps = q.options.reference_steps;
+    options.max_element_steps = input.options.reference_steps;
     DynamicReference best;
-    const std::size_t most = affordable(q, frames, options, best.reason);
+    const std::size_t most = affordable(input, frames, options, best.reason);
     if (!best.reason.empty())
         return best;
     options.max_element_steps = std::numeric_limits<double>::infinity(); // the windows keep to it
     stop = most < frames ? "the budget of reference steps ends there" : "";
     for (std::size_t window = std::min(most, kFirstWindow);; window = std::min(most, 2 * window))
     {
-        options.duration = static_cast<double>(window) * q.model.timestep;
-        DynamicReference next = solve_dynamic(q.model, options);
+        options.duration = static_cast<double>(window) * input.model.timestep;
+        DynamicReference next = solve_dynamic(input.model, options);
         if (next.verified || next.verified_frames >= best.verified_frames)
             best = std::move(next);
         if (!best.verified)
             stop = "from there on step sizes disagree, the motion is chaotic";
-        if (best.verified && window < most && enough(q))
+        if (best.verified && window < most && enough(input))
             stop = "the time for the reference ends there";
-        if (!best.verified || window == most || enough(q))
+        if (!best.verified || window == most || enough(input))
             return best;
     }
 }
 
 } // namespace
 
-bool enough(const Question& q) { return q.options.spent && q.options.spent() >= 1; }
+bool enough(const CostInput& input) { return input.options.spent && input.options.spent() >= 1; }
 
 std::size_t wanted_frames(const Scene& scene, const CostOptions& options)
 {
@@ -139,28 +140,28 @@ std::size_t wanted_frames(const Scene& scene, const CostOptions& options)
     return static_cast<std::size_t>(std::max(0.0, std::ceil(scene.duration / scene.timestep - 1e-6)));
 }
 
-CostReference reference_at_rest(const Question& q)
+CostReference reference_at_rest(const CostInput& input)
 {
-    std::string refusal = unmodelled(q.scene);
+    std::string refusal = unmodelled(input.scene);
     if (!refusal.empty())
-        return self_at_rest(q, {"R2: " + refusal});
-    CostReference out = newton(q, refusal);
-    return out.verified ? out : self_at_rest(q, {refusal});
+        return self_at_rest(input, {"R2: " + refusal});
+    CostReference out = newton(input, refusal);
+    return out.verified ? out : self_at_rest(input, {refusal});
 }
 
-CostReference reference_of_motion(const Question& q)
+CostReference reference_of_motion(const CostInput& input)
 {
-    const std::size_t frames = wanted_frames(q.scene, q.options);
-    std::string refusal = unmodelled(q.scene);
-    if (refusal.empty() && std::any_of(q.model.springs.begin(), q.model.springs.end(),
+    const std::size_t frames = wanted_frames(input.scene, input.options);
+    std::string refusal = unmodelled(input.scene);
+    if (refusal.empty() && std::any_of(input.model.springs.begin(), input.model.springs.end(),
                                        [](const StretchElement& e) { return e.damping > 0; }))
         refusal = "it does not model the dampers of springs";
     if (!refusal.empty())
-        return self_motion(q, frames, {"R3: " + refusal});
+        return self_motion(input, frames, {"R3: " + refusal});
     std::string stop;
-    DynamicReference found = small_steps(q, frames, stop);
+    DynamicReference found = small_steps(input, frames, stop);
     if (found.verified_frames == 0 || found.verified_frames < std::min(frames, kFewest))
-        return self_motion(q, frames, {"R3: " + found.reason});
+        return self_motion(input, frames, {"R3: " + found.reason});
     found.frames.resize(found.verified_frames + 1);
     CostReference out;
     out.name = "R3";
@@ -172,7 +173,7 @@ CostReference reference_of_motion(const Question& q)
     out.frames = std::move(found.frames);
     out.text = "Explicit small steps in fp64 (" + shown(found.step, 2) + " s), own error " +
                shown(found.error, 2) + " by halving, over " +
-               frames_text(found.verified_frames, q.model.timestep);
+               frames_text(found.verified_frames, input.model.timestep);
     out.text += stop.empty() || found.verified_frames == frames ? "." : "; " + stop + ".";
     return out;
 }

@@ -6,7 +6,7 @@
 
 namespace taut::cost {
 
-struct Question
+struct CostInput
 {
     const Scene& scene; ///< resolved
     const PhysicalModel& model;
@@ -16,12 +16,12 @@ struct Question
 };
 
 /// R2, else R4. The states are the start and the state at rest.
-CostReference reference_at_rest(const Question& question);
+CostReference reference_at_rest(const CostInput& input);
 /// R3, else R4, over as many frames as are verified.
-CostReference reference_of_motion(const Question& question);
+CostReference reference_of_motion(const CostInput& input);
 
 /// Whether no more time is to be spent on references.
-bool enough(const Question& question);
+bool enough(const CostInput& input);
 
 /// Frames that a moving study wants.
 std::size_t wanted_frames(const Scene& scene, const CostOptions& options);

@@ -29,13 +29,13 @@ CostReference no_reference(std::vector<std::string> passed)
 
 /// The methods that may serve as R4: with one under test that one, else implicit and explicit ones before
 /// those that only approach the stiffness by sweeps.
-std::vector<MethodKind> candidates(const Question& q)
+std::vector<MethodKind> candidates(const CostInput& input)
 {
-    if (!q.options.refined.empty())
-        return q.options.refined;
-    if (q.options.methods.size() == 1)
-        return q.options.methods;
-    if (q.options.reference_error > 0) // two will do: the cheapest steps first
+    if (!input.options.refined.empty())
+        return input.options.refined;
+    if (input.options.methods.size() == 1)
+        return input.options.methods;
+    if (input.options.reference_error > 0) // two will do: the cheapest steps first
         return {MethodKind::xpbd, MethodKind::mass_spring, MethodKind::vbd, MethodKind::implicit_euler,
                 MethodKind::implicit_constraints};
     return {MethodKind::implicit_euler, MethodKind::mass_spring, MethodKind::implicit_constraints,
@@ -59,17 +59,17 @@ CostOptions with_share(const CostOptions& options, double share)
 /// Those that converge; the others are listed in `passed`. Each has its share of the time, and what those
 /// before it left; of a reference that is no finer than it must be two are enough.
 template <class Refine>
-std::vector<Refined> refined(const Question& q, Refine refine_one, CostReference& none)
+std::vector<Refined> refined(const CostInput& input, Refine refine_one, CostReference& none)
 {
     std::vector<Refined> out;
-    const std::vector<MethodKind> methods = candidates(q);
-    const bool two = q.options.reference_error > 0;
+    const std::vector<MethodKind> methods = candidates(input);
+    const bool two = input.options.reference_error > 0;
     for (std::size_t m = 0; m < methods.size() && !(two && out.size() == 2); ++m)
     {
         const MethodKind method = methods[m];
         const double share = two ? kFirstShare : 1 / static_cast<double>(methods.size() - m);
-        const CostOptions options = with_share(q.options, share);
-        const Question mine{q.scene, q.model, q.weights, options, q.device};
+        const CostOptions options = with_share(input.options, share);
+        const CostInput mine{input.scene, input.model, input.weights, options, input.device};
         std::string reason;
         try
         {
@@ -101,27 +101,27 @@ double rounding_of(const ErrorWeights& weights)
 
 /// How far two finest runs lie apart, as e_traj and e_L, over the frames that both have. `errors`, of the
 /// frames up to each, are raised to it.
-std::pair<double, double> apart(const Question& q, const Refined& a, const Refined& b,
+std::pair<double, double> apart(const CostInput& input, const Refined& a, const Refined& b,
                                 std::vector<double>& errors)
 {
     const std::size_t frames = std::min(a.found.frames, b.found.frames);
     errors.resize(frames + 1, 0);
-    const double rounding = rounding_of(q.weights);
+    const double rounding = rounding_of(input.weights);
     double off = 0, moved = 0, error = 0;
     for (std::size_t f = 1; f <= frames; ++f)
     {
-        off += std::pow(distance_by_mass(q.weights, a.finest[f], b.finest[f]), 2);
-        moved += std::pow(distance_by_mass(q.weights, a.finest[f], a.finest[0]), 2);
+        off += std::pow(distance_by_mass(input.weights, a.finest[f], b.finest[f]), 2);
+        moved += std::pow(distance_by_mass(input.weights, a.finest[f], a.finest[0]), 2);
         error = off > rounding * static_cast<double>(f) ? std::sqrt(off / moved) : 0;
         errors[f] = std::max(errors[f], error);
     }
-    const bool sized = q.weights.diameter > 0;
-    return {error, sized ? largest_error(q.weights, a.finest[frames], b.finest[frames]) : 0};
+    const bool sized = input.weights.diameter > 0;
+    return {error, sized ? largest_error(input.weights, a.finest[frames], b.finest[frames]) : 0};
 }
 
 /// The one with the longest good stretch, then the smallest error of its own, and how far the next one is
 /// from it.
-CostReference best_of(const Question& q, std::vector<Refined> runs, CostReference none)
+CostReference best_of(const CostInput& input, std::vector<Refined> runs, CostReference none)
 {
     if (runs.empty())
         return none;
@@ -129,7 +129,8 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
         return a.found.frames != b.found.frames ? a.found.frames > b.found.frames
                                                 : a.found.error < b.found.error;
     });
-    if (q.options.reference_error > 0 && runs.size() > 1 && 2 * runs[1].found.frames < runs[0].found.frames)
+    if (input.options.reference_error > 0 && runs.size() > 1 &&
+        2 * runs[1].found.frames < runs[0].found.frames)
         runs.erase(runs.begin() + 1, runs.end()); // half of the frames are worth more than a second opinion
     Refined& best = runs[0];
     const std::string name(to_string(best.method));
@@ -139,7 +140,7 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
     out.substeps = best.substeps;
     out.error = best.found.error;
     out.error_l = best.found.error_l;
-    const bool alone = q.options.methods.size() == 1;
+    const bool alone = input.options.methods.size() == 1;
     out.errors = best.found.errors;
     out.methods = {best.method};
     out.name = alone ? kSelf : "R4 (self-convergence of " + name + ")";
@@ -147,7 +148,7 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
                " substeps x 1 iteration, halved twice, observed order " + shown(best.found.order, 2);
     if (runs.size() > 1)
     {
-        const auto [error, far] = apart(q, best, runs[1], out.errors);
+        const auto [error, far] = apart(input, best, runs[1], out.errors);
         out.error = std::max(*out.error, error);
         out.error_l = std::max(*out.error_l, far);
         best.found.frames = std::min(best.found.frames, runs[1].found.frames);
@@ -163,13 +164,13 @@ CostReference best_of(const Question& q, std::vector<Refined> runs, CostReferenc
     return out;
 }
 
-Refined refined_at_rest(const Question& q, MethodKind method)
+Refined refined_at_rest(const CostInput& input, MethodKind method)
 {
     Refined out{method, {}, {}, "", kFine[2]};
     std::array<Frames, 3> level;
     for (std::size_t l = 0; l < 3; ++l)
     {
-        Motion settled = settled_run(q, method, kFine[l]);
+        Motion settled = settled_run(input, method, kFine[l]);
         if (!settled.rests)
         {
             out.reason = std::to_string(kFine[l]) + " substeps: " + settled.reason;
@@ -177,7 +178,7 @@ Refined refined_at_rest(const Question& q, MethodKind method)
         }
         level[l] = std::move(settled.frames);
     }
-    out.found = refine(q.weights, level[0], level[1], level[2]);
+    out.found = refine(input.weights, level[0], level[1], level[2]);
     if (out.found.frames == 0)
         out.reason = "halving the substep does not converge";
     out.finest = std::move(level[2]);
@@ -188,10 +189,10 @@ Refined refined_at_rest(const Question& q, MethodKind method)
 class SelfConvergence
 {
 public:
-    SelfConvergence(const Question& q, MethodKind method) : q_(q)
+    SelfConvergence(const CostInput& input, MethodKind method) : input_(input)
     {
         for (const std::uint32_t substeps : kFine)
-            trials_.emplace_back(q.scene, double_device(q), fine_settings(q, method, substeps));
+            trials_.emplace_back(input.scene, double_device(input), fine_settings(input, method, substeps));
     }
 
     Refinement run(std::size_t frames)
@@ -201,15 +202,15 @@ public:
             std::size_t least = window;
             for (std::size_t l = 0; l < 3; ++l)
             {
-                trials_[l].extend(motion_[l], window, [this] { return enough(q_); });
+                trials_[l].extend(motion_[l], window, [this] { return enough(input_); });
                 least = std::min(least, motion_[l].frames.size() - 1);
             }
             const auto level = [&](std::size_t l) {
                 const auto first = motion_[l].frames.begin();
                 return Frames(first, first + static_cast<std::ptrdiff_t>(least) + 1);
             };
-            const Refinement found = refine(q_.weights, level(0), level(1), level(2));
-            if (found.frames < window || window == frames || enough(q_))
+            const Refinement found = refine(input_.weights, level(0), level(1), level(2));
+            if (found.frames < window || window == frames || enough(input_))
                 return found;
         }
     }
@@ -217,21 +218,21 @@ public:
     Frames& finest() { return motion_[2].frames; }
 
 private:
-    const Question& q_;
+    const CostInput& input_;
     std::vector<Trial> trials_;
     std::array<Motion, 3> motion_;
 };
 
 } // namespace
 
-std::shared_ptr<Device> double_device(const Question& q)
+std::shared_ptr<Device> double_device(const CostInput& input)
 {
-    return q.device->limits().float64 ? q.device : Device::open("cpu");
+    return input.device->limits().float64 ? input.device : Device::open("cpu");
 }
 
-MethodSettings fine_settings(const Question& q, MethodKind method, std::uint32_t substeps)
+MethodSettings fine_settings(const CostInput& input, MethodKind method, std::uint32_t substeps)
 {
-    MethodSettings out = settings_for(method, q.scene.method);
+    MethodSettings out = settings_for(method, input.scene.method);
     out.substeps = substeps;
     out.iterations = 1;
     out.precision = Precision::float64;
@@ -244,43 +245,44 @@ std::string frames_text(std::size_t frames, double timestep)
     return std::to_string(frames) + " frames (" + shown(static_cast<double>(frames) * timestep, 2) + " s)";
 }
 
-Motion settled_run(const Question& q, MethodKind method, std::uint32_t substeps)
+Motion settled_run(const CostInput& input, MethodKind method, std::uint32_t substeps)
 {
-    Trial trial(q.scene, double_device(q), fine_settings(q, method, substeps));
-    return trial.settle({q.weights, nullptr, q.options.rest_seconds, false, [&q] { return enough(q); }});
+    Trial trial(input.scene, double_device(input), fine_settings(input, method, substeps));
+    return trial.settle(
+        {input.weights, nullptr, input.options.rest_seconds, false, [&input] { return enough(input); }});
 }
 
-CostReference self_at_rest(const Question& q, std::vector<std::string> passed)
+CostReference self_at_rest(const CostInput& input, std::vector<std::string> passed)
 {
     CostReference none = no_reference(std::move(passed));
-    if (!q.options.self_reference)
+    if (!input.options.self_reference)
         return none;
-    std::vector<Refined> runs = refined(q, refined_at_rest, none);
-    CostReference out = best_of(q, std::move(runs), std::move(none));
+    std::vector<Refined> runs = refined(input, refined_at_rest, none);
+    CostReference out = best_of(input, std::move(runs), std::move(none));
     if (out.verified)
         out.text += ".";
     return out;
 }
 
-CostReference self_motion(const Question& q, std::size_t frames, std::vector<std::string> passed)
+CostReference self_motion(const CostInput& input, std::size_t frames, std::vector<std::string> passed)
 {
     CostReference none = no_reference(std::move(passed));
-    if (!q.options.self_reference)
+    if (!input.options.self_reference)
         return none;
-    const auto one = [frames](const Question& question, MethodKind method) {
-        if (question.options.reference_error > 0)
-            return climb(question, method, frames);
-        SelfConvergence runs(question, method);
+    const auto one = [frames](const CostInput& input, MethodKind method) {
+        if (input.options.reference_error > 0)
+            return climb(input, method, frames);
+        SelfConvergence runs(input, method);
         Refined out{method, runs.run(frames), std::move(runs.finest()), "", kFine[2]};
         if (out.found.frames == 0 || out.found.frames < std::min(frames, kFewest))
             out.reason =
                 "halving the substep converges for " + std::to_string(out.found.frames) + " frames only";
         return out;
     };
-    std::vector<Refined> runs = refined(q, one, none);
-    CostReference out = best_of(q, std::move(runs), std::move(none));
+    std::vector<Refined> runs = refined(input, one, none);
+    CostReference out = best_of(input, std::move(runs), std::move(none));
     if (out.verified)
-        out.text += "; over " + frames_text(out.frames.size() - 1, q.model.timestep) + ".";
+        out.text += "; over " + frames_text(out.frames.size() - 1, input.model.timestep) + ".";
     return out;
 }
 

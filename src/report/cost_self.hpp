@@ -24,19 +24,19 @@ struct Refined
 };
 
 /// The device itself, or the native CPU where that one has no double.
-std::shared_ptr<Device> double_device(const Question& question);
+std::shared_ptr<Device> double_device(const CostInput& input);
 /// So many substeps of one iteration in double.
-MethodSettings fine_settings(const Question& question, MethodKind method, std::uint32_t substeps);
+MethodSettings fine_settings(const CostInput& input, MethodKind method, std::uint32_t substeps);
 
 /// From a few substeps on, twice as many each time, and no further than CostOptions::reference_error asks.
-Refined climb(const Question& question, MethodKind method, std::size_t frames);
+Refined climb(const CostInput& input, MethodKind method, std::size_t frames);
 
 /// Where a fine run of the method in double comes to rest.
-Motion settled_run(const Question& question, MethodKind method, std::uint32_t substeps);
+Motion settled_run(const CostInput& input, MethodKind method, std::uint32_t substeps);
 
 /// R4, or none; `passed` says why stronger classes were not taken.
-CostReference self_at_rest(const Question& question, std::vector<std::string> passed);
-CostReference self_motion(const Question& question, std::size_t frames, std::vector<std::string> passed);
+CostReference self_at_rest(const CostInput& input, std::vector<std::string> passed);
+CostReference self_motion(const CostInput& input, std::size_t frames, std::vector<std::string> passed);
 
 /// "19 frames (0.32 s)"
 std::string frames_text(std::size_t frames, double timestep);

@@ -206,6 +206,20 @@ void judge_momentum(StepReport& report)
                report);
 }
 
+/// What the guarantee holds stands still whatever pushes it, for a substep at a time.
+void judge_held(const View& view, StepReport& report)
+{
+    const double ways = static_cast<double>(view.plan.vertex_count) *
+                        static_cast<double>(view.world.steps()) * view.plan.substeps;
+    const double held = static_cast<double>(report.contacts.held);
+    if (held > kHeldShare * ways)
+        set_status({Status::unconverged,
+                    "the guarantee of contact held vertices still for " + shown_percent(held / ways) +
+                        " of their substeps, up to " + shown_percent(kHeldShare) +
+                        " are accepted; give surfaces a thickness below the edges of their meshes"},
+                   report);
+}
+
 StepReport measure(const World& world)
 {
     const View view(world);
@@ -226,6 +240,7 @@ StepReport measure(const World& world)
     out.active_share = world.active_share();
     judge_all(view, out);
     judge_residuals(world.scene(), out);
+    judge_held(view, out);
     if (given)
         judge_momentum(out);
     measure_penetration(view, out);

@@ -2,8 +2,8 @@
 
 #include "taut/report/element_rates.hpp"
 #include "taut/report/hinge.hpp"
-#include "taut/report/looks.hpp"
 #include "taut/report/plate_energy.hpp"
+#include "taut/report/time_series.hpp"
 #include "taut/scene/faces.hpp"
 #include "taut/scene/pose.hpp"
 

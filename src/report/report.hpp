@@ -85,6 +85,8 @@ StepReport measure(const World& world);
 
 /// Of momentum_error: beyond it a run is `unconverged`.
 inline constexpr double kMomentumShare = 0.1;
+/// ContactCounts::held a vertex and substep: beyond it a run is `unconverged` (docs/statuses.md).
+inline constexpr double kHeldShare = 0.1;
 /// StepReport::flow_residual: of cloth that pins draw beyond its yield 0.95 leaves 0.42 of the energy, 0.44
 /// leaves 0.75, 0.10 leaves 0.95 (docs/statuses.md).
 inline constexpr double kFlowShare = 0.25;

@@ -2,8 +2,8 @@
 
 #include "taut/plan/methods.hpp"
 #include "taut/report/is_finite.hpp"
-#include "taut/report/looks.hpp"
 #include "taut/report/strained.hpp"
+#include "taut/report/time_series.hpp"
 #include "taut/report/volume.hpp"
 #include "taut/runtime/base/shown.hpp"
 

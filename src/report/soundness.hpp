@@ -43,7 +43,7 @@ Soundness worse(const Soundness& a, const Soundness& b);
 inline constexpr double kDivergedKinetic = 2, kUnconvergedEnergy = 1.5, kDivergedEnergy = 100;
 /// Beyond this factor of the same, kinetic energy and that of what is strained beyond this share of
 /// accept.stretch is `unconverged`.
-inline constexpr double kSlightEnergy = 1.5, kSlightStrain = 0.1;
+inline constexpr double kSlightEnergy = 3, kSlightStrain = 0.1;
 /// Coordinates beyond this count as diverged, m.
 inline constexpr double kDivergedExtent = 1e12;
 /// Share of vertices times substeps whose speed was cut at the scene's own max_speed.

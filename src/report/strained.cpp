@@ -1,8 +1,8 @@
 #include "taut/report/strained.hpp"
 
 #include "taut/plan/methods.hpp"
-#include "taut/report/looks.hpp"
 #include "taut/report/plate_energy.hpp"
+#include "taut/report/time_series.hpp"
 #include "taut/report/touching.hpp"
 #include "taut/report/volume.hpp"
 

@@ -232,19 +232,19 @@ private:
     {
         try
         {
-            const Lap lap = known ? Lap{known, 0, {}, false} : on_start(0, candidate.settings);
-            if (lap.cut)
+            const TrialRun trial = known ? TrialRun{known, 0, {}, false} : on_start(0, candidate.settings);
+            if (trial.cut)
                 return out_.not_tried.push_back({candidate.settings, "the time was up"});
-            note_run(candidate, lap);
-            if (!lap.reason.empty())
-                return reject(candidate, "race", lap.reason, lap.error);
+            note_run(candidate, trial);
+            if (!trial.reason.empty())
+                return reject(candidate, "race", trial.reason, trial.error);
             const Verdict law = broken_law(scene_, device_, candidate.settings, out_.kind, starts_[0].frames,
                                            [this] { return watch_.over(1); });
             if (!law)
                 return out_.not_tried.push_back({candidate.settings, "the time was up"});
             if (!law->empty())
-                return reject(candidate, "guard", *law, lap.error);
-            confirm(candidate, *lap.error);
+                return reject(candidate, "guard", *law, trial.error);
+            confirm(candidate, *trial.error);
         }
         catch (const Error& error) // what the plan let pass and the device refuses
         {
@@ -254,13 +254,13 @@ private:
         }
     }
 
-    void note_run(const Candidate& candidate, const Lap& lap)
+    void note_run(const Candidate& candidate, const TrialRun& trial)
     {
         const std::string block = settings_block(candidate.settings);
         if (std::any_of(run_.begin(), run_.end(),
                         [&](const Ran& r) { return settings_block(r.candidate.settings) == block; }))
             return; // again, with a looser bound
-        run_.push_back({candidate, lap.frames == starts_[0].frames ? lap.error : std::nullopt});
+        run_.push_back({candidate, trial.frames == starts_[0].frames ? trial.error : std::nullopt});
         out_.tried.push_back(candidate.settings);
     }
 
@@ -270,10 +270,10 @@ private:
         return kMargin * out_.bound - starts_[which].reference.error.value_or(0);
     }
 
-    Lap on_start(std::size_t which, const MethodSettings& settings)
+    TrialRun on_start(std::size_t which, const MethodSettings& settings)
     {
-        return run_lap(starts_[which], device_, settings, out_.kind, own_bound(which), options_.rest_seconds,
-                       [this] { return watch_.over(end_); });
+        return run_trial(starts_[which], device_, settings, out_.kind, own_bound(which),
+                         options_.rest_seconds, [this] { return watch_.over(end_); });
     }
 
     /// Two perturbed starts beside the scene's own; their references are made when first needed. What passed
@@ -288,13 +288,13 @@ private:
                 add_perturbed(static_cast<std::uint32_t>(which));
             if (!starts_[which].reference.verified)
                 continue;
-            const Lap lap = on_start(which, candidate.settings);
-            if (lap.cut)
+            const TrialRun trial = on_start(which, candidate.settings);
+            if (trial.cut)
                 continue;
-            if (!lap.reason.empty())
-                return reject(candidate, "perturbed", "start " + std::to_string(which) + ": " + lap.reason,
-                              lap.error);
-            finalist.confirmed = std::max(finalist.confirmed, *lap.error);
+            if (!trial.reason.empty())
+                return reject(candidate, "perturbed", "start " + std::to_string(which) + ": " + trial.reason,
+                              trial.error);
+            finalist.confirmed = std::max(finalist.confirmed, *trial.error);
             ++finalist.starts;
         }
         finalists_.push_back(finalist);

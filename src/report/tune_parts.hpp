@@ -158,7 +158,7 @@ struct Finalist
 };
 
 /// A candidate on one start, rung by rung.
-struct Lap
+struct TrialRun
 {
     std::optional<double> error; ///< at the last rung that it reached
     std::size_t frames = 0;      ///< of that rung; 0 = at rest
@@ -166,7 +166,8 @@ struct Lap
     bool cut = false;            ///< the time was up: it neither fell nor passed
 };
 /// `bound` holds at the last rung; earlier ones have slack.
-Lap run_lap(const Start& start, const std::shared_ptr<Device>& device, const MethodSettings& settings,
-            CostKind kind, double bound, double rest_seconds, const std::function<bool()>& enough = {});
+TrialRun run_trial(const Start& start, const std::shared_ptr<Device>& device, const MethodSettings& settings,
+                   CostKind kind, double bound, double rest_seconds,
+                   const std::function<bool()>& enough = {});
 
 } // namespace taut::tuning

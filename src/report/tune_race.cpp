@@ -55,21 +55,21 @@ std::vector<std::size_t> rungs(std::size_t last)
     return out;
 }
 
-/// Fills `lap` and says whether the rung is passed.
-bool passes(const Start& start, const Motion& motion, double bound, Lap& lap)
+/// Fills `trial` and says whether the rung is passed.
+bool passes(const Start& start, const Motion& motion, double bound, TrialRun& trial)
 {
     if (!motion.reason.empty())
     {
-        lap.error.reset(); // that of a rung before says nothing of this one
-        lap.reason = motion.reason;
+        trial.error.reset(); // that of a rung before says nothing of this one
+        trial.reason = motion.reason;
         return false;
     }
-    lap.error = error_of(start, motion.frames);
-    if (*lap.error <= bound)
+    trial.error = error_of(start, motion.frames);
+    if (*trial.error <= bound)
         return true;
-    lap.reason = "error " + shown_percent(*lap.error) + " is above " + shown_percent(bound);
-    if (lap.frames > 0)
-        lap.reason += " after " + std::to_string(lap.frames) + " frames";
+    trial.reason = "error " + shown_percent(*trial.error) + " is above " + shown_percent(bound);
+    if (trial.frames > 0)
+        trial.reason += " after " + std::to_string(trial.frames) + " frames";
     return false;
 }
 
@@ -80,9 +80,9 @@ Start make_start(const Scene& resolved, const std::shared_ptr<Device>& device, C
 {
     Start out{resolved, make_model(resolved), {}, {}, {}, 0};
     out.weights = error_weights(out.model);
-    const cost::Question question{out.scene, out.model, out.weights, options, device};
+    const cost::CostInput input{out.scene, out.model, out.weights, options, device};
     const bool at_rest = kind == CostKind::at_rest;
-    out.reference = at_rest ? cost::reference_at_rest(question) : cost::reference_of_motion(question);
+    out.reference = at_rest ? cost::reference_at_rest(input) : cost::reference_of_motion(input);
     const auto& frames = out.reference.frames;
     const bool moves = std::any_of(frames.begin(), frames.end(), [&](const auto& x) {
         return distance_by_mass(out.weights, x, frames[0]) > 0;
@@ -162,10 +162,10 @@ Start make_volume_start(const Scene& resolved, std::size_t frames)
     return out;
 }
 
-Lap run_lap(const Start& start, const std::shared_ptr<Device>& device, const MethodSettings& settings,
-            CostKind kind, double bound, double rest_seconds, const std::function<bool()>& enough)
+TrialRun run_trial(const Start& start, const std::shared_ptr<Device>& device, const MethodSettings& settings,
+                   CostKind kind, double bound, double rest_seconds, const std::function<bool()>& enough)
 {
-    Lap out;
+    TrialRun out;
     cost::Trial trial(start.scene, device, settings);
     if (kind == CostKind::at_rest)
     {

@@ -28,7 +28,8 @@ std::vector<std::uint32_t> scene_vertices(const Plan& plan, const std::vector<st
     return out;
 }
 
-void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total, Carried& out)
+void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total,
+             CarriedState& out)
 {
     WorldState state = world.state();
     const auto arrays = arrays_of(state);
@@ -44,7 +45,7 @@ void collect(const World& world, const std::vector<std::uint32_t>& vertices, std
 }
 
 void deliver(World& world, const std::vector<std::uint32_t>& vertices,
-             const std::vector<std::uint32_t>& bodies, const Carried& from)
+             const std::vector<std::uint32_t>& bodies, const CarriedState& from)
 {
     WorldState state = world.state();
     const auto arrays = arrays_of(state);

@@ -11,7 +11,7 @@ namespace taut {
 inline constexpr std::size_t kCarriedArrays = 7;
 
 /// Per vertex of a whole scene what a world carries on: the arrays of WorldState.
-struct Carried
+struct CarriedState
 {
     std::array<std::vector<std::byte>, kCarriedArrays> arrays;
     Clock clock;
@@ -25,11 +25,12 @@ std::vector<std::uint32_t> scene_vertices(const Plan& plan, const std::vector<st
                                           const std::vector<std::uint32_t>& first);
 
 /// Reads a world's vertices into `out`, and its clock; `total` is the number of scene-wide vertices.
-void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total, Carried& out);
+void collect(const World& world, const std::vector<std::uint32_t>& vertices, std::size_t total,
+             CarriedState& out);
 
 /// The other way; `bodies` of the scene are those of the world.
 void deliver(World& world, const std::vector<std::uint32_t>& vertices,
-             const std::vector<std::uint32_t>& bodies, const Carried& from);
+             const std::vector<std::uint32_t>& bodies, const CarriedState& from);
 
 /// What a world of some bodies gives, put where they stand in the scene.
 void place(std::vector<glm::dvec3>& out, const std::vector<glm::dvec3>& own, const Plan& plan,

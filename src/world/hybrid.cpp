@@ -62,8 +62,8 @@ SolverReport less(SolverReport all, const SolverReport& part)
     return all;
 }
 
-/// One side: a device and the world of its bodies, if it has any.
-struct Side
+/// One part: a device and the world of its bodies, if it has any.
+struct DevicePart
 {
     std::shared_ptr<Device> device;
     std::vector<std::uint32_t> bodies;
@@ -104,7 +104,7 @@ struct HybridWorld::Impl
 {
     Scene scene;
     HybridOptions options;
-    std::array<Side, 2> sides;
+    std::array<DevicePart, 2> parts;
     std::vector<std::uint64_t> work;  ///< of each body
     std::vector<std::uint32_t> first; ///< scene-wide vertex of each body, and the total
     std::uint64_t steps = 0, divisions = 0;
@@ -112,88 +112,88 @@ struct HybridWorld::Impl
     SolverReport solved_before; ///< the same of their solves
     Moved program;
 
-    std::vector<std::uint32_t> vertices(const Side& side) const
+    std::vector<std::uint32_t> vertices(const DevicePart& part) const
     {
-        return scene_vertices(side.world->plan(), side.bodies, first);
+        return scene_vertices(part.world->plan(), part.bodies, first);
     }
-    const World& any() const { return sides[0].world ? *sides[0].world : *sides[1].world; }
+    const World& any() const { return parts[0].world ? *parts[0].world : *parts[1].world; }
 
     void assign(const std::vector<bool>& to_first);
     void time_both();
-    double speed(const Side& side) const;
+    double speed(const DevicePart& part) const;
     double predicted(const std::vector<bool>& to_first) const;
     void rebalance();
-    Carried carried() const;
+    CarriedState carried() const;
     std::pair<World*, std::size_t> world_of(std::size_t body, const char* who);
 };
 
 /// Makes the worlds of a division.
 void HybridWorld::Impl::assign(const std::vector<bool>& to_first)
 {
-    for (std::size_t s = 0; s < sides.size(); ++s)
+    for (std::size_t s = 0; s < parts.size(); ++s)
     {
-        Side& side = sides[s];
-        side.bodies.clear();
-        side.world.reset();
-        side.milliseconds = 0;
-        side.timed_events = {};
-        side.timed_solves = {};
+        DevicePart& part = parts[s];
+        part.bodies.clear();
+        part.world.reset();
+        part.milliseconds = 0;
+        part.timed_events = {};
+        part.timed_solves = {};
         for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
             if (to_first[b] == (s == 0))
-                side.bodies.push_back(b);
-        if (!side.bodies.empty())
-            side.world = std::make_unique<World>(with_bodies(scene, side.bodies), side.device, options.world);
+                part.bodies.push_back(b);
+        if (!part.bodies.empty())
+            part.world = std::make_unique<World>(with_bodies(scene, part.bodies), part.device, options.world);
     }
 }
 
-/// A step of each side alone, the least of some; the worlds are then where they were.
+/// A step of each part alone, the least of some; the worlds are then where they were.
 void HybridWorld::Impl::time_both()
 {
-    for (Side& side : sides)
+    for (DevicePart& part : parts)
     {
-        if (!side.world)
+        if (!part.world)
             continue;
-        const WorldState state = side.world->state();
-        const Events events = side.events();
-        const SolverReport solved = side.solver_report();
+        const WorldState state = part.world->state();
+        const Events events = part.events();
+        const SolverReport solved = part.solver_report();
         for (int turn = 0; turn <= kTimedSteps; ++turn)
         {
             const auto start = Clockwork::now();
-            side.world->step();
-            side.device->wait();
+            part.world->step();
+            part.device->wait();
             const double took = milliseconds_since(start);
             if (turn > 0) // the first warms up
-                side.milliseconds = turn == 1 ? took : std::min(side.milliseconds, took);
+                part.milliseconds = turn == 1 ? took : std::min(part.milliseconds, took);
         }
-        side.world->restore(state);
-        side.timed_events = less(side.world->events(), events);
-        side.timed_solves = less(side.world->solver_report(), solved);
+        part.world->restore(state);
+        part.timed_events = less(part.world->events(), events);
+        part.timed_solves = less(part.world->solver_report(), solved);
     }
 }
 
-/// Work a millisecond; a side without bodies keeps the other's guess, so that it gets some when that pays.
-double HybridWorld::Impl::speed(const Side& side) const
+/// Work a millisecond; a part without bodies keeps the other's guess, so that it gets some when that pays.
+double HybridWorld::Impl::speed(const DevicePart& part) const
 {
     std::uint64_t amount = 0;
-    for (const std::uint32_t b : side.bodies)
+    for (const std::uint32_t b : part.bodies)
         amount += work[b];
-    return side.milliseconds > 0 ? static_cast<double>(amount) / side.milliseconds : 0;
+    return part.milliseconds > 0 ? static_cast<double>(amount) / part.milliseconds : 0;
 }
 
 double HybridWorld::Impl::predicted(const std::vector<bool>& to_first) const
 {
     double until[2] = {0, 0};
     for (std::size_t b = 0; b < work.size(); ++b)
-        until[to_first[b] ? 0 : 1] += static_cast<double>(work[b]) / speed(sides[to_first[b] ? 0 : 1]);
+        until[to_first[b] ? 0 : 1] += static_cast<double>(work[b]) / speed(parts[to_first[b] ? 0 : 1]);
     return std::max(until[0], until[1]);
 }
 
-Carried HybridWorld::Impl::carried() const
+CarriedState HybridWorld::Impl::carried() const
 {
-    Carried out;
-    for (const Side& side : sides)
-        if (side.world)
-            collect(*side.world, vertices(side), first.back(), out);
+    CarriedState out;
+    for (const DevicePart& part : parts)
+        if (part.world)
+            collect(*part.world, vertices(part), first.back(), out);
     out.moved = program.values();
     return out;
 }
@@ -201,24 +201,24 @@ Carried HybridWorld::Impl::carried() const
 /// Divides anew by the measured speeds where that pays.
 void HybridWorld::Impl::rebalance()
 {
-    if (!sides[0].world || !sides[1].world)
+    if (!parts[0].world || !parts[1].world)
         return; // nothing is known of the idle device's speed any more
-    const std::vector<bool> now = divide(work, speed(sides[0]), speed(sides[1]));
+    const std::vector<bool> now = divide(work, speed(parts[0]), speed(parts[1]));
     std::vector<bool> old(work.size(), false);
-    for (const std::uint32_t b : sides[0].bodies)
+    for (const std::uint32_t b : parts[0].bodies)
         old[b] = true;
     if (now == old || predicted(now) > kWorthMoving * predicted(old))
         return;
-    for (const Side& side : sides)
+    for (const DevicePart& part : parts)
     {
-        add(before, side.events());
-        add(solved_before, side.solver_report());
+        add(before, part.events());
+        add(solved_before, part.solver_report());
     }
-    const Carried state = carried();
+    const CarriedState state = carried();
     assign(now);
-    for (Side& side : sides)
-        if (side.world)
-            deliver(*side.world, vertices(side), side.bodies, state);
+    for (DevicePart& part : parts)
+        if (part.world)
+            deliver(*part.world, vertices(part), part.bodies, state);
     divisions += steps > 0;
 }
 
@@ -242,13 +242,13 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
             throw Error(ErrorCode::unsupported,
                         "a hybrid world cannot tear cloth, whose number of vertices changes; use one "
                         "device, or leave tear_strain out");
-    // The stiffest body, or the only solid, may be on one side; both sides take what it asks for.
+    // The stiffest body, or the only solid, may be on one part; both parts take what it asks for.
     my.scene.method.line_search = line_search_of(my.scene);
     if (const auto substeps = find_method(my.scene.method.type).substeps)
         my.scene.method.substeps = substeps(my.scene).count;
     my.options = options;
-    my.sides[0].device = std::move(one);
-    my.sides[1].device = std::move(other);
+    my.parts[0].device = std::move(one);
+    my.parts[1].device = std::move(other);
     my.first.push_back(0);
     for (const Body& body : my.scene.bodies)
     {
@@ -273,25 +273,26 @@ void HybridWorld::step()
 {
     Impl& my = *impl_;
     const bool due = my.options.measure_every > 0 && my.steps > 0 && my.steps % my.options.measure_every == 0;
-    const bool movable = std::all_of(my.sides.begin(), my.sides.end(),
-                                     [](const Side& s) { return !s.world || s.world->plan().kept.empty(); });
+    const bool movable = std::all_of(my.parts.begin(), my.parts.end(), [](const DevicePart& s) {
+        return !s.world || s.world->plan().kept.empty();
+    });
     if (due && movable)
     {
         my.time_both();
         my.rebalance();
     }
     my.program.begin_step(my.scene, time(), time() + my.scene.timestep);
-    for (const Side& side : my.sides)
-        if (side.world && !my.program.idle())
-            Moved::of(*side.world).obey(part_of(my.program.values(), side.bodies));
+    for (const DevicePart& part : my.parts)
+        if (part.world && !my.program.idle())
+            Moved::of(*part.world).obey(part_of(my.program.values(), part.bodies));
     // The native CPU computes where it is asked, so the other device goes first.
     for (const std::size_t s : {1, 0})
-        if (my.sides[s].world)
-            my.sides[s].world->step();
+        if (my.parts[s].world)
+            my.parts[s].world->step();
     my.program.end_step(my.scene.timestep);
-    for (const Side& side : my.sides)
-        if (side.world)
-            side.device->wait();
+    for (const DevicePart& part : my.parts)
+        if (part.world)
+            part.device->wait();
     ++my.steps;
 }
 
@@ -302,45 +303,45 @@ const Scene& HybridWorld::scene() const { return impl_->scene; }
 std::vector<glm::dvec3> HybridWorld::positions() const
 {
     std::vector<glm::dvec3> out(impl_->first.back());
-    for (const Side& side : impl_->sides)
-        if (side.world)
-            place(out, side.world->positions(), side.world->plan(), side.bodies, impl_->first);
+    for (const DevicePart& part : impl_->parts)
+        if (part.world)
+            place(out, part.world->positions(), part.world->plan(), part.bodies, impl_->first);
     return out;
 }
 
 std::vector<glm::dvec3> HybridWorld::velocities() const
 {
     std::vector<glm::dvec3> out(impl_->first.back());
-    for (const Side& side : impl_->sides)
-        if (side.world)
-            place(out, side.world->velocities(), side.world->plan(), side.bodies, impl_->first);
+    for (const DevicePart& part : impl_->parts)
+        if (part.world)
+            place(out, part.world->velocities(), part.world->plan(), part.bodies, impl_->first);
     return out;
 }
 
 Events HybridWorld::events() const
 {
     Events sum = impl_->before;
-    for (const Side& side : impl_->sides)
-        add(sum, side.events());
+    for (const DevicePart& part : impl_->parts)
+        add(sum, part.events());
     return sum;
 }
 
 SolverReport HybridWorld::solver_report() const
 {
     SolverReport sum = impl_->solved_before;
-    for (const Side& side : impl_->sides)
-        if (side.world)
-            add(sum, side.solver_report());
+    for (const DevicePart& part : impl_->parts)
+        if (part.world)
+            add(sum, part.solver_report());
     return sum;
 }
 
-/// The side of a body, and its number there.
+/// The part of a body, and its number there.
 std::pair<World*, std::size_t> HybridWorld::Impl::world_of(std::size_t body, const char* who)
 {
-    for (Side& side : sides)
-        for (std::size_t own = 0; own < side.bodies.size(); ++own)
-            if (side.bodies[own] == body)
-                return {side.world.get(), own};
+    for (DevicePart& part : parts)
+        for (std::size_t own = 0; own < part.bodies.size(); ++own)
+            if (part.bodies[own] == body)
+                return {part.world.get(), own};
     throw Error(ErrorCode::bad_input, std::string(who) + ": body " + std::to_string(body) + " of " +
                                           std::to_string(scene.bodies.size()) + ", numbered from 0");
 }
@@ -360,15 +361,15 @@ void HybridWorld::set_velocities(std::size_t body, std::span<const glm::dvec3> v
 std::vector<HybridPart> HybridWorld::parts() const
 {
     std::vector<HybridPart> out;
-    for (const Side& side : impl_->sides)
+    for (const DevicePart& part : impl_->parts)
     {
-        HybridPart part{side.device->info(), side.bodies, 0, 0, side.milliseconds};
-        for (const std::uint32_t b : side.bodies)
+        HybridPart told{part.device->info(), part.bodies, 0, 0, part.milliseconds};
+        for (const std::uint32_t b : part.bodies)
         {
-            part.vertices += impl_->first[b + 1] - impl_->first[b];
-            part.work += impl_->work[b];
+            told.vertices += impl_->first[b + 1] - impl_->first[b];
+            told.work += impl_->work[b];
         }
-        out.push_back(std::move(part));
+        out.push_back(std::move(told));
     }
     return out;
 }

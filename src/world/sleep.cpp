@@ -76,7 +76,7 @@ struct SleepWorld::Impl
     std::vector<bool> sleeping;
     std::vector<std::uint32_t> quiet; ///< looks in a row, by body
     std::vector<double> threshold;    ///< m/s, by body; 0 = never sleeps
-    Carried carried;                  ///< of those that sleep, as they fell asleep
+    CarriedState carried;             ///< of those that sleep, as they fell asleep
     std::vector<glm::dvec3> resting;  ///< m, where they lie; scene-wide
     std::vector<glm::dvec3> seen;     ///< m, at the last look
     std::vector<Extent> box;          ///< of those that sleep
@@ -321,7 +321,7 @@ void SleepWorld::set_velocities(std::size_t body, std::span<const glm::dvec3> ve
 void SleepWorld::copy_into(World& whole) const
 {
     const Impl& my = *impl_;
-    Carried all = my.carried;
+    CarriedState all = my.carried;
     collect(*my.world, my.vertices(), my.first.back(), all);
     std::vector<std::uint32_t> bodies(my.scene.bodies.size());
     std::iota(bodies.begin(), bodies.end(), 0u);

@@ -376,7 +376,7 @@ void SplitWorld::copy_into(World& whole) const
     const Plan& plan = impl_->whole;
     const std::uint32_t buffers[kCarriedArrays] = {plan.position, plan.low,      plan.velocity, plan.delta,
                                                    plan.force,    plan.coasting, plan.owed};
-    Carried state;
+    CarriedState state;
     for (std::size_t k = 0; k < kCarriedArrays; ++k)
     {
         const std::vector<std::byte> bytes = impl_->collected(buffers[k]);

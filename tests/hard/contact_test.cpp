@@ -245,3 +245,39 @@ TEST_CASE("E10: a pinned vertex inside a collider stays, is counted, and shakes 
         CHECK(report.penetration < 1e-6);
     });
 }
+
+TEST_CASE("thick sheets that the guarantee holds in the air are not called completed [hard]")
+{
+    const auto fall = [](double thickness) {
+        Scene scene;
+        Body sheet;
+        sheet.shape.cells = {8, 8};
+        sheet.shape.size = {0.32, 0.32};
+        sheet.material.stretch_stiffness = 2000;
+        sheet.material.thickness = thickness;
+        sheet.contact.self = true;
+        sheet.transform.rotate_axis = {1, 0, 0};
+        sheet.transform.rotate_degrees = -70;
+        sheet.transform.translate = {0, 2, 0};
+        scene.bodies = {sheet, sheet};
+        scene.bodies[1].transform.translate.y = 2.1;
+        scene.contact.between = true;
+        scene.contact.guarantee = Guarantee::no_crossing;
+        scene.colliders = {plane({0, 1, 0})}; // takes momentum, so that nobody asks where it went
+        scene.colliders[0].point = {0, -5, 0};
+        World world(resolve(scene), test_device("cpu:serial"));
+        const double start = world.positions()[0].y;
+        run(world, 12);
+        note("thick sheets", *test_device("cpu:serial"), "fallen, m", start - world.positions()[0].y);
+        note("thick sheets", *test_device("cpu:serial"), "held",
+             static_cast<double>(world.contacts().held) /
+                 (double(world.plan().vertex_count) * double(world.steps()) * world.plan().substeps));
+        return measure(world);
+    };
+    const StepReport thick = fall(0.06); // beside cells of 4 cm
+    CHECK(thick.status == Status::unconverged);
+    CHECK_THAT(thick.reason, Contains("held vertices still"));
+    const StepReport thin = fall(0.01);
+    CHECK(thin.status == Status::completed);
+    CHECK(thin.contacts.held == 0);
+}

@@ -279,6 +279,7 @@ TEST_CASE("a time step of 1/10 s keeps cloth finite, above the floor and near it
             }
             const StepReport report = measure(world);
             CHECK(finite(world.positions()));
+            INFO(substeps << " substeps: " << report.reason);
             CHECK((report.status == Status::completed) == (substeps == 10));
             const char* one = substeps == 1 ? "1 substep" : "10 substeps";
             note("time step 0.1", *device, (std::string("largest stretch on the way, ") + one).c_str(),

@@ -215,6 +215,14 @@ TEST_CASE("borders are linked as often as a band is turned")
     CHECK(after.intersecting == 0);
     REQUIRE(before.linking.size() == 6);
     CHECK(before.linking != after.linking);
+    // Of two bodies that pass through each other only the borders of each are compared.
+    PassingBodies passing{std::vector<std::uint32_t>(s.positions.size(), 0), {0, 0}, {{true}}};
+    std::fill(passing.body.begin() + 80, passing.body.end(), 1u);
+    const Judge lenient(s.triangles, beside, {}, passing);
+    const FrameVerdict meanwhile = lenient.look(through);
+    CHECK(meanwhile.linking == lenient.look(beside).linking);
+    CHECK(meanwhile.linking.front() == after.linking.front());
+    CHECK(std::count(meanwhile.linking.begin(), meanwhile.linking.end(), std::nullopt) == 4);
 }
 
 TEST_CASE("what passes between two clean frames is seen, and what slides or turns along is not")

@@ -84,22 +84,22 @@ TEST_CASE("compare tabulates residuals and keeps a series over the frames", "[co
     CHECK(rows[0].residuals.dual >= 0);
     CHECK(rows[1].residuals.primal == -1);
     for (const CompareRow& row : rows)
-        CHECK(row.looks.size() == 66); // every second frame, and the start
+        CHECK(row.series.size() == 66); // every second frame, and the start
     std::uint64_t sum = 0;
-    for (const Look& look : rows[1].looks)
-        sum += look.linear_iterations.value();
+    for (const TimeSample& sample : rows[1].series)
+        sum += sample.linear_iterations.value();
     CHECK(sum == rows[1].report.solver.iterations);
-    CHECK(rows[1].looks.back().active_share.value() == rows[1].report.active_share);
-    CHECK_FALSE(rows[0].looks.back().active_share.has_value());
-    CHECK_FALSE(rows[0].looks.back().linear_iterations.has_value());
-    double worst = rows[1].looks[0].max_stretch;
-    for (const Look& look : rows[1].looks)
-        worst = std::max(worst, look.max_stretch);
+    CHECK(rows[1].series.back().active_share.value() == rows[1].report.active_share);
+    CHECK_FALSE(rows[0].series.back().active_share.has_value());
+    CHECK_FALSE(rows[0].series.back().linear_iterations.has_value());
+    double worst = rows[1].series[0].max_stretch;
+    for (const TimeSample& sample : rows[1].series)
+        worst = std::max(worst, sample.max_stretch);
     CHECK(rows[1].worst_stretch == std::max(worst, 0.0));
     const std::string table = compare_csv(rows);
     CHECK(table.find(",residual,dual residual,") != std::string::npos);
     CHECK(table.find("\np,pbd,cpu:serial,") != std::string::npos);
-    const std::string series = compare_looks_csv(rows);
+    const std::string series = compare_series_csv(rows);
     CHECK(lines(series) == 1 + 3 * 66);
     CHECK(series.find("\nx,130,") != std::string::npos);
 }
@@ -108,12 +108,12 @@ TEST_CASE("looks are at most 121 however long a run is, with start and end", "[c
 {
     for (const std::uint64_t frames : {0u, 1u, 59u, 60u, 119u, 120u, 1000u, 123457u})
     {
-        Looks looks(frames);
+        TimeSeries samples(frames);
         std::uint64_t due = 0;
         for (std::uint64_t f = 0; f <= frames; ++f)
-            due += looks.due(f);
-        CHECK(looks.due(0));
-        CHECK(looks.due(frames));
+            due += samples.due(f);
+        CHECK(samples.due(0));
+        CHECK(samples.due(frames));
         CHECK(due <= 121);
         CHECK(due >= std::min<std::uint64_t>(frames + 1, 60));
     }
@@ -137,7 +137,7 @@ TEST_CASE("compare knows the mean of a volume, and no strain where nothing is a 
     const auto rows = compare({{"n", solid, test_device("cpu:serial")}}, 30);
     REQUIRE(rows[0].refusal.empty());
     CHECK_FALSE(rows[0].springs);
-    CHECK(rows[0].measured == rows[0].looks.size());
+    CHECK(rows[0].measured == rows[0].series.size());
     World world(solid, test_device("cpu:serial"));
     double sum = 1; // at the start
     for (int frame = 0; frame < 30; ++frame)
@@ -175,21 +175,22 @@ TEST_CASE("the curve of a comparison is the volume error where there are volumes
     REQUIRE(volumes.series.size() == 2);
     CHECK(volumes.gaps.empty());
     double most = 0;
-    for (std::size_t k = 0; k < rows[0].looks.size(); ++k)
+    for (std::size_t k = 0; k < rows[0].series.size(); ++k)
     {
-        const double error = std::abs(1 - rows[0].looks[k].volume.value());
+        const double error = std::abs(1 - rows[0].series[k].volume.value());
         CHECK(volumes.series[0].points[k].y == std::max(error, 1e-5));
-        CHECK(volumes.series[0].points[k].x == rows[0].looks[k].time);
+        CHECK(volumes.series[0].points[k].x == rows[0].series[k].time);
         most = std::max(most, error);
     }
     CHECK(most > 1e-5); // else nothing was drawn but the floor
     CHECK(1 - rows[0].smallest_volume <= most);
-    const std::string csv = compare_looks_csv(rows);
+    const std::string csv = compare_series_csv(rows);
     CHECK(csv.find(",volume %\nx,0,0,") != std::string::npos);
-    CHECK(compare_looks_csv(compare({{"s", hanging("pbd"), device}}, 1)).find("volume") == std::string::npos);
+    CHECK(compare_series_csv(compare({{"s", hanging("pbd"), device}}, 1)).find("volume") ==
+          std::string::npos);
 
     // A run that went out of the numbers ends its curve, and says so.
-    rows[0].looks[5].volume = std::numeric_limits<double>::quiet_NaN();
+    rows[0].series[5].volume = std::numeric_limits<double>::quiet_NaN();
     const Plot broken = compare_series_plot("ball", rows);
     CHECK(broken.series[0].points.size() == 5);
     REQUIRE(broken.gaps.size() == 1);
@@ -218,7 +219,7 @@ TEST_CASE("a comparison that is stopped keeps what it has", "[compare]")
     CHECK(rows[0].report.time == Approx(10 * hanging("xpbd").timestep));
     CHECK(rows[1].report.status == Status::interrupted);
     CHECK(rows[1].report.time == Approx(4 * hanging("pbd").timestep));
-    CHECK(rows[1].looks.back().time == rows[1].report.time);
+    CHECK(rows[1].series.back().time == rows[1].report.time);
     CHECK_FALSE(rows[1].difference.has_value());
     CHECK(rows[2].refusal == "interrupted: not run");
     CHECK_THAT(compare_markdown(rows), Contains("not run") && !Contains("refused"));

@@ -258,7 +258,7 @@ TEST_CASE("a perturbed start pushes what is free, the same every time, and displ
     }
 }
 
-TEST_CASE("a lap ends at the first rung whose error is above the bound times its slack", "[tune]")
+TEST_CASE("a trial ends at the first rung whose error is above the bound times its slack", "[tune]")
 {
     CostOptions options;
     options.reference_steps = 2e8;
@@ -269,16 +269,16 @@ TEST_CASE("a lap ends at the first rung whose error is above the bound times its
     REQUIRE(start.reference.frames.size() == 25);
     MethodSettings settings;
     settings.substeps = 4;
-    const auto lap = [&](double bound) {
-        return tuning::run_lap(start, serial(), settings, CostKind::moving, bound, 1);
+    const auto trial = [&](double bound) {
+        return tuning::run_trial(start, serial(), settings, CostKind::moving, bound, 1);
     };
-    const tuning::Lap whole = lap(0.9);
+    const tuning::TrialRun whole = trial(0.9);
     REQUIRE(whole.reason.empty());
     CHECK(whole.frames == 24);
-    const tuning::Lap last = lap(*whole.error * 0.99); // only the last rung is above
+    const tuning::TrialRun last = trial(*whole.error * 0.99); // only the last rung is above
     CHECK(last.frames == 24);
     CHECK(last.reason.find("after 24 frames") != std::string::npos);
-    const tuning::Lap first = lap(1e-6);
+    const tuning::TrialRun first = trial(1e-6);
     CHECK(first.frames == 18);
     CHECK(*first.error > 2e-6);
 }

@@ -23,8 +23,8 @@ cost::Refined climbed(const Scene& scene, double error, std::function<double()> 
     CostOptions options;
     options.reference_error = error;
     options.spent = std::move(spent);
-    const cost::Question question{scene, model, weights, options, serial()};
-    return cost::climb(question, MethodKind::xpbd, 12);
+    const cost::CostInput input{scene, model, weights, options, serial()};
+    return cost::climb(input, MethodKind::xpbd, 12);
 }
 
 } // namespace
@@ -93,13 +93,14 @@ TEST_CASE("damping to rest changes how long it takes and not where, and is left 
     fast.scene = damped;
     MethodSettings settings;
     settings.substeps = 4;
-    const auto lap = [&](const tuning::Start& from) {
-        return tuning::run_lap(from, serial(), settings, CostKind::at_rest, 0.9, 60);
+    const auto trial = [&](const tuning::Start& from) {
+        return tuning::run_trial(from, serial(), settings, CostKind::at_rest, 0.9, 60);
     };
-    const tuning::Lap slow_lap = lap(start), fast_lap = lap(fast);
-    REQUIRE((slow_lap.error && fast_lap.error));
+    const tuning::TrialRun slow_trial = trial(start), fast_trial = trial(fast);
+    REQUIRE((slow_trial.error && fast_trial.error));
     // Each may still wander by a tenth of its error.
-    CHECK(std::abs(*slow_lap.error - *fast_lap.error) <= 0.2 * std::max(*slow_lap.error, *fast_lap.error));
+    CHECK(std::abs(*slow_trial.error - *fast_trial.error) <=
+          0.2 * std::max(*slow_trial.error, *fast_trial.error));
     Scene waxen = scene;
     waxen.bodies[0].material.plastic_yield = 0.1;
     CHECK(tuning::damped_to_rest(waxen).damping == 0.5);

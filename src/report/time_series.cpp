@@ -1,4 +1,4 @@
-#include "taut/report/looks.hpp"
+#include "taut/report/time_series.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -6,19 +6,19 @@
 
 namespace taut {
 
-void Looks::add(std::uint64_t frame, double time, double max_stretch, double active_share,
-                const std::optional<SolverReport>& solved, const std::optional<double>& volume)
+void TimeSeries::add(std::uint64_t frame, double time, double max_stretch, double active_share,
+                     const std::optional<SolverReport>& solved, const std::optional<double>& volume)
 {
-    Look look{frame, time, max_stretch};
-    look.volume = volume;
+    TimeSample sample{frame, time, max_stretch};
+    sample.volume = volume;
     if (active_share >= 0)
-        look.active_share = active_share;
+        sample.active_share = active_share;
     if (solved)
     {
-        look.linear_iterations = solved->iterations - iterations_;
+        sample.linear_iterations = solved->iterations - iterations_;
         iterations_ = solved->iterations;
     }
-    list_.push_back(look);
+    list_.push_back(sample);
 }
 
 std::vector<StretchElement> scene_springs(const Scene& resolved)
@@ -42,10 +42,7 @@ std::vector<StretchElement> scene_springs(const Scene& resolved)
     return out;
 }
 
-Stretchable stretchable(const Scene& resolved)
-{
-    return {scene_springs(resolved), scene_elements(resolved)};
-}
+Stretchable stretchable(const Scene& resolved) { return {scene_springs(resolved), scene_elements(resolved)}; }
 
 double largest_stretch(std::span<const StretchElement> springs, std::span<const glm::dvec3> x,
                        std::span<const AddedElement> elements)
