@@ -230,11 +230,9 @@ Soundness judge_state(const EnergyBudget& budget, const RunState& state)
     out = worse(out, judge_rates(budget.model(), state));
     const double bound = kUnconvergedEnergy * most + slack;
     out = worse(out, judge_energy(energy, most, bound, Status::unconverged, what));
-    const double slight = motion.energy + strain.slight_energy;
-    out = worse(
-        out,
-        judge_energy(slight, most, kSlightEnergy * most + slack, Status::unconverged,
-                     "the kinetic energy and that of what is strained beyond a tenth of accept.stretch are"));
+    out =
+        worse(out, judge_energy(strain.slight_energy, most, kSlightEnergy * most + slack, Status::unconverged,
+                                "the energy of tetrahedra strained beyond a tenth of accept.stretch is"));
     out.energy = energy;
     out.energy_most = most;
     return out;

@@ -41,8 +41,8 @@ Soundness worse(const Soundness& a, const Soundness& b);
 /// Factors of EnergyBudget::most: kinetic energy beyond the first, kinetic and strained energy beyond the
 /// third is `diverged`; kinetic and strained energy beyond the second is `unconverged`.
 inline constexpr double kDivergedKinetic = 2, kUnconvergedEnergy = 1.5, kDivergedEnergy = 100;
-/// Beyond this factor of the same, kinetic energy and that of what is strained beyond this share of
-/// accept.stretch is `unconverged`.
+/// Beyond this factor of it the energy of tetrahedra strained beyond this share of accept.stretch is
+/// `unconverged`.
 inline constexpr double kSlightEnergy = 3, kSlightStrain = 0.1;
 /// Coordinates beyond this count as diverged, m.
 inline constexpr double kDivergedExtent = 1e12;

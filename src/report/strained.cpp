@@ -19,31 +19,9 @@ namespace {
 /// Of a scene's size: a shorter spring joins two vertices in one place, and its strain says nothing.
 constexpr double kNoLength = 1e-6;
 
-struct Sums : Strained
-{
-    Sums(double most, std::vector<bool> at_contacts) : accepted(most), pushed(std::move(at_contacts)) {}
-
-    bool has_pushed() const { return std::find(pushed.begin(), pushed.end(), true) != pushed.end(); }
-    bool counts(double strain) const { return strain > kSlightStrain * accepted; }
-
-    void add(double strain, double joules, bool at_contact)
-    {
-        energy += strain > accepted ? joules : 0;
-        slight_energy += counts(strain) && !at_contact ? joules : 0;
-    }
-
-    void add(double strain, double joules, std::span<const std::uint32_t> corners)
-    {
-        add(strain, joules, std::any_of(corners.begin(), corners.end(), [&](auto v) { return pushed[v]; }));
-    }
-
-    double accepted;          ///< accept.stretch
-    std::vector<bool> pushed; ///< by a contact, after the solve
-};
-
 /// pbd, or a spring that is rigid, is asked to keep its length; pbd of a stiffness k below 1 to 1/k as much.
 /// What two held vertices have between them is nobody's to solve.
-void add_springs(const PhysicalModel& model, const RunState& state, Sums& out)
+void add_springs(const PhysicalModel& model, const RunState& state, double accepted, Strained& out)
 {
     const Scene& scene = state.scene;
     const std::span<const glm::dvec3> x = state.x;
@@ -69,8 +47,8 @@ void add_springs(const PhysicalModel& model, const RunState& state, Sums& out)
         const double strain = stretch / e.rest_length;
         if (kept || !(e.compliance > 0))
             out.kept_strain = std::max(out.kept_strain, share * strain);
-        else if (!model.flows[first])
-            out.add(std::abs(strain), 0.5 * stretch * stretch / e.compliance, std::array{e.a, e.b});
+        else if (std::abs(strain) > accepted && !model.flows[first])
+            out.energy += 0.5 * stretch * stretch / e.compliance;
         const bool may_act =
             scene.method.constrained == ConstrainedSprings::all || e.kind == SpringKind::structural;
         const bool seen = e.rest_length > kNoLength * model.diameter;
@@ -84,7 +62,7 @@ void add_springs(const PhysicalModel& model, const RunState& state, Sums& out)
 
 /// The volume of a tetrahedron, or within a surface, that is rigid, or kept by pbd: as springs. Of all
 /// tetrahedra of a body together, by what each is off: one alone may be so for a moment.
-void add_volumes(const PhysicalModel& model, const RunState& state, Sums& out)
+void add_volumes(const PhysicalModel& model, const RunState& state, Strained& out)
 {
     const bool pbd = state.scene.method.type == MethodKind::pbd;
     const double share = pbd ? state.scene.method.volume : 1;
@@ -109,17 +87,16 @@ void add_volumes(const PhysicalModel& model, const RunState& state, Sums& out)
 }
 
 /// Of elements with stretches; those that a spring limit or a projection keeps are none of them.
-void add_elements(const PhysicalModel& model, const RunState& state, Sums& out)
+void add_elements(const PhysicalModel& model, const RunState& state, double accepted, Strained& out)
 {
     for (const AddedElement& e : model.added)
-        if (const auto s = e.stretches(state.x); s && out.counts(std::max(-(*s)[0], (*s)[1])))
-            out.add(std::max(-(*s)[0], (*s)[1]), e.energy(state.x),
-                    std::span(e.vertex).first(e.kind->corners));
+        if (const auto t = e.stretches(state.x); t && std::max(-(*t)[0], (*t)[1]) > accepted)
+            out.energy += e.energy(state.x);
 }
 
 /// Hinges that are bent by more than accept.stretch, as an angle in rad; pbd's have no stiffness. Torn cloth
 /// has other hinges than the model.
-void add_hinges(const PhysicalModel& model, const RunState& state, Sums& out)
+void add_hinges(const PhysicalModel& model, const RunState& state, double accepted, Strained& out)
 {
     const std::span<const glm::dvec3> x = state.x;
     if (state.scene.method.type == MethodKind::pbd || x.size() != model.mass.size())
@@ -131,20 +108,30 @@ void add_hinges(const PhysicalModel& model, const RunState& state, Sums& out)
         if (!(e.compliance > 0) || model.flows[e.edge0] || held)
             continue;
         const double turn = bend_angle(e, x);
-        out.add(std::abs(turn), 0.5 * turn * turn / e.compliance,
-                std::array{e.edge0, e.edge1, e.wing0, e.wing1});
+        if (std::abs(turn) > accepted)
+            out.energy += 0.5 * turn * turn / e.compliance;
     }
-    double turn = 0;
-    for (const PlateHinge& h : model.plates)
-        turn = std::max(turn, std::abs(bend_angle(h.element, x)));
-    if (out.counts(turn)) // they have one energy together
-        out.add(turn, plate_energy(model.plates, x), out.has_pushed());
+    const bool turned = std::any_of(model.plates.begin(), model.plates.end(), [&](const PlateHinge& h) {
+        return std::abs(bend_angle(h.element, x)) > accepted;
+    });
+    if (turned)
+        out.energy += plate_energy(model.plates, x);
 }
 
-void add_solids(const PhysicalModel& model, const RunState& state, Sums& out)
+/// Bodies that meet each other push after the solve, too, and where is not known here: none of theirs is
+/// slight.
+std::vector<bool> pushed_vertices(const PhysicalModel& model, const RunState& state)
 {
-    if (state.scene.method.type == MethodKind::pbd)
+    if (state.x.size() != model.mass.size() || (state.scene.contact.between && state.scene.bodies.size() > 1))
+        return std::vector<bool>(state.x.size(), true);
+    return touching_colliders(state.scene, model, state.x, state.drive.time);
+}
+
+void add_solids(const PhysicalModel& model, const RunState& state, double accepted, Strained& out)
+{
+    if (state.scene.method.type == MethodKind::pbd || model.solids.empty())
         return;
+    const std::vector<bool> pushed = pushed_vertices(model, state);
     for (const SolidElement& e : model.solids)
     {
         if (model.flows[e.vertex[0]])
@@ -153,32 +140,26 @@ void add_solids(const PhysicalModel& model, const RunState& state, Sums& out)
         const glm::dmat3 green = 0.5 * (glm::transpose(f) * f - glm::dmat3(1));
         const double size = std::sqrt(glm::dot(green[0], green[0]) + glm::dot(green[1], green[1]) +
                                       glm::dot(green[2], green[2]));
-        if (out.counts(size))
-            out.add(size, std::max(solid_energy(e, state.x), 0.0), e.vertex);
+        if (!(size > kSlightStrain * accepted))
+            continue;
+        const double energy = std::max(solid_energy(e, state.x), 0.0);
+        out.energy += size > accepted ? energy : 0;
+        const bool touches = std::ranges::any_of(e.vertex, [&](std::uint32_t v) { return pushed[v]; });
+        out.slight_energy += touches ? 0 : energy;
     }
-}
-
-/// Bodies that meet each other push after the solve, too, and where is not known here: none of theirs is
-/// slight.
-std::vector<bool> pushed_vertices(const PhysicalModel& model, const RunState& state)
-{
-    if (state.x.size() != model.mass.size()) // torn since
-        return std::vector<bool>(state.x.size(), true);
-    if (state.scene.contact.between && state.scene.bodies.size() > 1)
-        return std::vector<bool>(state.x.size(), true);
-    return touching_colliders(state.scene, model, state.x, state.drive.time);
 }
 
 } // namespace
 
 Strained strained(const PhysicalModel& model, const RunState& state)
 {
-    Sums out(state.scene.accept.stretch, pushed_vertices(model, state));
-    add_springs(model, state, out);
+    const double accepted = state.scene.accept.stretch;
+    Strained out;
+    add_springs(model, state, accepted, out);
     add_volumes(model, state, out);
-    add_elements(model, state, out);
-    add_hinges(model, state, out);
-    add_solids(model, state, out);
+    add_elements(model, state, accepted, out);
+    add_hinges(model, state, accepted, out);
+    add_solids(model, state, accepted, out);
     return out;
 }
 

@@ -10,8 +10,8 @@ namespace taut {
 struct Strained
 {
     double energy = 0; ///< J, of elements with a stiffness whose shape at rest the model knows
-    double slight_energy =
-        0; ///< J, of those strained beyond kSlightStrain of that; without what contacts pushed last
+    /// J, of tetrahedra strained beyond kSlightStrain of that, but for those that contacts pushed last
+    double slight_energy = 0;
     double kept_strain = 0;   ///< largest strain of those that the method keeps by projection
     double limit_strain = 0;  ///< largest strain above a strain_limit
     double active_strain = 0; ///< largest above activate_strain, of springs that acad may constrain

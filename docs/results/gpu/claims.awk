@@ -30,7 +30,7 @@ function claims_of_cloth(    here, newest, passes, of_64)
     newest = "RX 6900 XT"
     here = "64² " newest
     passes = cloth(here, 8)
-    name("At 64², the default scene,")
+    name("At 64², the cells of the scene as it is shipped")
     claim(cloth(here, 3) " dispatches are too many: on the RX 6900 XT they take " passes " ms, " \
           sprintf("%.1f", passes / cloth(here, 5)) " times what the bytes take", 1)
     claim("a chain of single waves takes " cloth(here, 7) " ms more", 1)

@@ -179,10 +179,6 @@ TEST_CASE("strain without the energy for it is unconverged, with it sound")
     scene.bodies[0].material.stretch_stiffness = 30;
     CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 1)).status == Status::unconverged);
     scene.accept.stretch = 0.3;
-    const Soundness slight = judge_state(EnergyBudget(scene), state_of(scene, x, v, 1));
-    CHECK(slight.status == Status::unconverged);
-    CHECK_THAT(slight.reason, Contains("beyond a tenth of accept.stretch"));
-    scene.accept.stretch = 2.1; // a tenth of it is more than the strain
     CHECK(judge_state(EnergyBudget(scene), state_of(scene, x, v, 1)).sound());
     scene.accept.stretch = 0.1;
     scene.bodies[0].start_positions = x; // it began so
