@@ -1,8 +1,9 @@
 include(${CMAKE_CURRENT_LIST_DIR}/taut_elements.cmake)
 
-# taut_check_kernels(KERNELS...): stops the configuration on two kernels of one stem, on a comparison that is negated in a kernel
-# or a file that kernels include, and on a kernel without a test: tests/conformance/<stem>_test.cpp must exist; of a kernel that is compiled for elements, one a kernel,
-# <stem>_<element>_test.cpp. tests/rules/kernel_rules.cmake plants such kernels.
+# taut_check_kernels(KERNELS...): stops the configuration on two kernels of one stem, on a comparison that a kernel or a
+# file that kernels include negates directly, and on a kernel without a test: tests/conformance/<stem>_test.cpp must
+# exist; of a kernel that is compiled for elements, one a kernel, <stem>_<element>_test.cpp.
+# tests/rules/kernel_rules.cmake plants such kernels.
 function(taut_check_kernels)
     taut_check_comparisons()
     set(stems)
@@ -23,11 +24,14 @@ function(taut_check_kernels)
     endforeach()
 endfunction()
 
-# OpenGL may take !(a <= b) for a > b, which differs where one is no number; IS_FINITE asks for that.
+# Drivers may take !(a <= b) for a > b (Mesa's OpenGL does), which differs where one is no number; IS_FINITE asks for that.
 function(taut_check_comparisons)
     file(GLOB_RECURSE texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.comp ${PROJECT_SOURCE_DIR}/kernels/*.glsl)
+    set(balanced "([^()]|\\([^()]*\\))") # to three parentheses within
+    set(balanced "([^()]|\\(${balanced}*\\))")
+    set(balanced "([^()]|\\(${balanced}*\\))")
     foreach(text IN LISTS texts)
-        file(STRINGS ${text} negated REGEX "^[^/#]*!\\(([^()]|\\([^()]*\\))*[<>]")
+        file(STRINGS ${text} negated REGEX "^([^/]|/[^/])*! *\\(${balanced}*[<>]")
         if(negated)
             message(FATAL_ERROR "${text} negates a comparison, which drivers turn round without regard to NaN: ${negated}; "
                 "write the opposite comparison, and IS_FINITE where NaN matters")

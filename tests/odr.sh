@@ -39,7 +39,7 @@ compile() { # one line of the list
 export -f compile
 export folder build
 for kind in gch o; do
-    grep "\.$kind	" "$folder/commands" | tr '\n' '\0' |
+    { grep "\.$kind	" "$folder/commands" || true; } | tr '\n' '\0' |
         xargs -0 -r -n 1 -P "${TAUT_JOBS:-$(nproc)}" bash -c 'set -e; compile "$1"' -
 done
 mapfile -t objects < <(sed -n "s#^\([^	]*\.o\)	.*#$folder/\1#p" "$folder/commands")

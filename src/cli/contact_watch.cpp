@@ -12,7 +12,7 @@
 namespace taut::cli {
 namespace {
 
-constexpr std::uint64_t kLooks = 16; // on the way
+constexpr std::uint64_t kLooks = 16; // behind the start, the last one at the end
 
 /// Triangles of which every frame is looked at.
 constexpr std::size_t kSmall = 2'500;
@@ -23,7 +23,7 @@ std::string name_of(const Scene& scene, std::uint32_t body)
     return "bodies[" + std::to_string(body) + "]" + (name.empty() ? "" : " (\"" + name + "\")");
 }
 
-/// The guarantee is lost where it is pinched alone, by what moves too far in a substep or leaves no place.
+/// The guarantee is lost only where something is pinched.
 std::string advice(bool guarded, const std::string& without)
 {
     return guarded ? "; raise method.substeps, move what is led more slowly, or leave more place between "
@@ -36,7 +36,8 @@ std::string advice(bool guarded, const std::string& without)
 ContactWatch::ContactWatch(const Simulation& simulation, std::uint64_t frames)
     : simulation_(simulation),
       frames_(frames),
-      wanted_(wants_contact(simulation.scene()))
+      wanted_(wants_contact(simulation.scene())),
+      guarded_(simulation.scene().contact.guarantee == Guarantee::no_crossing)
 {
     if (!wanted_)
         return;
@@ -55,7 +56,7 @@ void ContactWatch::after(std::uint64_t frame)
             return;
     if (surface_.parts > 1 && before_.size() == positions.size()) // not where cloth has just torn
         look_between(frame, positions);
-    const std::uint64_t pinched = simulation_.pinched();
+    const std::uint64_t pinched = guarded_ ? simulation_.pinched() : 0;
     if (look_due(frame, frames_, kLooks) || surface_.triangles.size() <= kSmall || pinched > pinched_)
         look(frame, positions);
     pinched_ = pinched;

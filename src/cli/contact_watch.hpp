@@ -18,7 +18,7 @@ public:
     /// `simulation` at its start; outlives the watch. Without contact in the scene nothing is looked at.
     ContactWatch(const Simulation& simulation, std::uint64_t frames);
 
-    /// After so many frames: looks at the last one and sixteen on the way, at all of few triangles, at those
+    /// After so many frames: looks at the last one and fifteen before it, at all of few triangles, at those
     /// in which the guarantee was pinched, and each time at which surfaces passed through others since the
     /// frame before. One that hangs together cannot pass through itself without a triangle in another one
     /// that stays, so that is left to the looks.
@@ -36,7 +36,7 @@ private:
 
     const Simulation& simulation_;
     std::uint64_t frames_;
-    bool wanted_;
+    bool wanted_, guarded_;
     judging::Surface surface_;
     std::vector<std::uint32_t> body_;     ///< per vertex
     std::size_t at_start_ = 0, most_ = 0; ///< pairs of triangles

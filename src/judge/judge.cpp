@@ -46,7 +46,7 @@ std::vector<std::optional<int>> linking_of(const Surface& surface, const std::ve
     std::vector<std::optional<int>> numbers;
     if (surface.borders.size() > Judge::kMostBorders)
         return numbers;
-    // Bodies that pass through each other may be linked now and not then.
+    // Bodies that pass through each other, or are led, may be linked now and not then.
     const auto judged = [&](std::size_t a, std::size_t b) {
         const std::uint32_t one = surface.borders[a].front(), other = surface.borders[b].front();
         return surface.judged(Edge{one, one}, Edge{other, other});

@@ -50,7 +50,7 @@ std::vector<CompareRow> compare(const std::vector<Variant>& variants, std::uint6
 /// A table in Markdown, and the same as CSV.
 std::string compare_markdown(const std::vector<CompareRow>& rows);
 std::string compare_csv(const std::vector<CompareRow>& rows);
-/// The series of all variants that ran, a line each, as CSV.
+/// The series of all variants that ran, a line for each sample, as CSV.
 std::string compare_series_csv(const std::vector<CompareRow>& rows);
 /// The same as curves over time: e_V = |V - V0| / V0 of scenes with volumes, else the largest strain.
 /// Variants without a curve are listed with the reason. `scene`: the name in the title.

@@ -134,8 +134,8 @@ void measure_implicit_residual(const View& view, StepReport& out)
     const double gravity = glm::length(last->model->gravity);
     std::vector<double> size(view.x.size(), 0.0);
     add_force_sizes(*last->model, view.x, size);
-    const std::vector<bool> touches =
-        touching_colliders(view.world.scene(), view.model, view.x, view.world.time());
+    const std::vector<bool> touches = touching_colliders(view.world.scene(), view.world.scene().colliders,
+                                                         view.model, view.x, view.world.time());
     double worst = 0, lefts = 0, sizes = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {
@@ -222,7 +222,8 @@ void put_loads(const View& view, Substep& last)
             // One that a collider pushed may have left it in the same substep.
             ways.push_back(glm::length(last.moved[i]) + gravity * h * h);
         }
-    last.left.touches = touching_colliders(view.world.scene(), view.model, view.x, view.world.time(), ways);
+    last.left.touches = touching_colliders(view.world.scene(), view.world.scene().colliders, view.model,
+                                           view.x, view.world.time(), ways);
     for (std::size_t i = 0; i < ways.size(); ++i)
         last.left.touches[i] = last.left.touches[i] || view.model.flows[i];
     mark_limited(view, last.left.touches);

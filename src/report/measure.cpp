@@ -192,6 +192,8 @@ void judge_residuals(const Scene& scene, StepReport& report)
                    report);
 }
 
+namespace {
+
 void judge_momentum(StepReport& report)
 {
     if (report.momentum_error <= kMomentumShare)
@@ -214,11 +216,13 @@ void judge_held(const View& view, StepReport& report)
     const double held = static_cast<double>(report.contacts.held);
     if (held > kHeldShare * ways)
         set_status({Status::unconverged,
-                    "the guarantee of contact held vertices still for " + shown_percent(held / ways) +
-                        " of their substeps, up to " + shown_percent(kHeldShare) +
+                    "the guarantee of contact held vertices still in " + shown_percent(held / ways) +
+                        " of all vertices x substeps, up to " + shown_percent(kHeldShare) +
                         " are accepted; give surfaces a thickness below the edges of their meshes"},
                    report);
 }
+
+} // namespace
 
 StepReport measure(const World& world)
 {

@@ -133,8 +133,8 @@ void measure_residuals(const View& view, StepReport& out)
         out.flow_residual = flow_residual(view, left);
     out.dual_residual = std::max(out.stretch_residual, bending_residual(view, h, impulse));
     const double gravity = glm::length(view.model.gravity);
-    const std::vector<bool> touches =
-        touching_colliders(view.world.scene(), view.model, view.x, view.world.time());
+    const std::vector<bool> touches = touching_colliders(view.world.scene(), view.world.scene().colliders,
+                                                         view.model, view.x, view.world.time());
     double worst = 0;
     for (std::size_t i = 0; i < view.x.size(); ++i)
     {

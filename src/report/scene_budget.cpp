@@ -108,7 +108,8 @@ std::vector<Soundness> SceneBudget::judge_parts(const World& world, Judged what)
         else
         {
             const std::vector<glm::dvec3> own_x = those_of(x, part.ranges), own_v = those_of(v, part.ranges);
-            out.push_back(judge(part, {part.scene, own_x, own_v, drive, precision, {}, 0}));
+            out.push_back(
+                judge(part, {part.scene, own_x, own_v, drive, precision, {}, 0, world.scene().colliders}));
             if (!out.back().sound())
                 out.back().reason = "of " + part.name + ": " + out.back().reason;
         }

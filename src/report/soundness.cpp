@@ -205,7 +205,8 @@ Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
     const EnergyMost most = budget.most(state.x, state.drive);
     const double slack = budget.small() + budget.rounding(state.precision, state.drive.substep);
     const double energy = kinetic_energy(budget.model(), state.v);
-    Soundness out = judge_energy(energy, most.kinetic, kDivergedKinetic * most.kinetic + slack,
+    const double noise = kNoiseOfStrain * most.all;
+    Soundness out = judge_energy(energy, most.kinetic, kDivergedKinetic * most.kinetic + noise + slack,
                                  Status::diverged, "the kinetic energy is");
     out = worse(out, judge_counts(state.scene, state.events, state.vertex_substeps));
     out.energy = energy;

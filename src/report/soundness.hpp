@@ -20,6 +20,7 @@ struct RunState
     Precision precision = Precision::float32;
     Events events;
     double vertex_substeps = 0; ///< vertices times substeps so far
+    std::span<const Collider> colliders = scene.colliders; ///< that its bodies meet
 };
 
 struct Soundness
@@ -41,6 +42,8 @@ Soundness worse(const Soundness& a, const Soundness& b);
 /// Factors of EnergyBudget::most: kinetic energy beyond the first, kinetic and strained energy beyond the
 /// third is `diverged`; kinetic and strained energy beyond the second is `unconverged`.
 inline constexpr double kDivergedKinetic = 2, kUnconvergedEnergy = 1.5, kDivergedEnergy = 100;
+/// Share of all energy that sweeps may leave as motion in what pins hold drawn.
+inline constexpr double kNoiseOfStrain = 1e-3;
 /// Beyond this factor of it the energy of tetrahedra strained beyond this share of accept.stretch is
 /// `unconverged`.
 inline constexpr double kSlightEnergy = 3, kSlightStrain = 0.1;

@@ -1,5 +1,6 @@
 #include "taut/report/strained.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/plan/methods.hpp"
 #include "taut/report/plate_energy.hpp"
 #include "taut/report/time_series.hpp"
@@ -10,7 +11,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace taut {
@@ -118,13 +118,13 @@ void add_hinges(const PhysicalModel& model, const RunState& state, double accept
         out.energy += plate_energy(model.plates, x);
 }
 
-/// Bodies that meet each other push after the solve, too, and where is not known here: none of theirs is
-/// slight.
+/// All of them where bodies can meet each other or themselves, whose contacts no state tells, and where cloth
+/// has torn since the model was made: then no element counts.
 std::vector<bool> pushed_vertices(const PhysicalModel& model, const RunState& state)
 {
-    if (state.x.size() != model.mass.size() || (state.scene.contact.between && state.scene.bodies.size() > 1))
+    if (state.x.size() != model.mass.size() || wants_contact(state.scene))
         return std::vector<bool>(state.x.size(), true);
-    return touching_colliders(state.scene, model, state.x, state.drive.time);
+    return touching_colliders(state.scene, state.colliders, model, state.x, state.drive.time);
 }
 
 void add_solids(const PhysicalModel& model, const RunState& state, double accepted, Strained& out)

@@ -47,8 +47,9 @@ void mark_held_triangles(const Placed& at, std::size_t body, const Collider& col
 
 } // namespace
 
-std::vector<bool> touching_colliders(const Scene& scene, const PhysicalModel& model,
-                                     std::span<const glm::dvec3> x, double time, std::span<const double> ways)
+std::vector<bool> touching_colliders(const Scene& scene, std::span<const Collider> colliders,
+                                     const PhysicalModel& model, std::span<const glm::dvec3> x, double time,
+                                     std::span<const double> ways)
 {
     const Placed at{scene, model, x, time};
     const auto near = [&](std::size_t i) {
@@ -56,7 +57,7 @@ std::vector<bool> touching_colliders(const Scene& scene, const PhysicalModel& mo
     };
     std::vector<bool> out(x.size(), false);
     std::vector<SurfaceRule> rules(scene.bodies.begin(), scene.bodies.end());
-    for (const Collider& c : scene.colliders)
+    for (const Collider& c : colliders)
     {
         const double beside = c.field ? kOffGrid * c.field->cell : 0;
         const reference::Surface surface = reference::surface_at(c, time);

@@ -10,10 +10,10 @@
 namespace taut {
 
 /// Of each vertex whether it, or a triangle of it that meets colliders (scene/faces.hpp), is no further than
-/// its way from where a collider holds it. `scene`: resolved, of the model's bodies; `x` in m, scene-wide, at
-/// `time` in s. `ways`: m, by vertex; empty: 0.
-std::vector<bool> touching_colliders(const Scene& scene, const PhysicalModel& model,
-                                     std::span<const glm::dvec3> x, double time,
+/// its gap and its share of `ways` [m, by vertex; empty: 0] from where one of `colliders` holds it. `scene`:
+/// resolved, of the model's bodies; `x` in m, scene-wide, at `time` in s.
+std::vector<bool> touching_colliders(const Scene& scene, std::span<const Collider> colliders,
+                                     const PhysicalModel& model, std::span<const glm::dvec3> x, double time,
                                      std::span<const double> ways = {});
 
 } // namespace taut

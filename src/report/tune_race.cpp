@@ -55,21 +55,21 @@ std::vector<std::size_t> rungs(std::size_t last)
     return out;
 }
 
-/// Fills `trial` and says whether the rung is passed.
-bool passes(const Start& start, const Motion& motion, double bound, TrialRun& trial)
+/// Fills `run` and says whether the rung is passed.
+bool passes(const Start& start, const Motion& motion, double bound, TrialRun& run)
 {
     if (!motion.reason.empty())
     {
-        trial.error.reset(); // that of a rung before says nothing of this one
-        trial.reason = motion.reason;
+        run.error.reset(); // that of a rung before says nothing of this one
+        run.reason = motion.reason;
         return false;
     }
-    trial.error = error_of(start, motion.frames);
-    if (*trial.error <= bound)
+    run.error = error_of(start, motion.frames);
+    if (*run.error <= bound)
         return true;
-    trial.reason = "error " + shown_percent(*trial.error) + " is above " + shown_percent(bound);
-    if (trial.frames > 0)
-        trial.reason += " after " + std::to_string(trial.frames) + " frames";
+    run.reason = "error " + shown_percent(*run.error) + " is above " + shown_percent(bound);
+    if (run.frames > 0)
+        run.reason += " after " + std::to_string(run.frames) + " frames";
     return false;
 }
 

@@ -55,7 +55,7 @@ public:
     /// Refuses anything but an object whose keys are all in the table, which must outlive the view.
     const Field& object(const Table& table);
 
-    /// The member of an object, if the file has it.
+    /// The member of an object, if the file has it. `key`, of the table, must outlive what is handed out.
     std::optional<Field> find(std::string_view key) const;
 
     double number() const;
@@ -84,7 +84,8 @@ private:
 
     const nlohmann::json* value_;
     const std::string* file_;
-    // "BASE[INDEX].KEY", put together where a mistake asks for it: a list has millions of elements.
+    // "BASE[INDEX].KEY", put together where a mistake or a list within asks for it: a list has millions of
+    // elements. No key of a table is empty.
     std::shared_ptr<const std::string> base_;
     std::size_t index_ = kNoIndex;
     std::string_view key_; // of a table

@@ -48,7 +48,7 @@ void add_missing_files(const Scene& scene, const std::filesystem::path& director
         look(scene.colliders[c].field_file, "colliders", c);
 }
 
-/// What is left out may be all of the errors: the last line says whether there are any.
+/// Errors may all be among what is left out, so the last line is one if any was.
 void cut_short(std::vector<SceneIssue>& issues)
 {
     if (issues.size() <= scene_file::kMostIssues)

@@ -25,3 +25,7 @@ plant(kernels/shared/far.glsl "bool near(real a) { return (a < real(1)) && !is_f
 must_pass("a comparison and a negation")
 plant(kernels/shared/far.glsl "bool far(vec2 a) { return !(dot(a, a) <= 1.0); }")
 must_stop("a negated comparison" "far.glsl negates a comparison")
+plant(kernels/shared/far.glsl "return !(dot(normal, vec3(delta[v]) - vec3(low[v])) >= -room);")
+must_stop("a negated comparison of calls" "far.glsl negates a comparison")
+plant(kernels/shared/far.glsl "bool far(float a, float b) { return a / b > 1.0 && ! (a < b); }")
+must_stop("a negated comparison behind a division" "far.glsl negates a comparison")

@@ -93,3 +93,37 @@ TEST_CASE("a particle beside cloth is judged by what is small for the scene")
         CHECK(judge(budget, world).sound());
     }
 }
+
+TEST_CASE("cells that a floor has pushed last are no energy from nowhere, of one body and of several")
+{
+    Body box;
+    box.shape.kind = ShapeKind::box;
+    box.shape.box_cells = {3, 3, 3};
+    box.material = solid_material();
+    box.material.youngs_modulus = 1e9;
+    Scene scene;
+    Collider floor;
+    floor.kind = ColliderKind::plane;
+    floor.point = {0, -0.5, 0};
+    scene.colliders = {floor};
+    const auto judged = [&](std::size_t bodies, double from) { // squeezed by 2 % over one cell from there, m
+        scene.bodies.assign(bodies, box);
+        for (std::size_t b = 0; b < bodies; ++b)
+            scene.bodies[b].transform.translate = {3.0 * double(b), 0, 0};
+        scene = resolve(scene);
+        const SceneBudget budget(scene);
+        Scene squeezed = scene;
+        for (Body& body : squeezed.bodies)
+        {
+            body.start_positions = body.mesh.positions;
+            for (glm::dvec3& p : body.start_positions)
+                p.y -= 0.02 * std::clamp(p.y + 0.5 - from, 0.0, 1.0 / 3);
+        }
+        return judge(budget, World(squeezed, Device::open("cpu:serial")), Judged::state).status;
+    };
+    for (const std::size_t bodies : {1u, 2u})
+    {
+        CHECK(judged(bodies, 0) == Status::completed);
+        CHECK(judged(bodies, 1.0 / 3) == Status::unconverged);
+    }
+}

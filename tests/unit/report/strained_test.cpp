@@ -42,6 +42,6 @@ TEST_CASE("a stiff solid that is squeezed by two percent has energy from nowhere
     CHECK(judged(0.02, 1.0 / 3, 1).status == Status::unconverged);
     CHECK(judged(0.02, 0, 1.0 / 3).sound()); // the floor has pushed it last
     CHECK(judged(0.005, 0, 1).sound());      // nobody sees it
-    scene.contact.between = true;
-    CHECK(judged(0.02, 0, 1).status == Status::unconverged); // there is nobody to meet
+    scene.bodies[0].contact.self = true;
+    CHECK(judged(0.02, 0, 1).sound()); // it may have pushed itself
 }
