@@ -8,6 +8,7 @@
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
+#include "taut/scene/fabric_mesh.hpp"
 #include "taut/scene/locking.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
@@ -64,6 +65,8 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         if (any_error(issues))
             return;
         for (const SceneIssue& issue : locking_issues(resolved))
+            issues.push_back(issue);
+        for (const SceneIssue& issue : fabric_mesh_issues(resolved))
             issues.push_back(issue);
         for (const SceneIssue& issue : holes_issues(resolved))
             issues.push_back(issue);
