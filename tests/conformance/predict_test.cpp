@@ -65,14 +65,14 @@ void expect(const Input<Real>& in, std::uint32_t i, Field& field, Events& events
         square += v[k] * v[k];
     }
     const bool held = in.position[i].w == 0;
-    const bool fast = !held && (std::isnan(square) || std::sqrt(square) > limit);
+    const bool fast = !held && std::sqrt(square) > limit; // not where it is no number
     const double factor = fast ? limit / std::sqrt(square) : 1;
     events[TAUT_EVENT_SPEED_CLAMP] += fast ? 1 : 0;
     for (int k = 0; k < 3; ++k)
     {
         const double low = d(in.low[i][k]);
         const double size =
-            std::isnan(square) ? 0 : std::abs(v[k] * factor * h) + std::abs(gravity[k]) * h * h;
+            std::isnan(v[k]) ? 0 : std::abs(v[k] * factor * h) + std::abs(gravity[k]) * h * h;
         field.add(held ? low : v[k] * factor * h + low, held ? 0 : size + std::abs(low));
     }
     field.add(d(in.low[i].w), 0);
