@@ -269,10 +269,10 @@ CostReference self_motion(const CostInput& input, std::size_t frames, std::vecto
     CostReference none = no_reference(std::move(passed));
     if (!input.options.self_reference)
         return none;
-    const auto one = [frames](const CostInput& input, MethodKind method) {
-        if (input.options.reference_error > 0)
-            return climb(input, method, frames);
-        SelfConvergence runs(input, method);
+    const auto one = [frames](const CostInput& mine, MethodKind method) {
+        if (mine.options.reference_error > 0)
+            return climb(mine, method, frames);
+        SelfConvergence runs(mine, method);
         Refined out{method, runs.run(frames), std::move(runs.finest()), "", kFine[2]};
         if (out.found.frames == 0 || out.found.frames < std::min(frames, kFewest))
             out.reason =

@@ -1,6 +1,7 @@
 #include "taut/scene/fabric_mesh.hpp"
 
 #include "taut/runtime/base/shown.hpp"
+#include "taut/scene/extent.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -25,13 +26,10 @@ double mean_edge(const Mesh& mesh)
 /// m, the diagonal of the box around the body at rest.
 double size_of(const Mesh& mesh)
 {
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    Extent box;
     for (const glm::dvec3& x : mesh.positions)
-    {
-        low = glm::min(low, x);
-        high = glm::max(high, x);
-    }
-    return glm::distance(low, high);
+        box.take(x);
+    return box.size();
 }
 
 double rigidity_of(const Material& material)

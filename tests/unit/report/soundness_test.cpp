@@ -125,6 +125,21 @@ TEST_CASE("what pins hold drawn moves nothing until they let it go")
     CHECK(judged(drawn_sheet({{0, {0, 0, 0}}, {10, {-0.5, 0, 0}}})) == Status::completed);
 }
 
+TEST_CASE("sweeps may leave a thousandth of all energy as motion in what pins hold drawn")
+{
+    const Scene scene = drawn_sheet();
+    const std::vector<glm::dvec3> x = scene.bodies[0].mesh.positions;
+    const EnergyBudget budget(scene);
+    const auto judged = [&](double speed) {
+        const std::vector<glm::dvec3> v(x.size(), glm::dvec3(0, 0, speed));
+        return judge_motion(budget, state_of(scene, x, v, 10));
+    };
+    const Soundness still = judged(0);
+    const double speed = std::sqrt(2 * still.energy_most / budget.mass());
+    CHECK(judged(speed * std::sqrt(0.5e-3)).sound());
+    CHECK(judged(speed * std::sqrt(1e-2)).status == Status::diverged);
+}
+
 TEST_CASE("constraint enforcement that leaves springs changing their length has not solved them")
 {
     Scene scene = sheet();
