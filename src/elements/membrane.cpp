@@ -29,10 +29,11 @@ Yarns yarns(std::span<const glm::dvec3> x, std::span<const double> p)
 
 double energy(std::span<const glm::dvec3> x, std::span<const double> values)
 {
-    const Yarns f = yarns(x, values);
-    const double lu = glm::length(f.warp), lv = glm::length(f.weft), u = lu - 1, v = lv - 1;
-    const double q = std::min(lu, lv) > 1e-4 ? glm::dot(f.warp, f.weft) / (lu * lv) : 0;
-    return 0.5 * (values[4] * u * u + 2 * values[5] * u * v + values[6] * v * v + values[7] * q * q);
+    const auto edge = [&](std::size_t corner) {
+        const glm::dvec3 e = x[corner] - x[0];
+        return std::array<double, 3>{e.x, e.y, e.z};
+    };
+    return membrane_energy(edge(1), edge(2), values);
 }
 
 /// Singular values of [warp weft], less 1.

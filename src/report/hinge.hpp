@@ -32,13 +32,13 @@ template <typename T> Vec<T> cross(const Vec<T>& a, const Vec<T>& b)
 }
 
 /// A number with its N partial derivatives.
-template <std::size_t N>
+template <std::size_t N, typename T = double>
 struct Dual
 {
-    double v = 0;
-    std::array<double, N> d{};
+    T v = 0;
+    std::array<T, N> d{};
 
-    static Dual chain(double value, double slope_a, const Dual& a, double slope_b, const Dual& b)
+    static Dual chain(T value, T slope_a, const Dual& a, T slope_b, const Dual& b)
     {
         Dual out;
         out.v = value;
@@ -55,14 +55,15 @@ struct Dual
     }
     friend Dual sqrt(const Dual& a)
     {
-        const double root = std::sqrt(a.v);
-        return chain(root, 0.5 / root, a, 0, a);
+        const T root = std::sqrt(a.v);
+        return chain(root, root > 0 ? T(0.5) / root : 0, a, 0, a); // a length of zero has no direction
     }
     friend Dual atan2(const Dual& y, const Dual& x)
     {
-        const double r2 = x.v * x.v + y.v * y.v;
+        const T r2 = x.v * x.v + y.v * y.v;
         return chain(std::atan2(y.v, x.v), x.v / r2, y, -y.v / r2, x);
     }
+    friend bool operator>(const Dual& a, const Dual& b) { return a.v > b.v; }
 };
 
 template <typename T>
@@ -75,7 +76,11 @@ struct HingeAngle
 
 inline double plain(double a) { return a; }
 inline double plain(long double a) { return static_cast<double>(a); }
-template <std::size_t N> double plain(const Dual<N>& a) { return a.v; }
+template <std::size_t N, typename T>
+double plain(const Dual<N, T>& a)
+{
+    return static_cast<double>(a.v);
+}
 
 /// x = edge0, edge1, wing0, wing1.
 template <typename T>

@@ -6,6 +6,7 @@
 #include "taut/report/reference_static.hpp"
 
 #include "taut/report/static_energy.hpp"
+#include "taut/report/static_membranes.hpp"
 
 #include <Eigen/SparseCholesky>
 
@@ -50,6 +51,7 @@ public:
 private:
     bool factor(Curvature curvature, double shift);
     Eigen::VectorXd force(const State& g) const;
+    Eigen::VectorXd solve(const State& g) const;
     bool step(const State& g);
     bool stagnates(const State& g);
     bool resolved(const State& g);
@@ -85,15 +87,25 @@ Newton::Newton(const PhysicalModel& model, const std::vector<glm::dvec3>& start,
         scale_ = largest_component(energy_.gradient(x_));
 }
 
-/// False unless the shifted Hessian is positive definite (Sylvester: the signs of D).
+/// False unless the shifted Hessian is positive definite (Sylvester: the signs of D; those of the moments of
+/// plates are negative).
 bool Newton::factor(Curvature curvature, double shift)
 {
     ++factorisations_;
-    const auto lower = energy_.hessian(x_, curvature, shift);
+    const auto lower = energy_.system(x_, curvature, shift);
     if (factorisations_ == 1)
         cholesky_.analyzePattern(lower); // the pattern never changes
     cholesky_.factorize(lower);
-    return cholesky_.info() == Eigen::Success && cholesky_.vectorD().minCoeff() > 0;
+    return cholesky_.info() == Eigen::Success &&
+           (cholesky_.vectorD().array() > 0).count() == energy_.unknowns();
+}
+
+/// By how much a Newton step moves each coordinate, m.
+Eigen::VectorXd Newton::solve(const State& g) const
+{
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(energy_.unknowns() + energy_.plate_hinges());
+    right.head(energy_.unknowns()) = force(g);
+    return cholesky_.solve(right).eval().head(energy_.unknowns());
 }
 
 /// Takes the longest of the halved steps that lowers the energy enough; near the end, where the energy
@@ -147,11 +159,9 @@ Eigen::VectorXd Newton::force(const State& g) const
 
 bool Newton::step(const State& g)
 {
-    const Eigen::VectorXd downhill = force(g);
     for (int tries = 0; tries < 40; ++tries)
     {
-        if ((factor(Curvature::exact, shift_) || factor(Curvature::projected, shift_)) &&
-            search(g, cholesky_.solve(downhill)))
+        if ((factor(Curvature::exact, shift_) || factor(Curvature::projected, shift_)) && search(g, solve(g)))
             return true;
         shift_ *= 16;
         if (shift_ > 1e18)
@@ -176,7 +186,7 @@ bool Newton::resolved(const State& g)
 {
     if (!(options_.resolution > 0) || !factor(Curvature::exact, kShiftFloor))
         return false;
-    const Eigen::VectorXd further = cholesky_.solve(force(g));
+    const Eigen::VectorXd further = solve(g);
     double come = 0;
     for (std::size_t i = 0; i < x_.size(); ++i)
         come = std::max(come, distance(x_[i], start_[i]));
@@ -228,6 +238,12 @@ StaticReference Newton::result() const
         {
             const double strain = distance(x_[s.a], x_[s.b]) / s.rest_length - 1;
             out.largest_stretch = first ? strain : std::max(out.largest_stretch, strain);
+            first = false;
+        }
+    for (const AddedElement& e : model_.added)
+        if (const auto both = e.stretches(out.positions))
+        {
+            out.largest_stretch = first ? (*both)[1] : std::max(out.largest_stretch, (*both)[1]);
             first = false;
         }
     return out;
@@ -292,6 +308,12 @@ bool all_held(const PhysicalModel& model)
     for (const BendElement& h : model.hinges)
         for (std::uint32_t v : {h.edge1, h.wing0, h.wing1})
             parent[root(v)] = root(h.edge0);
+    for (const PlateHinge& h : model.plates)
+        for (std::uint32_t v : {h.element.edge1, h.element.wing0, h.element.wing1})
+            parent[root(v)] = root(h.element.edge0);
+    for (const AddedElement& e : model.added)
+        for (const std::uint32_t v : std::span(e.vertex).first(e.kind->corners))
+            parent[root(v)] = root(e.vertex[0]);
     for (const VolumeElement& e : model.volumes)
         for (const std::uint32_t v : e.vertex)
             parent[root(v)] = root(e.vertex[0]);
@@ -314,10 +336,8 @@ std::string refusal(const PhysicalModel& model, const std::vector<glm::dvec3>& s
                std::to_string(model.mass.size()) + " vertices";
     if (const std::size_t rigid = rigid_element_count(model); rigid > 0)
         return std::to_string(rigid) + " elements are rigid (compliance 0): they have no energy to minimise";
-    if (!model.plates.empty())
-        return "there are plates, which the static reference does not model";
-    if (!model.added.empty())
-        return "there are membranes, or elements of its own: the static reference knows their energy only";
+    if (!std::all_of(model.added.begin(), model.added.end(), reference::is_membrane))
+        return "there are elements of a program's own: the static reference knows their energy only";
     if (!model.surfaces.empty())
         return "the volume within a surface is held: the static reference does not model it";
     if (!model.gases.empty())

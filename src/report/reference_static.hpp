@@ -32,13 +32,13 @@ struct StaticReference
                                   ///< when nothing has weight)
     double correction = 0;        ///< m, largest component of a further Newton step; 0 when forces converged
     double energy = 0;            ///< J, elastic and gravity
-    double largest_stretch = 0;   ///< (l - L)/L over springs with L > 0, signed
+    double largest_stretch = 0;   ///< (l - L)/L over springs with L > 0 and membranes, signed
     std::uint32_t iterations = 0;
 };
 
 /// Follows the model downhill from `start` (all vertices, m; pinned ones stay there) to a stable
 /// equilibrium: damped implicit steps first, plain Newton at the end. Refuses, with a reason and the start
-/// state: rigid elements, colliders, and parts that no pin holds under gravity.
+/// state: rigid elements, elements of a program's own, colliders, and parts that no pin holds under gravity.
 StaticReference solve_static(const PhysicalModel& model, const std::vector<glm::dvec3>& start,
                              const StaticOptions& options = {});
 

@@ -1,12 +1,12 @@
 // Based on: Choi, Ko, Stable but Responsive Cloth, 2002 (the part of a compressed spring's Hessian that the
-//   projection drops); Griewank, Walther, Evaluating Derivatives, 2008 (dual numbers for the hinges); Smith,
-//   de Goes, Kim, Stable Neo-Hookean Flesh Simulation, 2018 (energy and derivative of the tetrahedra).
-// Departures: a projected hinge keeps only the outer product of its gradient; a projected tetrahedron has the
-//   eigenvalues of its 9 x 9 matrix that are negative set to zero.
+//   projection drops); Griewank, Walther, Evaluating Derivatives, 2008 (dual numbers for the hinges).
+// Departures: a projected hinge keeps only the outer product of its gradient.
 #include "taut/report/static_energy.hpp"
 
 #include "taut/report/added_stiffness.hpp"
 #include "taut/report/positive_part.hpp"
+#include "taut/report/static_membranes.hpp"
+#include "taut/report/static_solids.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -16,64 +16,6 @@
 
 namespace taut::reference {
 namespace {
-
-using Real33 = Eigen::Matrix<Real, 3, 3>;
-using Matrix9 = Eigen::Matrix<double, 9, 9>;
-
-Eigen::Matrix<Real, 3, 1> column(const Vec<Real>& a) { return {a.x, a.y, a.z}; }
-
-Real33 cofactor(const Real33& f)
-{
-    Real33 out;
-    out << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
-    return out;
-}
-
-Real33 inverse_rest(const SolidElement& e)
-{
-    Real33 out;
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-            out(r, c) = e.inverse_rest[c][r];
-    return out;
-}
-
-Real33 deformation(const SolidElement& e, const State& x)
-{
-    Real33 edges;
-    for (int c = 0; c < 3; ++c)
-        edges.col(c) = column(x[e.vertex[static_cast<std::size_t>(c) + 1]] - x[e.vertex[0]]);
-    return edges * inverse_rest(e);
-}
-
-Real33 stress(const SolidElement& e, const Real33& f)
-{
-    const Real share = 1 - static_cast<Real>(e.log) / (f.squaredNorm() + 1);
-    return static_cast<Real>(e.mu) * share * f +
-           static_cast<Real>(e.lambda) * (f.determinant() - static_cast<Real>(e.rest)) * cofactor(f);
-}
-
-/// dP/dF by columns of F. The cofactor is quadratic in F, so half a central difference with a step of 1 is
-/// its derivative.
-Matrix9 stress_derivative(const SolidElement& e, const Real33& at)
-{
-    const Eigen::Matrix3d f = at.cast<double>();
-    const auto flat = [](const Real33& m) {
-        const Eigen::Matrix3d narrow = m.cast<double>();
-        return Eigen::Matrix<double, 9, 1>(Eigen::Map<const Eigen::Matrix<double, 9, 1>>(narrow.data()));
-    };
-    const Eigen::Matrix<double, 9, 1> g = flat(cofactor(at)), own = flat(at);
-    const double grown = f.squaredNorm() + 1, push = e.lambda * (f.determinant() - e.rest);
-    Matrix9 out = Matrix9::Identity() * (e.mu * (1 - e.log / grown));
-    out += 2 * e.mu * e.log / (grown * grown) * own * own.transpose() + e.lambda * g * g.transpose();
-    for (int k = 0; k < 9; ++k)
-    {
-        Real33 unit = Real33::Zero();
-        unit(k % 3, k / 3) = 1;
-        out.col(k) += push / 2 * (flat(cofactor(at + unit)) - flat(cofactor(at - unit)));
-    }
-    return out;
-}
 
 Vec<double> narrow(const Vec<Real>& a)
 {
@@ -128,10 +70,14 @@ Matrix12 angle_hessian(const std::array<Vec<double>, 4>& x)
 }
 
 /// k (g g^T + (theta - theta0) dg/dx); projected: without the second part.
+std::array<Vec<double>, 4> corners(const BendElement& h, const State& x)
+{
+    return {narrow(x[h.edge0]), narrow(x[h.edge1]), narrow(x[h.wing0]), narrow(x[h.wing1])};
+}
+
 Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
 {
-    const std::array<Vec<double>, 4> corner = {narrow(x[h.edge0]), narrow(x[h.edge1]), narrow(x[h.wing0]),
-                                               narrow(x[h.wing1])};
+    const std::array<Vec<double>, 4> corner = corners(h, x);
     const auto hinge = hinge_angle(corner);
     if (!hinge.valid)
         return Matrix12::Zero();
@@ -147,49 +93,13 @@ Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
     return out / h.compliance;
 }
 
-/// By the chain rule from dP/dF to the corners.
-Matrix12 solid_block(const SolidElement& e, const State& x, Curvature curvature)
-{
-    Matrix9 k = stress_derivative(e, deformation(e, x));
-    if (curvature == Curvature::projected)
-        k = positive_part(k);
-    const Eigen::Matrix3d b = inverse_rest(e).cast<double>();
-    Eigen::Matrix<double, 9, 12> chain = Eigen::Matrix<double, 9, 12>::Zero(); // dF by the corners
-    for (int c = 0; c < 3; ++c)
-        for (int corner = 0; corner < 3; ++corner)
-        {
-            chain.block<3, 3>(3 * c, 3 * corner + 3) = b(corner, c) * Eigen::Matrix3d::Identity();
-            chain.block<3, 3>(3 * c, 0) -= b(corner, c) * Eigen::Matrix3d::Identity();
-        }
-    return e.rest_volume * chain.transpose() * k * chain;
-}
-
-/// Volumes beside springs as elements without shear stiffness: the same energy, V0 K/2 (J - 1)^2. F is of the
-/// unit tetrahedron, so that no rest shape is needed: V = det(edges) / 6.
-SolidElement volume_solid(const VolumeElement& v)
-{
-    SolidElement out;
-    out.vertex = v.vertex;
-    const double size = std::cbrt(6 * v.rest_volume);
-    out.inverse_rest = glm::dmat3(1 / size);
-    out.rest_volume = v.rest_volume;
-    out.lambda = v.rest_volume / v.compliance;
-    out.log = 0;
-    return out;
-}
-
-std::vector<SolidElement> all_solids(const PhysicalModel& model)
-{
-    std::vector<SolidElement> out = model.solids;
-    for (const VolumeElement& v : model.volumes)
-        out.push_back(volume_solid(v));
-    return out;
-}
-
 } // namespace
 
 StaticEnergy::StaticEnergy(const PhysicalModel& model)
-    : model_(model), solids_(all_solids(model)), unknown_(model.mass.size(), -1)
+    : model_(model),
+      plates_(model.plates),
+      solids_(all_solids(model)),
+      unknown_(model.mass.size(), -1)
 {
     for (std::size_t i = 0; i < unknown_.size(); ++i)
         if (!model.pinned[i])
@@ -217,15 +127,11 @@ Real StaticEnergy::value(const State& x) const
         sum += angle * angle / (2 * static_cast<Real>(h.compliance));
     }
     for (const SolidElement& e : solids_)
-    {
-        const Real33 f = deformation(e, x);
-        const Real square = f.squaredNorm(), volume = f.determinant() - static_cast<Real>(e.rest);
-        const Real shape = square - 3 - static_cast<Real>(e.log) * std::log((square + 1) / 4);
-        const Real at_rest = (1 - static_cast<Real>(e.rest)) * (1 - static_cast<Real>(e.rest));
-        sum += static_cast<Real>(e.rest_volume) / 2 *
-               (static_cast<Real>(e.mu) * shape + static_cast<Real>(e.lambda) * (volume * volume - at_rest));
-    }
-    return sum;
+        sum += solid_energy(e, x);
+    for (const AddedElement& e : model_.added)
+        if (is_membrane(e))
+            sum += membrane_energy(e, x);
+    return sum + plates_.energy(x);
 }
 
 /// dE/dx; zero at pins.
@@ -259,17 +165,11 @@ State StaticEnergy::gradient(const State& x) const
             g[v[c]] = g[v[c]] + torque * hinge.gradient[c];
     }
     for (const SolidElement& e : solids_)
-    {
-        const Real33 pull = static_cast<Real>(e.rest_volume) * stress(e, deformation(e, x)) *
-                           inverse_rest(e).transpose();
-        for (int c = 0; c < 3; ++c)
-        {
-            const Vec<Real> part{pull(0, c), pull(1, c), pull(2, c)};
-            const std::uint32_t v = e.vertex[static_cast<std::size_t>(c) + 1];
-            g[v] = g[v] + part;
-            g[e.vertex[0]] = g[e.vertex[0]] - part;
-        }
-    }
+        add_solid_gradient(e, x, g);
+    for (const AddedElement& e : model_.added)
+        if (is_membrane(e))
+            add_membrane_gradient(e, x, g);
+    plates_.add_gradient(x, g);
     for (std::size_t i = 0; i < x.size(); ++i)
         if (unknown_[i] < 0)
             g[i] = {};
@@ -290,14 +190,21 @@ void StaticEnergy::elements(const std::function<void(std::span<const std::uint32
         visit(std::span(e.vertex).first(e.kind->corners));
 }
 
-void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, const Block& visit) const
+namespace {
+
+/// The 3 x 3 parts of `k`, of the vertices `v`.
+void visit_all(std::span<const std::uint32_t> v, const auto& k, const StaticEnergy::Block& visit)
 {
-    const auto visit_all = [&](std::span<const std::uint32_t> v, const auto& k) {
-        for (std::size_t r = 0; r < v.size(); ++r)
-            for (std::size_t c = 0; c < v.size(); ++c)
-                visit(v[r], v[c],
-                      k.template block<3, 3>(static_cast<int>(3 * r), static_cast<int>(3 * c)));
-    };
+    for (std::size_t r = 0; r < v.size(); ++r)
+        for (std::size_t c = 0; c < v.size(); ++c)
+            visit(v[r], v[c], k.template block<3, 3>(static_cast<int>(3 * r), static_cast<int>(3 * c)));
+}
+
+} // namespace
+
+/// Of all but plates.
+void StaticEnergy::elastic_blocks(const State& x, Curvature curvature, double shift, const Block& visit) const
+{
     for (std::uint32_t i = 0; i < x.size(); ++i)
         visit(i, i, shift * model_.mass[i] * Eigen::Matrix3d::Identity());
     for (const StretchElement& s : model_.springs)
@@ -309,11 +216,13 @@ void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, con
         visit(s.b, s.a, -k);
     }
     for (const BendElement& h : model_.hinges)
-        visit_all(vertices(h), hinge_block(h, x, curvature));
+        visit_all(vertices(h), hinge_block(h, x, curvature), visit);
     for (const SolidElement& e : solids_)
-        visit_all(e.vertex, solid_block(e, x, curvature));
-    for (const PlateHinge& h : model_.plates)
-        visit_all(vertices(h.element), hinge_block(h.element, x, curvature));
+        visit_all(e.vertex, solid_block(e, x, curvature), visit);
+}
+
+void StaticEnergy::added_blocks(const State& x, Curvature curvature, const Block& visit) const
+{
     if (model_.added.empty())
         return;
     std::vector<glm::dvec3> at;
@@ -323,23 +232,63 @@ void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, con
     {
         const Eigen::MatrixXd k = added_stiffness(e, at);
         visit_all(std::span(e.vertex).first(e.kind->corners),
-                  curvature == Curvature::projected ? positive_part(k) : k);
+                  curvature == Curvature::projected ? Eigen::MatrixXd(positive_part(k)) : k, visit);
     }
+}
+
+void StaticEnergy::blocks(const State& x, Curvature curvature, double shift, const Block& visit) const
+{
+    elastic_blocks(x, curvature, shift, visit);
+    for (const PlateHinge& h : model_.plates)
+        visit_all(vertices(h.element), hinge_block(h.element, x, curvature), visit);
+    added_blocks(x, curvature, visit);
+}
+
+void StaticEnergy::add_lower(Entries& entries, std::uint32_t a, std::uint32_t b,
+                             const Eigen::Matrix3d& block) const
+{
+    if (unknown_[b] >= 0 && unknown_[a] >= unknown_[b])
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+                entries.emplace_back(unknown_[a] + r, unknown_[b] + c, block(r, c));
 }
 
 Eigen::SparseMatrix<double> StaticEnergy::hessian(const State& x, Curvature curvature, double shift) const
 {
-    std::vector<Eigen::Triplet<double>> entries;
+    Entries entries;
     const std::size_t of_four =
         model_.hinges.size() + solids_.size() + model_.plates.size() + model_.added.size();
     entries.reserve(model_.springs.size() * 36 + of_four * 144 + x.size() * 3);
     blocks(x, curvature, shift, [&](std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d& block) {
-        if (unknown_[b] >= 0 && unknown_[a] >= unknown_[b]) // the lower triangle
-            for (int r = 0; r < 3; ++r)
-                for (int c = 0; c < 3; ++c)
-                    entries.emplace_back(unknown_[a] + r, unknown_[b] + c, block(r, c));
+        add_lower(entries, a, b, block);
     });
     Eigen::SparseMatrix<double> out(unknowns_, unknowns_);
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+}
+
+Eigen::SparseMatrix<double> StaticEnergy::system(const State& x, Curvature curvature, double shift) const
+{
+    if (model_.plates.empty())
+        return hessian(x, curvature, shift);
+    Entries entries;
+    const Block add = [&](std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d& block) {
+        add_lower(entries, a, b, block);
+    };
+    elastic_blocks(x, curvature, shift, add);
+    const std::vector<Real> moments = plates_.moments(x);
+    for (std::size_t k = 0; k < moments.size(); ++k) // zeros, too: the pattern stays
+    {
+        const auto corner = corners(model_.plates[k].element, x);
+        const bool bends = curvature == Curvature::exact && hinge_angle(corner).valid;
+        visit_all(vertices(model_.plates[k].element),
+                  bends ? Matrix12(static_cast<double>(moments[k]) * angle_hessian(corner))
+                        : Matrix12(Matrix12::Zero()),
+                  add);
+    }
+    added_blocks(x, curvature, add);
+    plates_.add_rows(x, unknowns_, unknown_, entries);
+    Eigen::SparseMatrix<double> out(unknowns_ + plate_hinges(), unknowns_ + plate_hinges());
     out.setFromTriplets(entries.begin(), entries.end());
     return out;
 }

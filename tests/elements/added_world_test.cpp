@@ -140,7 +140,7 @@ TEST_CASE("references of scenes with added elements refuse and say why")
     const PhysicalModel model = make_model(resolve(scene));
     REQUIRE(model.added.size() == 1);
     CHECK(says(solve_dynamic(model).reason, "elements of its own"));
-    CHECK(says(solve_static(model, model.start).reason, "elements of its own"));
+    CHECK(says(solve_static(model, model.start).reason, "elements of a program"));
 }
 
 TEST_CASE("what a scene says wrong of added elements is refused with the place and what would be right")
