@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace taut::linear {
 namespace {
@@ -129,7 +130,8 @@ BufferPtr PackedMatrix::upload_table(std::span<const std::uint32_t> table, std::
 void PackedMatrix::upload_values(const SparseMatrix& matrix, std::span<const std::uint32_t> slots,
                                  std::uint64_t count)
 {
-    check_bytes(count * real_bytes(precision_), "values");
+    const std::uint64_t bytes = count * real_bytes(precision_);
+    check_bytes(bytes, "values");
     const auto send = [this](const auto& values, std::string_view label) {
         using Real = typename std::decay_t<decltype(values)>::value_type;
         BufferPtr buffer =
@@ -139,15 +141,25 @@ void PackedMatrix::upload_values(const SparseMatrix& matrix, std::span<const std
         bytes_ += values.size() * sizeof(Real);
         return buffer;
     };
-    if (precision_ == Precision::float64)
+    try
     {
-        values_ = send(pack<double>(matrix, slots, count, exponent_, false).values, "matrix values");
-        return;
+        if (precision_ == Precision::float64)
+        {
+            values_ = send(pack<double>(matrix, slots, count, exponent_, false).values, "matrix values");
+            return;
+        }
+        const Packed<float> packed = pack<float>(matrix, slots, count, exponent_, keeps_low_);
+        values_ = send(packed.values, "matrix values");
+        if (packed.needs_low)
+            low_ = send(packed.low, "matrix low words");
     }
-    const Packed<float> packed = pack<float>(matrix, slots, count, exponent_, keeps_low_);
-    values_ = send(packed.values, "matrix values");
-    if (packed.needs_low)
-        low_ = send(packed.low, "matrix low words");
+    catch (const std::bad_alloc&)
+    {
+        throw Error(ErrorCode::out_of_memory,
+                    "format " + std::string(to_string(format_)) + " needs " + std::to_string(bytes) +
+                        " bytes of the host for its values, which it does not have: "
+                        "take a sparser format, or float");
+    }
 }
 
 } // namespace taut::linear

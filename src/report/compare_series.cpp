@@ -1,6 +1,7 @@
 // How the variants of a comparison went over time: their samples as CSV and as a diagram.
 
 #include "taut/report/compare.hpp"
+#include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/csv.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -38,7 +39,8 @@ void add_series(Plot& plot, const CompareRow& row, bool volume)
         }
         series.points.push_back({sample.time, height(sample, volume), ""});
     }
-    plot.series.push_back(std::move(series));
+    series.style = method_style(method_named(row.method));
+    add_variant(plot, std::move(series));
 }
 
 } // namespace

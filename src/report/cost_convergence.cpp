@@ -133,11 +133,8 @@ Plot convergence_plot(const CostStudy& study, CostSplit split)
     {
         const std::string fixed =
             std::to_string(row.fixed) + (substeps ? " iteration" : " substep") + (row.fixed == 1 ? "" : "s");
-        const int style = method_style(method_named(row.method));
-        const auto alike = std::count_if(plot.series.begin(), plot.series.end(),
-                                         [&](const PlotSeries& series) { return series.style == style; });
-        plot.series.push_back({row.name + " (" + fixed + ")", row.points, false,
-                               row.at_floor ? "at its floor" : "", style, static_cast<int>(alike)});
+        add_variant(plot, {row.name + " (" + fixed + ")", row.points, false,
+                           row.at_floor ? "at its floor" : "", method_style(method_named(row.method))});
         orders += (orders.empty() ? "" : "; ") + order_text(row);
     }
     plot.y_most = off_the_top(plot.series, 1);

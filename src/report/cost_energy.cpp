@@ -126,15 +126,12 @@ Plot energy_plot(const EnergyStudy& study, Conserved what)
     {
         const std::vector<double>& values = energy ? run.energy : run.momentum;
         PlotSeries series{settings_text(run.settings), {}, false, "", method_style(run.settings.type)};
-        series.variant = static_cast<int>(
-            std::count_if(plot.series.begin(), plot.series.end(),
-                          [&](const PlotSeries& other) { return other.style == series.style; }));
         for (std::size_t f = 1; f < values.size(); ++f)
             if (values[f] != 0)
                 series.points.push_back(
                     {static_cast<double>(f) * study.timestep, std::abs(values[f]), "", 0});
         if (!series.points.empty())
-            plot.series.push_back(std::move(series));
+            add_variant(plot, std::move(series));
         if (!run.reason.empty())
             plot.gaps.push_back(settings_text(run.settings) + ": " + run.reason);
     }

@@ -172,9 +172,6 @@ Plot ratio_plot(const RatioStudy& study)
     for (const Row& row : rows_of(study))
     {
         PlotSeries series{row.name, {}, false, "", method_style(method_named(row.method))};
-        series.variant = static_cast<int>(
-            std::count_if(plot.series.begin(), plot.series.end(),
-                          [&](const PlotSeries& other) { return other.style == series.style; }));
         std::string gaps;
         for (std::size_t i = 0; i < row.points.size(); ++i)
             if (row.points[i]->error)
@@ -186,7 +183,7 @@ Plot ratio_plot(const RatioStudy& study)
         if (!gaps.empty())
             plot.gaps.push_back(row.name + gaps + ": " + (*gap)->reason);
         if (!series.points.empty())
-            plot.series.push_back(std::move(series));
+            add_variant(plot, std::move(series));
     }
     plot.y_most = off_the_top(plot.series, 1);
     for (std::size_t r = 0; r < study.studies.size(); ++r)

@@ -47,7 +47,7 @@ public:
                                                 [&](const AreaBox& other) { return other.meets(box); }))
                     continue;
                 taken_.push_back(box);
-                text_ += text(from, base, words, {.size = 10, .anchor = "start", .fill = fill});
+                text_ += text(from, base, words, {.size = 10, .anchor = "start", .fill = fill, .halo = true});
                 return;
             }
     }

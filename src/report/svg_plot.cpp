@@ -323,6 +323,14 @@ std::string footer(const Plot& plot, const Area& area, double& y)
 
 } // namespace
 
+void add_variant(Plot& plot, PlotSeries series)
+{
+    series.variant =
+        static_cast<int>(std::count_if(plot.series.begin(), plot.series.end(),
+                                       [&](const PlotSeries& other) { return other.style == series.style; }));
+    plot.series.push_back(std::move(series));
+}
+
 std::string svg(const Plot& plot)
 {
     const Area area(plot);

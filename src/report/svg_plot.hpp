@@ -52,6 +52,9 @@ struct Plot
     std::vector<PlotFloor> floors = {};
 };
 
+/// Appends the series as one more variant of its style.
+void add_variant(Plot& plot, PlotSeries series);
+
 /// Whether a point has a place on the axes.
 bool drawable(const PlotPoint& point, bool x_linear = false);
 

@@ -51,6 +51,8 @@ static std::string opening(double x, double y, const TextStyle& style)
                       "\" text-anchor=\"" + style.anchor + "\" fill=\"" + style.fill + "\"";
     if (style.bold)
         out += " font-weight=\"bold\"";
+    if (style.halo) // lines that run below end at the words
+        out += " stroke=\"#fff\" stroke-width=\"2.50\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     if (style.turn != 0)
         out += " transform=\"rotate(" + fixed(style.turn) + " " + fixed(x) + " " + fixed(y) + ")\"";
     return out + ">";

@@ -24,6 +24,7 @@ struct TextStyle
     const char* fill = "#222";
     bool bold = false;
     double turn = 0;              ///< degrees about the point
+    bool halo = false;            ///< white around it
 };
 
 /// One <text> element.

@@ -123,7 +123,7 @@ int steps_elsewhere(const Cell& cell, const std::string& selector)
     const std::size_t cost = more == cell.hard_case->effort.end() ? 1 : more->second.cost();
     const bool whole = vertices * static_cast<std::size_t>(all) * cost <= 2000;
     if (selector.starts_with("cpu"))
-        return cell.hard_case->short_steps != 0 ? 0 : whole ? all : kStepsShort;
+        return whole ? all : kStepsShort;
     return cell.hard_case->compares_bits ? all : whole && selector == "vulkan" ? 1 : 0;
 }
 
