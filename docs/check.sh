@@ -4,7 +4,7 @@
 #
 #   docs/check.sh [PAGE...]      without a page, all of `pages`
 set -eu
-pages="cloth contact fabric solids hybrid linear acad accuracy bench gpu tune sleep"
+pages="cloth continuum contact fabric solids hybrid linear acad accuracy bench gpu tune sleep substeps"
 results=../tests/bench/results
 cd "$(dirname "$0")"
 . ./put.sh
@@ -33,6 +33,8 @@ for page in "$@"; do
             check_bench bench.md block_descent solid.csv 0 1 || bad=1
             awk -f claims.awk -f bench/conclusions.awk bench.md $results/epyc-2-cores.csv $results/solid.csv \
             $results/medians.csv $results/second_core.csv $results/second_core_busy.csv $results/start.csv $results/host.csv || bad=1 ;;
+        continuum) check_tables cost.md continuum || bad=1
+            awk -f claims.awk -f continuum/claims.awk cost.md continuum/meshes.csv ;;
         contact) check_tables results/contact.md results/contact || bad=1
             awk -f claims.awk -f results/contact/claims.awk results/contact.md results/contact/*.csv ;;
         fabric) check_numbers fabric.md sag fabric/sag.csv "1 2" 1 7 || bad=1
@@ -64,6 +66,8 @@ for page in "$@"; do
             cat solids/volume.csv solids/iterations.csv > "$scratch/published.csv"
             check_numbers solids.md published "$scratch/published.csv" "" 1 2 || bad=1
             awk -f claims.awk -f solids/claims.awk solids.md solids/*.csv ;;
+        substeps) check_tables methods.md substeps || bad=1
+            awk -f claims.awk -f substeps/claims.awk methods.md substeps/*.csv ;;
         *) echo "no page is called $page: take some of $pages" >&2 && exit 2 ;;
     esac
 done

@@ -1,17 +1,19 @@
 # For the update.sh of the pages, and for check.sh: check_tables, check_bench and check_numbers.
 #
 # put PAGE PART FILE: what stands between "<!-- PART -->" and "<!-- end -->" of a page becomes the
-# text of a file. `scratch` is the caller's folder.
+# text of a file. `scratch` is the caller's folder. "<!--PART-->" and "<!--end-->" are marks too: in pages of which a test
+# takes what stands between the others for a table of the program (docs/methods.md).
 put()
 {
     awk -v part="$2" -v table="$3" '
-        $0 == "<!-- " part " -->" {
+        { mark = $0; if (mark ~ /^<!--/) gsub(/ /, "", mark) }
+        mark == "<!--" part "-->" {
             print; print ""
             while ((getline line < table) > 0) print line
             print ""; skip = 1
         }
-        $0 == "<!-- end -->" { skip = 0 }
-        !skip && $0 != "<!-- " part " -->" { print }' "$1" > "$scratch/page.md"
+        mark == "<!--end-->" { skip = 0 }
+        !skip && mark != "<!--" part "-->" { print }' "$1" > "$scratch/page.md"
     mv "$scratch/page.md" "$1"
 }
 
@@ -49,11 +51,11 @@ figure()
 check_tables()
 {
     compared=0 differing=0
-    for name in $(sed -n 's/^<!-- \([a-z0-9_]*\) -->$/\1/p' "$1"); do
+    for name in $(sed -n 's/^<!-- *\([a-z0-9_]*\) *-->$/\1/p' "$1"); do
         [ -f "$2/$name.csv" ] || continue
         compared=$((compared + 1))
         awk -f table.awk -f claims.awk "$2/$name.csv" > "$scratch/of_csv"
-        sed -n "/^<!-- $name -->\$/,/^<!-- end -->\$/p" "$1" | grep '^|' | sed 2d > "$scratch/of_page"
+        sed -n "/^<!-- *$name *-->\$/,/^<!-- *end *-->\$/p" "$1" | grep '^|' | sed 2d > "$scratch/of_page"
         diff "$scratch/of_csv" "$scratch/of_page" >&2 ||
             { echo "$1: the table \"$name\" is not $2/$name.csv" >&2; differing=1; }
     done

@@ -3,7 +3,7 @@
 set -eu
 cd "$(dirname "$0")"
 if [ "${1:-cloth}" = solids ]; then
-    problems="beam beam_16 cube ball" others="precision_solids ratio_mass_solids"
+    problems="beam beam_16 cube ball ball_surface" others="precision_solids ratio_mass_solids"
 else
     problems="spring chain_1 chain_100 chain_10000 net_9 net_17 net_33 net_65 cloth elastica slide"
     others="precision ratio_mass ratio_stiffness"

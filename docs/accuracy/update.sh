@@ -80,6 +80,7 @@ solids_second()
 {
     study cube examples/accuracy/cube.json --methods all $common
     study ball examples/accuracy/ball.json --methods all $common
+    study ball_surface examples/accuracy/ball_surface.json --methods all $common
     study precision_solids examples/accuracy/cube.json --methods all --precision float,double \
         --substeps 4,16,64,256 --iterations 1 --linear-tolerance 1e-12 $common
     study conserved_solids examples/accuracy/cube_free.json --methods all --conserved --substeps 8 \

@@ -4,7 +4,7 @@ set -eu
 program=$1 scratch=$2
 folder=docs/accuracy
 . "$folder/parts.sh"
-keep_problems beam beam_16 cube ball
+keep_problems beam beam_16 cube ball ball_surface
 cp "$scratch/precision_solids/cost.csv" "$folder/precision_solids.csv"
 cp "$scratch/precision_solids/cost_substeps.svg" "$folder/precision_solids.svg"
 for file in csv svg; do
@@ -29,6 +29,7 @@ cp "$scratch/conserved_solids/momentum.svg" "$folder/conserved_solids_momentum.s
     problem beam_16 "The same beam of 16 x 4 x 4 cells: each size is compared with its own reference; a few settings, for time."
     problem cube "A neo-Hookean cube, squeezed to half its height, is let go and swings (P7)."
     problem ball "A ball of springs and volumes of tetrahedra falls on a floor and bounces."
+    problem ball_surface "The thesis' own solid: the same ball, of springs and one volume within its surface, which mass_spring alone holds."
     echo
     echo "## Precision floor"
     echo

@@ -86,8 +86,8 @@ function claims_of_pbd()
     claim("In the squeeze 5 to 20 iterations are all alike between the plates, at 42 to 48 %",
           among(100 - least("volume_squeeze", "pbd, 5 iterations"), 42, 48.5) && among(100 - least("volume_squeeze", "pbd, 10 iterations"), 42, 48.5) \
           && among(100 - least("volume_squeeze", "pbd, 20 iterations"), 42, 48.5))
-    claim("they come back to their volume.", last("volume_squeeze", "pbd, 5 iterations") == 100 \
-          && last("volume_squeeze", "pbd, 10 iterations") == 100 && last("volume_squeeze", "pbd, 20 iterations") == 100)
+    claim("they come back to their volume, within 0.05 %.", last("volume_squeeze", "pbd, 5 iterations") > 99.95 \
+          && last("volume_squeeze", "pbd, 10 iterations") > 99.95 && last("volume_squeeze", "pbd, 20 iterations") > 99.95)
     claim("Springs stay at 67 %, and one iteration of `pbd` at 89 %, collapsed.",
           about(100 - last("volume_squeeze", "springs"), "67") && about(100 - last("volume_squeeze", "pbd, 1 iteration"), "89"))
 

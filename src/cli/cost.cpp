@@ -37,6 +37,7 @@ struct CostCommand
     std::string ratio;
     std::vector<double> ratios;
     bool at_rest = false, moving = false, conserved = false, ablation = false, json = false;
+    bool continuum = false;
 };
 
 CostOptions study_options(const CostCommand& command)
@@ -99,6 +100,9 @@ std::string points_table(const CostStudy& study)
                                                 "remark"}};
     if (several)
         rows[0].insert(rows[0].begin(), "method");
+    const auto beside_error = static_cast<std::ptrdiff_t>(several ? 5 : 4); // columns
+    if (study.has_continuum())
+        rows[0].insert(rows[0].begin() + beside_error, "continuum %");
     for (const CostPoint& point : study.points)
     {
         const auto timed = [&](double ms) { return point.error ? number(ms, 3) : std::string("-"); };
@@ -109,6 +113,8 @@ std::string points_table(const CostStudy& study)
                         remarks(point)});
         if (several)
             rows.back().insert(rows.back().begin(), point.method);
+        if (study.has_continuum())
+            rows.back().insert(rows.back().begin() + beside_error, percent(point.error_continuum));
     }
     return table(rows);
 }
@@ -120,6 +126,11 @@ std::string summary(const CostStudy& study)
     text += "reference  " + study.reference.name + ": " + study.reference.text + "\n";
     for (const std::string& passed : study.reference.passed)
         text += "           passed over: " + passed + "\n";
+    if (study.continuum)
+        text +=
+            "continuum  " +
+            (study.has_continuum() ? "R1: " + study.continuum->text : "none: " + study.continuum->reason) +
+            ".\n";
     text += points_table(study);
     if (study.methods.size() > 1)
         text += "cheapest by method (- not reached, R refused):\n" + table(cost_table(study));
@@ -223,6 +234,12 @@ int cost(const CostCommand& command)
     if (command.conserved)
         return conserved(command, scene, options);
     const auto device = open_device(command.device);
+    if (command.continuum && !command.at_rest && cost_kind(scene) != CostKind::at_rest)
+        throw Error(ErrorCode::bad_input,
+                    "--continuum needs a scene that comes to rest: held by pins that stand "
+                    "still, without colliders, with damping; or take --static");
+    if (command.continuum)
+        options.continuum = continuum_reference(load_scene(command.scene));
     options.progress = progress.callback();
     const CostStudy study = run_cost(scene, device, options);
     progress.end();
@@ -300,6 +317,9 @@ void add_cost(CLI::App& app, Command& chosen)
                         "Folder for cost.csv, cost.json, cost.svg, cost_work.svg and cost_gaps.md (what has "
                         "no point); with several methods also "
                         "for cost_substeps.svg and cost_iterations.svg");
+    auto* beside = command->add_flag("--continuum", options->continuum,
+                                     "Static: also give each error against the continuum, from finer meshes");
+    beside->excludes(ratio)->excludes(kept)->excludes(without)->excludes(command->get_option("--moving"));
     command->add_flag("--json", options->json, "Print the study as one JSON object")->excludes(without);
     command->callback([&chosen, options] { chosen = [options] { return cost(*options); }; });
 }

@@ -120,6 +120,7 @@ public:
         out_.timestep = scene_.timestep;
         out_.basis = options.basis;
         out_.rest_tolerance = options.rest_tolerance;
+        take_continuum();
         if (!at_rest() && cost::wanted_frames(scene_, options) == 0)
             throw Error(
                 ErrorCode::bad_input,
@@ -133,6 +134,7 @@ public:
         if (!at_rest() && out_.reference.verified)
             out_.frames = out_.reference.frames.size() - 1;
         choose_metric();
+        compare_places_of_rest();
         facts_ = tuning::scene_facts(model_, out_.reference);
         const std::vector<MethodSettings> all = settings_to_try(scene_, options_);
         for (const MethodSettings& settings : all)
@@ -149,6 +151,21 @@ public:
     }
 
 private:
+    void take_continuum()
+    {
+        if (options_.continuum && !at_rest())
+            throw Error(ErrorCode::bad_input,
+                        "a continuum needs a scene that comes to rest: held by pins that "
+                        "stand still, without colliders, with damping; or compare the "
+                        "state at rest (--static).");
+        out_.continuum = options_.continuum;
+        if (out_.has_continuum() && out_.continuum->positions.size() != model_.mass.size())
+            throw Error(ErrorCode::bad_input, "the continuum has " +
+                                                  std::to_string(out_.continuum->positions.size()) +
+                                                  " vertices for " + std::to_string(model_.mass.size()) +
+                                                  ": it is that of another scene.");
+    }
+
     bool at_rest() const { return out_.kind == CostKind::at_rest; }
 
     void choose_metric()
@@ -160,6 +177,17 @@ private:
         out_.metric = !moves && !frames.empty() ? "e_L" : at_rest() ? "e_disp" : "e_traj";
         if (out_.metric == "e_L")
             out_.reference.error = out_.reference.error_l;
+    }
+
+    /// A scene with several equilibria may have the one as its reference and another one in the continuum.
+    void compare_places_of_rest()
+    {
+        if (!out_.has_continuum() || !out_.reference.verified)
+            return;
+        const auto off = displacement_error(weights_, out_.continuum->own, out_.reference.frames.back(),
+                                            out_.reference.frames.front());
+        if (!off || *off > 0.1 * out_.continuum->mesh_error)
+            out_.continuum->reason = "the reference comes to rest elsewhere on the same mesh";
     }
 
     CostPoint point(const MethodSettings& settings)
@@ -226,8 +254,12 @@ private:
             out.error = displacement_error(weights_, motion.frames.back(), goal, reference.front());
         else
             out.error = trajectory_error(weights_, motion.frames, reference);
-        if (displaced && out.error)
-            *out.error += motion.wander / distance_by_mass(weights_, goal, reference.front());
+        if (out_.has_continuum())
+            out.error_continuum = displacement_error(weights_, motion.frames.back(),
+                                                     out_.continuum->positions, reference.front());
+        for (std::optional<double>* error : {&out.error, &out.error_continuum})
+            if (displaced && *error)
+                **error += motion.wander / distance_by_mass(weights_, goal, reference.front());
         if (out_.metric == "e_traj" && reference.size() > 6)
             out.error_smoothed = trajectory_error(weights_, smoothed(motion.frames), smoothed(reference));
     }

@@ -3,6 +3,7 @@
 // a reference, its time and its work (docs/cost.md).
 
 #include "taut/plan/methods.hpp"
+#include "taut/report/continuum.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/svg_plot.hpp"
 
@@ -59,6 +60,8 @@ struct CostOptions
     /// fine as 400 substeps.
     double reference_error = 0;
     std::uint32_t coarsest = 0; ///< R4 with a reference_error: substeps that it begins with at least
+    /// At rest: beside every error also that against the continuum. One with a reason is as none.
+    std::optional<ContinuumReference> continuum;
     /// The part of the time for a reference that is gone: from 1 on it ends, and what is verified until then
     /// is taken. Empty: there is no limit.
     std::function<double()> spent;
@@ -100,6 +103,7 @@ struct CostPoint
     std::optional<double> error;          ///< in the metric of the study
     std::optional<double> error_l;        ///< e_L at the last frame
     std::optional<double> error_smoothed; ///< e_traj of moving averages over six frames
+    std::optional<double> error_continuum; ///< e_disp against R1
     bool at_floor = false;                ///< error below 10 times the reference's own: not told apart
     double simulated_seconds = 0;         ///< until the error was taken
     double ms = 0, ms_least = 0;          ///< per simulated second, wall: median and least of the repetitions
@@ -112,10 +116,10 @@ struct CostPoint
     bool pareto = false; ///< no other setting is cheaper and more accurate
 };
 
-/// Below it an error says nothing of the method.
+/// Below it an error says nothing of the method; below "mesh" it is wasted.
 struct CostFloor
 {
-    std::string word;  ///< "reference", "rest", "linear_tolerance", "float", "double"
+    std::string word;  ///< "reference", "rest", "mesh", "linear_tolerance", "float", "double"
     double error = 0;  ///< in the metric of the study
     std::string words; ///< for people
 };
@@ -145,6 +149,8 @@ struct CostStudy
     double timestep = 0;
     std::size_t frames = 0; ///< moving: compared
     CostReference reference;
+    /// CostOptions::continuum; with a reason where it cannot be trusted, or is of another place of rest.
+    std::optional<ContinuumReference> continuum;
     CostBasis basis = CostBasis::wall;
     double rest_tolerance = kRestTolerance;
     std::vector<CostPoint> points; ///< method, then precision; with lists then iterations, then substeps
@@ -154,6 +160,7 @@ struct CostStudy
 
     /// At least one point has an error.
     bool sound() const;
+    bool has_continuum() const { return continuum && continuum->reason.empty(); }
 };
 
 /// Whether every body is held by pins that stand still.
@@ -161,11 +168,13 @@ bool held_still(const Scene& scene);
 /// At rest: every body held by pins that stand still, no colliders, and damping that brings it there.
 CostKind cost_kind(const Scene& scene);
 
-/// Throws Error{bad_input} for empty or impossible lists, and what World throws for every setting alike.
+/// Throws Error{bad_input} for empty or impossible lists and for a continuum of what moves or of another
+/// scene, and what World throws for every setting alike.
 CostStudy run_cost(const Scene& scene, std::shared_ptr<Device> device, const CostOptions& options = {});
 
-/// Ten times the reference's own error; at rest the rest test; of methods with linear solves the tolerance of
-/// those; one rounding of float and of double. `point` null: all of the study, else those of the point.
+/// Ten times the reference's own error; at rest the rest test; with a continuum the mesh's error; of methods
+/// with linear solves the tolerance of those; one rounding of float and of double. `point` null: all of the
+/// study, else those of the point.
 std::vector<CostFloor> cost_floors(const CostStudy& study, const CostPoint* point = nullptr);
 /// Those of a study for its figures: shaded are the ones that hold for every point.
 std::vector<PlotFloor> plot_floors(const CostStudy& study);
@@ -178,7 +187,8 @@ double price(const CostPoint& point, CostBasis basis);
 void rank(CostStudy& study);
 
 /// Three sentences: the cheapest setting for 10 %, 1 % and 0.1 %. With several methods they name the method.
-/// Where the cheapest is of another material they say so, and name the cheapest that is not.
+/// Where the cheapest is of another material they say so, and name the cheapest that is not. With a continuum
+/// a fourth: from which setting on more work is lost on the mesh.
 std::vector<std::string> cost_sentences(const CostStudy& study);
 /// "20 substeps x 1 iteration in float"
 std::string setting_text(const CostPoint& point);

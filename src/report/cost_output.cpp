@@ -44,6 +44,7 @@ Json point_json(const CostStudy& study, const CostPoint& point)
     json["error_metric"] = study.metric;
     json["reference"] = study.reference.name;
     json["error_l"] = number_or_null(point.error_l);
+    json["error_continuum"] = number_or_null(point.error_continuum);
     json["error_smoothed"] = number_or_null(point.error_smoothed);
     json["at_reference_floor"] = point.at_floor;
     json["ms_per_simulated_second"] = gap ? Json(nullptr) : Json(point.ms);
@@ -103,6 +104,17 @@ Json reference_json(const CostReference& reference)
             {"passed_over", reference.passed}};
 }
 
+Json continuum_json(const CostStudy& study)
+{
+    if (!study.continuum)
+        return nullptr;
+    const ContinuumReference& r = *study.continuum;
+    if (!r.reason.empty())
+        return {{"class", nullptr}, {"reason", r.reason}};
+    return {{"class", "R1"},    {"text", r.text},   {"vertices", r.vertices},
+            {"order", r.order}, {"error", r.error}, {"mesh_error", r.mesh_error}};
+}
+
 /// Quoted where a comma or quote would break the row.
 std::string csv_row(const CostStudy& study, const CostPoint& point)
 {
@@ -136,7 +148,8 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
                                  point.cpu_ms ? timed(point.cpu_high) : "",
                                  std::to_string(point.repetitions),
                                  point.floor,
-                                 point.other_material.empty() ? "0" : "1"};
+                                 point.other_material.empty() ? "0" : "1",
+                                 value(point.error_continuum)};
     std::string row;
     for (const std::string& cell : cells)
         row += (row.empty() ? "" : ",") + cell;
@@ -159,6 +172,7 @@ std::string cost_json(const CostStudy& study)
     json["constraints"] = study.constraints;
     json["status"] = to_string(study.interrupted ? Status::interrupted : Status::completed);
     json["reference"] = reference_json(study.reference);
+    json["continuum"] = continuum_json(study);
     json["basis"] = basis_word(study);
     json["rest_tolerance"] = study.kind == CostKind::at_rest ? Json(study.rest_tolerance) : Json(nullptr);
     json["floors"] = Json::array();
@@ -180,7 +194,7 @@ std::string cost_csv(const CostStudy& study)
         "reference_error,error_l,error_smoothed,ms_per_simulated_second,ms_least,"
         "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason,details,refused,"
         "ms_quartile_1,ms_quartile_3,cpu_ms_quartile_1,cpu_ms_quartile_3,repetitions,floor,"
-        "other_material\n";
+        "other_material,error_continuum\n";
     for (const CostPoint& point : study.points)
         out += csv_row(study, point);
     return out;

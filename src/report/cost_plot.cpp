@@ -63,6 +63,9 @@ std::vector<std::string> captions(const CostStudy& study, CostAxis axis)
     std::vector<std::string> out{"Reference class " + study.reference.name + ". " + study.reference.text};
     for (const std::string& passed : study.reference.passed)
         out.push_back("Passed over: " + passed + ".");
+    if (study.has_continuum())
+        out.push_back("Continuum R1. " + study.continuum->text +
+                      ". Accuracy below the error of the mesh is wasted.");
     const bool at_floor = std::any_of(study.points.begin(), study.points.end(),
                                       [](const CostPoint& point) { return point.at_floor; });
     if (at_floor)

@@ -98,6 +98,22 @@ std::string material_text(const CostStudy& study, const CostTarget& target)
                        : "; no method with the scene's own was tried");
 }
 
+/// From which setting on more work is lost on the mesh.
+std::string mesh_sentence(const CostStudy& study)
+{
+    const double mesh = study.continuum->mesh_error;
+    const CostPoint* enough = nullptr;
+    for (const CostPoint& point : study.points)
+        if (point.error && *point.error <= mesh && point.other_material.empty() &&
+            (enough == nullptr || price(point, study.basis) < price(*enough, study.basis)))
+            enough = &point;
+    const std::string of_mesh = "The mesh is " + shown_percent(mesh) + " off the continuum: ";
+    if (enough == nullptr)
+        return of_mesh + "no setting solves it as well as that.";
+    return of_mesh + result_text(study, *enough) +
+           ", solves it as well as that, and more work is lost on it.";
+}
+
 } // namespace
 
 std::vector<CostFloor> cost_floors(const CostStudy& study, const CostPoint* point)
@@ -115,12 +131,14 @@ std::vector<CostFloor> cost_floors(const CostStudy& study, const CostPoint* poin
     add("reference", 10 * study.reference.error.value_or(0), "10 x the reference's own error");
     if (study.kind == CostKind::at_rest)
         add("rest", study.rest_tolerance, "rest test");
+    if (study.has_continuum())
+        add("mesh", study.continuum->mesh_error, "error of the mesh");
     for (const CostPoint& other : study.points)
     {
         const MethodKind method = method_named(other.method);
         const bool solves = method == MethodKind::implicit_euler || method == MethodKind::acad ||
                             method == MethodKind::implicit_constraints;
-        if (solves && (!point || point == &other))
+        if (solves && (point ? point == &other : other.error.has_value()))
             add("linear_tolerance", other.settings.linear_tolerance, "linear_tolerance");
     }
     for (const Precision precision : {Precision::float32, Precision::float64})
@@ -201,6 +219,8 @@ std::vector<std::string> cost_sentences(const CostStudy& study)
         else
             out.push_back(percent + " is not reached; no setting has an error.");
     }
+    if (study.has_continuum())
+        out.push_back(mesh_sentence(study));
     return out;
 }
 

@@ -13,9 +13,7 @@
 #include <limits>
 
 namespace taut::cost {
-namespace {
 
-/// What a scene has that the model of R2 and R3 does not know; empty when there is nothing.
 std::string unmodelled(const Scene& scene)
 {
     const auto any = [&](auto has) {
@@ -38,6 +36,8 @@ std::string unmodelled(const Scene& scene)
         "kinematic bodies");
     return out;
 }
+
+namespace {
 
 // ---------------------------------------------------------------- at rest
 

@@ -15,6 +15,9 @@ struct CostInput
     std::shared_ptr<Device> device;
 };
 
+/// What a scene has that the model of R1, R2 and R3 does not know; empty when there is nothing.
+std::string unmodelled(const Scene& scene);
+
 /// R2, else R4. The states are the start and the state at rest.
 CostReference reference_at_rest(const CostInput& input);
 /// R3, else R4, over as many frames as are verified.

@@ -10,7 +10,7 @@ namespace {
 
 /// Slope of the distance: 1 beside the axis, 0.71 where two faces meet squarely.
 constexpr double kFlat = 0.6;
-constexpr std::size_t kMost = 256;
+constexpr std::size_t kMostCells = 256;
 
 /// Half the way that is inside, through a point along an axis.
 double half_run(const DistanceField& field, std::array<std::size_t, 3> at, std::size_t axis)
@@ -56,7 +56,7 @@ std::vector<DeepPoint> thinned(const std::vector<DeepPoint>& points, double shar
         if (std::any_of(out.begin(), out.end(),
                         [&](const DeepPoint& q) { return glm::distance(p.place, q.place) <= near; }))
             continue;
-        if (out.size() == kMost)
+        if (out.size() == kMostCells)
             return {};
         out.push_back(p);
     }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <span>
 
 namespace taut {
 namespace {
@@ -337,7 +338,9 @@ std::string refusal(const PhysicalModel& model, const std::vector<glm::dvec3>& s
     if (const std::size_t rigid = rigid_element_count(model); rigid > 0)
         return std::to_string(rigid) + " elements are rigid (compliance 0): they have no energy to minimise";
     if (!std::all_of(model.added.begin(), model.added.end(), reference::is_membrane))
-        return "there are elements of a program's own: the static reference knows their energy only";
+        return "there are elements of a program's own, whose energy is written in fp64 alone";
+    if (!reference::StaticPlates(model.plates).is_sound())
+        return "a triangle of a plate is so thin that rounding leaves its bending no inverse";
     if (!model.surfaces.empty())
         return "the volume within a surface is held: the static reference does not model it";
     if (!model.gases.empty())

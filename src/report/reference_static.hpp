@@ -38,7 +38,8 @@ struct StaticReference
 
 /// Follows the model downhill from `start` (all vertices, m; pinned ones stay there) to a stable
 /// equilibrium: damped implicit steps first, plain Newton at the end. Refuses, with a reason and the start
-/// state: rigid elements, elements of a program's own, colliders, and parts that no pin holds under gravity.
+/// state: rigid elements, elements of a program's own, enclosed volumes and gases, colliders, slivers of
+/// plates, and parts that no pin holds under gravity.
 StaticReference solve_static(const PhysicalModel& model, const std::vector<glm::dvec3>& start,
                              const StaticOptions& options = {});
 

@@ -8,9 +8,6 @@
 #include "taut/report/static_membranes.hpp"
 #include "taut/report/static_solids.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 
@@ -69,12 +66,12 @@ Matrix12 angle_hessian(const std::array<Vec<double>, 4>& x)
     return 0.5 * (out + out.transpose());
 }
 
-/// k (g g^T + (theta - theta0) dg/dx); projected: without the second part.
 std::array<Vec<double>, 4> corners(const BendElement& h, const State& x)
 {
     return {narrow(x[h.edge0]), narrow(x[h.edge1]), narrow(x[h.wing0]), narrow(x[h.wing1])};
 }
 
+/// k (g g^T + (theta - theta0) dg/dx); projected: without the second part.
 Matrix12 hinge_block(const BendElement& h, const State& x, Curvature curvature)
 {
     const std::array<Vec<double>, 4> corner = corners(h, x);

@@ -5,6 +5,8 @@
 
 #include "taut/elements/membrane.hpp"
 
+#include <array>
+
 namespace taut::reference {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,8 @@ public:
     explicit StaticPlates(std::span<const PlateHinge> hinges);
 
     std::size_t count() const { return hinges_.size(); }
+    /// False where rounding leaves A no factorisation, as slivers do: then nothing else may be asked.
+    bool is_sound() const { return hinges_.empty() || factor_.info() == Eigen::Success; }
     Real energy(const State& x) const;                 ///< J
     void add_gradient(const State& x, State& g) const; ///< N, pinned vertices too
     /// J a radian, A^-1 (theta - rest) of every hinge, A as PlateHinge says; to long double's digits.

@@ -2,8 +2,12 @@
 
 #include "cli/program.hpp"
 #include "support/catch.hpp"
+#include "unit/scene/child.hpp"
 
 #include <sys/resource.h>
+
+#include <algorithm>
+#include <string>
 
 using namespace program;
 
@@ -16,7 +20,7 @@ public:
     explicit Room(rlim_t bytes)
     {
         getrlimit(RLIMIT_AS, &before_);
-        const rlimit less{std::min(bytes, before_.rlim_max), before_.rlim_max};
+        const rlimit less{std::min(bytes, before_.rlim_cur), before_.rlim_max};
         setrlimit(RLIMIT_AS, &less);
     }
     ~Room() { setrlimit(RLIMIT_AS, &before_); }
@@ -29,7 +33,7 @@ private:
 
 } // namespace
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(TAUT_TEST_ASAN)
 #define TAUT_RESERVES_MEMORY "[.]" // a sanitizer takes terabytes of addresses
 #else
 #define TAUT_RESERVES_MEMORY ""

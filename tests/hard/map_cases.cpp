@@ -240,10 +240,10 @@ void add_topology(std::vector<MapCase>& out)
         return above("distance of the centre from the pin's vertical, m", std::hypot(d.x, d.z), 0.02);
     };
     out.push_back({"C01", "three triangles on one edge", fan(5, false), 300, below_its_pin});
-    out.push_back(
-        {"C02", "fan of 120 triangles at one vertex, in full 1,000", fan(120, true), 300, below_its_pin,
-         // 120 springs at the hub: few sweeps neither swing it nor keep its rim's short springs.
-         kForces | kSweeps | only(MethodKind::implicit_euler)});
+    out.push_back({"C02", "fan of 120 triangles at one vertex, in full 1,000", fan(120, true), 300,
+                   below_its_pin,
+                   // 1,000 springs at the hub: few sweeps neither swing it nor keep its rim's short springs.
+                   kForces | kSweeps | only(MethodKind::implicit_euler)});
     out.back().full_size = [=] { return fan(1000, true); };
     out.push_back({"C05", "one free particle",
                    [] {

@@ -101,6 +101,10 @@ TEST_CASE("forces of plates and membranes are the slopes of their energy, and st
     const Eigen::MatrixXd stiffness = condensed(energy, x);
     const double size = reference::largest_component(force);
     double worst_force = 0, worst_slope = 0;
+    const auto take = [](double& worst, double off) { // what is no number stays
+        if (!(std::abs(off) <= worst))
+            worst = std::abs(off);
+    };
     for (std::size_t i = 0; i < x.size(); ++i)
         for (int axis = 0; axis < 3 && energy.unknown(i) >= 0; ++axis)
         {
@@ -110,17 +114,14 @@ TEST_CASE("forces of plates and membranes are the slopes of their energy, and st
             coordinate(behind, i, axis) -= h;
             State own = force;
             const long double slope = (energy.value(ahead) - energy.value(behind)) / (2 * h);
-            worst_force =
-                std::max(worst_force, std::abs(static_cast<double>(slope - coordinate(own, i, axis))));
+            take(worst_force, static_cast<double>(slope - coordinate(own, i, axis)));
             State up = energy.gradient(ahead), down = energy.gradient(behind);
             for (std::size_t j = 0; j < x.size(); ++j)
                 for (int row = 0; row < 3 && energy.unknown(j) >= 0; ++row)
                 {
                     const auto change =
                         static_cast<double>((coordinate(up, j, row) - coordinate(down, j, row)) / (2 * h));
-                    worst_slope = std::max(
-                        worst_slope,
-                        std::abs(change - stiffness(energy.unknown(j) + row, energy.unknown(i) + axis)));
+                    take(worst_slope, change - stiffness(energy.unknown(j) + row, energy.unknown(i) + axis));
                 }
         }
     CHECK(worst_force < 1e-8 * size);
