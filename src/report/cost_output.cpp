@@ -148,11 +148,12 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
                                  point.cpu_ms ? timed(point.cpu_high) : "",
                                  std::to_string(point.repetitions),
                                  point.floor,
-                                 point.other_material.empty() ? "0" : "1",
-                                 value(point.error_continuum)};
+                                 point.other_material.empty() ? "0" : "1"};
     std::string row;
     for (const std::string& cell : cells)
         row += (row.empty() ? "" : ",") + cell;
+    if (study.has_continuum()) // files of studies without one keep their columns
+        row += "," + value(point.error_continuum);
     return row + "\n";
 }
 
@@ -194,7 +195,8 @@ std::string cost_csv(const CostStudy& study)
         "reference_error,error_l,error_smoothed,ms_per_simulated_second,ms_least,"
         "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason,details,refused,"
         "ms_quartile_1,ms_quartile_3,cpu_ms_quartile_1,cpu_ms_quartile_3,repetitions,floor,"
-        "other_material,error_continuum\n";
+        "other_material";
+    out += study.has_continuum() ? ",error_continuum\n" : "\n";
     for (const CostPoint& point : study.points)
         out += csv_row(study, point);
     return out;
