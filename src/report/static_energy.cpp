@@ -266,8 +266,6 @@ Eigen::SparseMatrix<double> StaticEnergy::hessian(const State& x, Curvature curv
 
 Eigen::SparseMatrix<double> StaticEnergy::system(const State& x, Curvature curvature, double shift) const
 {
-    if (model_.plates.empty())
-        return hessian(x, curvature, shift);
     Entries entries;
     const Block add = [&](std::uint32_t a, std::uint32_t b, const Eigen::Matrix3d& block) {
         add_lower(entries, a, b, block);
@@ -283,7 +281,13 @@ Eigen::SparseMatrix<double> StaticEnergy::system(const State& x, Curvature curva
                         : Matrix12(Matrix12::Zero()),
                   add);
     }
-    added_blocks(x, curvature, add);
+    for (const AddedElement& e : model_.added)
+        if (is_membrane(e))
+        {
+            const Eigen::MatrixXd k = membrane_stiffness(e, x);
+            visit_all(std::span(e.vertex).first(3),
+                      curvature == Curvature::projected ? Eigen::MatrixXd(positive_part(k)) : k, add);
+        }
     plates_.add_rows(x, unknowns_, unknown_, entries);
     Eigen::SparseMatrix<double> out(unknowns_ + plate_hinges(), unknowns_ + plate_hinges());
     out.setFromTriplets(entries.begin(), entries.end());

@@ -23,9 +23,10 @@ public:
     /// are as stiff as the bound of PlateHinge::element, each hinge for itself; added ones as
     /// added_stiffness.hpp has them.
     Eigen::SparseMatrix<double> hessian(const State& x, Curvature curvature, double shift) const;
-    /// As hessian(), but with plates as they are: after the coordinates come scaled moments of their hinges,
-    /// as unknowns whose equations have a right-hand side of 0. The energy's Hessian is positive definite
-    /// where this matrix has as many negative eigenvalues as there are such hinges (Haynsworth 1968).
+    /// As hessian(), but of added elements membranes alone, to ten digits, and with plates as they are: after
+    /// the coordinates come scaled moments of their hinges, as unknowns whose equations have a right-hand
+    /// side of 0. The energy's Hessian is positive definite where this matrix has as many negative
+    /// eigenvalues as there are such hinges (Haynsworth 1968).
     Eigen::SparseMatrix<double> system(const State& x, Curvature curvature, double shift) const;
 
     /// The 3 x 3 blocks that hessian() adds up, N/m, in a fixed order and with (b, a) beside (a, b): of every
