@@ -1,7 +1,7 @@
 // Based on: Roache, Verification and Validation in Computational Science and Engineering, 1998, 5.4 to 5.10
 //   (observed order, Richardson's extrapolation, the error that it estimates).
 // Departures: one order for all vertices, of mass-weighted norms; the own error is all of the last
-// correction.
+//   correction.
 #include "taut/report/continuum.hpp"
 
 #include "taut/report/cost_reference.hpp"
@@ -173,9 +173,9 @@ private:
                     scenes.push_back(*scene);
             if (scenes.size() < 3)
                 return "four times the cells make more than " + most +
-                       " vertices, and a count of cells is odd, so that there is no mesh of half of them: "
-                       "take "
-                       "fewer, or even counts";
+                       " vertices, and a count of cells is odd, so that no mesh has half of them: take fewer "
+                       "cells, or even "
+                       "counts";
             if (vertex_count(scenes.back()) > static_cast<double>(kMostContinuumVertices))
                 continue;
             own_ = choice;

@@ -199,7 +199,7 @@ void visit_all(std::span<const std::uint32_t> v, const auto& k, const StaticEner
 
 } // namespace
 
-/// Of all but plates.
+/// Of all but plates and added elements.
 void StaticEnergy::elastic_blocks(const State& x, Curvature curvature, double shift, const Block& visit) const
 {
     for (std::uint32_t i = 0; i < x.size(); ++i)

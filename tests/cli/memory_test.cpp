@@ -2,6 +2,7 @@
 
 #include "cli/program.hpp"
 #include "support/catch.hpp"
+#include "support/skip.hpp"
 #include "unit/scene/child.hpp"
 
 #include <sys/resource.h>
@@ -33,15 +34,12 @@ private:
 
 } // namespace
 
-#if defined(TAUT_TEST_ASAN)
-#define TAUT_RESERVES_MEMORY "[.]" // a sanitizer takes terabytes of addresses
-#else
-#define TAUT_RESERVES_MEMORY ""
-#endif
-
-TEST_CASE("a dense matrix that the host has no memory for is told with its bytes and what would do",
-          "[cli]" TAUT_RESERVES_MEMORY)
+TEST_CASE("a dense matrix that the host has no memory for is told with its bytes and what would do", "[cli]")
 {
+#if defined(TAUT_TEST_ASAN)
+    TAUT_LEFT_OUT("a host without memory: a sanitizer reserves terabytes of addresses");
+    return;
+#endif
     const Folder folder;
     std::string text = "%%MatrixMarket matrix coordinate real symmetric\n20000 20000 20000\n";
     for (int k = 1; k <= 20000; ++k)
