@@ -26,6 +26,7 @@ struct Journey
     double deepest = 0;        ///< m below a collider
     double volume = 0;         ///< largest |V/V0 - 1|
     double lowest_centre = 0;  ///< m, lowest place of the mean of all vertices along y
+    double thinnest = HUGE_VAL;               ///< m, least extent of all vertices along y
     std::map<int, std::uint64_t> hashes = {}; ///< of the positions after so many steps (kHashed)
 };
 
@@ -93,7 +94,7 @@ inline constexpr const char* kDataCase = "mesh";
 /// Steps of a short run of a case whose short_steps are < 0, and of the executors that do not run whole.
 inline constexpr int kStepsShort = 3;
 /// Of a whole run on the executors of drivers, whose dispatches cost thousands of times their work in
-/// software: a cell takes as many steps as these make. 556 of the 882 cells that run are whole.
+/// software: a cell takes as many steps as these make (`test_hard "[.whole]"` counts the whole ones).
 inline constexpr std::uint64_t kDispatchesElsewhere = 200000;
 /// Positions are hashed after these steps, and after the last.
 inline constexpr int kHashed[] = {1, 3, 10, 30, 100, 300, 1000, 5000, 100000};
@@ -105,6 +106,7 @@ struct Outcome
     /// judge), "refuses bad_timestep", "stops diverged".
     std::string verdict;
     std::vector<Measured> own;     ///< the case's own criteria, then the three that all have
+    std::size_t of_case = 0;       ///< how many of them are the case's own, once it is judged
     std::optional<Measured> far;   ///< what is missed besides moved by ten times its size in a substep
     double energy = 0, volume = 0; ///< see MapCase::most_energy
     double inverted = 0;           ///< tetrahedra
@@ -115,6 +117,8 @@ struct Outcome
     bool refused() const { return verdict.rfind("refuses", 0) == 0; }
     /// The criterion that the verdict is about; of a refusal none.
     Measured shown() const;
+    /// The case's own criteria that are missed besides that one.
+    std::vector<Measured> also_missed() const;
 };
 
 /// The cases; those on real meshes only where the data is.
@@ -133,6 +137,10 @@ Outcome judged(const MapCase& hard_case, MethodKind method, const std::shared_pt
 /// one no more steps than `dispatches` make (0: any).
 Outcome repeated(const MapCase& hard_case, MethodKind method, const std::shared_ptr<Device>& device,
                  int steps, std::uint64_t dispatches = 0);
+
+/// Of `steps` steps of a cell those that so many dispatches make, up to one whose positions are hashed.
+int steps_within(std::uint64_t dispatches, const MapCase& hard_case, MethodKind method,
+                 const std::shared_ptr<Device>& device, int steps);
 
 /// Settings under which the map runs a method. Solids are springs under methods without neo-Hookean
 /// tetrahedra, and hold no volumes under those that cannot (nor, unless asked, within their surface).

@@ -125,6 +125,9 @@ inline glm::dvec3 mean(const std::vector<glm::dvec3>& values)
     return sum / double(values.size());
 }
 
+/// m: how far the mean of all vertices has come down.
+inline double fallen(const Journey& j) { return mean(j.start).y - mean(j.world.positions()).y; }
+
 /// Vertices of a body that lie lowest at rest.
 inline std::vector<std::uint32_t> lowest(const Mesh& mesh)
 {

@@ -29,7 +29,12 @@ void look(const World& world, Journey& out)
     out.deepest = std::max(out.deepest, report.penetration);
     out.volume = std::max(out.volume, std::abs(report.volume.ratio - 1));
     if (!out.start.empty())
-        out.lowest_centre = std::min(out.lowest_centre, mean(world.positions()).y);
+    {
+        const auto x = world.positions();
+        const auto [low, high] = std::ranges::minmax(x, {}, &glm::dvec3::y);
+        out.lowest_centre = std::min(out.lowest_centre, mean(x).y);
+        out.thinnest = std::min(out.thinnest, high.y - low.y);
+    }
     out.hashes[static_cast<int>(world.steps())] = report.position_hash;
     out.last = report;
 }
@@ -126,6 +131,7 @@ void run_scene(const MapCase& c, const Scene& scene, const std::shared_ptr<Devic
         const Findings found = c.judge(journey);
         out.own.insert(out.own.end(), found.list.begin(), found.list.end());
     }
+    out.of_case = out.own.size();
     judge_what_all_have(c, journey, out);
     const bool missed =
         std::any_of(out.own.begin(), out.own.end(), [](const Measured& m) { return m.missed(); });
@@ -151,6 +157,19 @@ Measured Outcome::shown() const
         return *far;
     const auto missed = std::find_if(own.begin(), own.end(), [](const Measured& m) { return m.missed(); });
     return verdict == "runs" || missed == own.end() ? own.front() : *missed;
+}
+
+std::vector<Measured> Outcome::also_missed() const
+{
+    std::vector<Measured> out;
+    bool said = far.has_value(); // the first is the cell's number
+    for (std::size_t k = 0; k < of_case && verdict != "runs"; ++k)
+    {
+        if (own[k].missed() && said)
+            out.push_back(own[k]);
+        said = said || own[k].missed();
+    }
+    return out;
 }
 
 Outcome judged(const MapCase& c, MethodKind method, const std::shared_ptr<Device>& device)
@@ -183,6 +202,15 @@ Outcome judged(const MapCase& c, MethodKind method, const std::shared_ptr<Device
     return out;
 }
 
+int steps_within(std::uint64_t dispatches, const MapCase& c, MethodKind method,
+                 const std::shared_ptr<Device>& device, int steps)
+{
+    if (c.check) // has worlds of its own, and may refuse before a step
+        return steps;
+    const std::size_t each = World(scene_for(c, method), device).plan().passes.size();
+    return std::min(steps, hashed_up_to(static_cast<int>(dispatches / std::max<std::size_t>(each, 1))));
+}
+
 Outcome repeated(const MapCase& c, MethodKind method, const std::shared_ptr<Device>& device, int steps,
                  std::uint64_t dispatches)
 {
@@ -190,11 +218,8 @@ Outcome repeated(const MapCase& c, MethodKind method, const std::shared_ptr<Devi
     try
     {
         const Scene scene = scene_for(c, method);
-        if (dispatches > 0 && !c.check) // a check has worlds of its own, and may refuse before a step
-        {
-            const std::size_t each = std::max<std::size_t>(World(scene, device).plan().passes.size(), 1);
-            steps = std::min(steps, hashed_up_to(static_cast<int>(dispatches / each)));
-        }
+        if (dispatches > 0)
+            steps = steps_within(dispatches, c, method, device, steps);
         if (c.check && steps == steps_of(c))
             out.own = c.check(scene, device, steps).list;
         run_scene(c, scene, device, steps, false, out);

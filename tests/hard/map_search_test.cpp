@@ -69,4 +69,23 @@ TEST_CASE("search for settings at which cells of the map pass", "[.search]")
     CHECK(!table.empty());
 }
 
+TEST_CASE("count the cells that run whole on Vulkan", "[.whole]")
+{
+    const std::shared_ptr<Device> device = open_test_device("vulkan");
+    std::size_t runs = 0, whole = 0;
+    for (const MapCase& c : map_cases())
+        for (std::size_t m = 0; m < kWords<MethodKind>.size(); ++m)
+            try
+            {
+                const int steps =
+                    steps_within(kDispatchesElsewhere, c, static_cast<MethodKind>(m), device, c.steps);
+                ++runs;
+                whole += steps == c.steps;
+            }
+            catch (const Error&)
+            {}
+    std::cout << whole << " of " << runs << " cells\n";
+    CHECK(runs > 0);
+}
+
 } // namespace taut::hard

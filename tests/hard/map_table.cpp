@@ -15,7 +15,7 @@ namespace taut::hard {
 namespace {
 
 constexpr const char* kHead = "case,what,method,verdict,criterion,number,limit,energy,inverted,volume,"
-                              "effort,cost";
+                              "effort,cost,also";
 constexpr const char* kBegin = "<!-- map -->\n";
 constexpr const char* kEnd = "\n<!-- end -->";
 
@@ -60,12 +60,39 @@ bool near(const std::optional<double>& a, const std::optional<double>& b, double
 {
     if (!a || !b)
         return a.has_value() == b.has_value();
-    if (*a == *b || (std::abs(*a) <= floor && std::abs(*b) <= floor))
+    if (*a == *b || (std::isnan(*a) && std::isnan(*b)) || (std::abs(*a) <= floor && std::abs(*b) <= floor))
         return true;
     // A number beside one within the floor is measured from the floor, so that nothing jumps at its edge.
     const double x = std::max(std::abs(*a), floor), y = std::max(std::abs(*b), floor);
     return (*a < 0) == (*b < 0) ? std::max(x, y) <= kFactor * std::min(x, y)
                                 : std::max(std::abs(*a), std::abs(*b)) <= kFactor * floor;
+}
+
+struct Missed
+{
+    std::string criterion;
+    std::optional<double> number;
+};
+
+/// What `text` (Row::also) lists.
+std::vector<Missed> missed_of(const std::string& text)
+{
+    std::vector<Missed> out;
+    std::istringstream list(text);
+    for (std::string part; std::getline(list >> std::ws, part, ';');)
+    {
+        const std::size_t blank = part.rfind(' ');
+        out.push_back({part.substr(0, blank), number_of(part.substr(blank + 1))});
+    }
+    return out;
+}
+
+/// What is missed besides is the same, by no more than the factor.
+bool same_missed(const std::string& was, const std::string& is)
+{
+    return std::ranges::equal(missed_of(was), missed_of(is), [](const Missed& a, const Missed& b) {
+        return a.criterion == b.criterion && near(a.number, b.number, 0);
+    });
 }
 
 std::string page_text()
@@ -82,7 +109,7 @@ std::string cell_of(const Row& row)
     if (row.verdict == "pass" || row.verdict == "runs")
         return row.verdict + " " + shown(*row.number, 3) + at;
     return row.verdict + at + ": " + row.criterion + " " + shown(*row.number, 3) + ", limit " +
-           shown(*row.limit, 3);
+           shown(*row.limit, 3) + (row.also.empty() ? "" : "; also " + row.also);
 }
 
 /// How many cells of each method begin with each word.
@@ -127,6 +154,7 @@ Row row_of(const MapCase& c, MethodKind method, const Outcome& outcome)
             {},
             {},
             {},
+            {},
             {}};
     if (const auto more = c.effort.find(method); more != c.effort.end())
     {
@@ -142,6 +170,8 @@ Row row_of(const MapCase& c, MethodKind method, const Outcome& outcome)
     row.energy = outcome.energy;
     row.inverted = outcome.inverted;
     row.volume = outcome.volume;
+    for (const Measured& m : outcome.also_missed())
+        row.also += (row.also.empty() ? "" : "; ") + m.what + " " + digits(m.value);
     return row;
 }
 
@@ -163,6 +193,8 @@ std::string difference(const Row& committed, const Row& now)
                     : "limit " + digits(committed.limit) + " is now " + digits(now.limit) + "; ");
     // Of the energy and the volume the floors are those of the usual limits (MapCase), whatever the case's.
     const MapCase usual;
+    if (!same_missed(committed.also, now.also))
+        text += "also missed: \"" + committed.also + "\" is now \"" + now.also + "\"; ";
     if (committed.effort != now.effort)
         text += "effort \"" + committed.effort + "\" is now \"" + now.effort + "\"; ";
     return text + differs("energy", committed.energy, now.energy, kFloor * usual.most_energy) +
@@ -185,10 +217,10 @@ std::vector<Row> read_table(const std::filesystem::path& path)
     while (std::getline(file, line))
     {
         const std::vector<std::string> f = fields_of(line);
-        if (f.size() != 12)
-            throw std::runtime_error(path.string() + ": twelve fields, not: " + line);
+        if (f.size() != 13)
+            throw std::runtime_error(path.string() + ": thirteen fields, not: " + line);
         rows.push_back({f[0], f[1], f[2], f[3], f[4], number_of(f[5]), number_of(f[6]), number_of(f[7]),
-                        number_of(f[8]), number_of(f[9]), f[10], number_of(f[11])});
+                        number_of(f[8]), number_of(f[9]), f[10], number_of(f[11]), f[12]});
     }
     return rows;
 }
@@ -200,7 +232,7 @@ void write_table(const std::filesystem::path& path, const std::vector<Row>& rows
         text += quoted(r.id) + ',' + quoted(r.what) + ',' + r.method + ',' + r.verdict + ',' +
                 quoted(r.criterion) + ',' + digits(r.number) + ',' + digits(r.limit) + ',' +
                 digits(r.energy) + ',' + digits(r.inverted) + ',' + digits(r.volume) + ',' +
-                quoted(r.effort) + ',' + digits(r.cost) + '\n';
+                quoted(r.effort) + ',' + digits(r.cost) + ',' + quoted(r.also) + '\n';
     write_file(path.string(), text);
 }
 

@@ -19,6 +19,7 @@ struct Row
     std::optional<double> energy, inverted, volume; ///< MapCase::most_energy; where the run was looked at
     std::string effort;         ///< Effort::text()
     std::optional<double> cost; ///< Effort::cost(); none at the map's own settings
+    std::string also = {};      ///< what the case asks and is missed besides: "criterion number; ..."
 
     bool same_cell(const Row& other) const
     {

@@ -92,19 +92,21 @@ std::vector<Row> merged(const std::vector<Row>& old)
                             [&](const MapCase& c) { return c.id == row.id && c.what == row.what; }) &&
                (only_id() ? row.id != only_id() : row.id == kDataCase);
     };
-    bool placed = false;
-    const auto place = [&] {
-        for (const Cell& cell : all_cells())
-            rows.push_back(row_of(*cell.hard_case, cell.method, cell.outcome));
-        placed = true;
-    };
-    for (const Row& row : old)
-        if (kept(row))
+    std::vector<Row> fresh;
+    for (const Cell& cell : all_cells())
+        fresh.push_back(row_of(*cell.hard_case, cell.method, cell.outcome));
+    for (const Row& row : only_id() ? old : fresh) // one case goes back to where it stood
+    {
+        const auto now = std::ranges::find_if(fresh, [&](const Row& r) { return r.same_cell(row); });
+        if (now != fresh.end())
+            rows.push_back(*now);
+        else if (kept(row))
             rows.push_back(row);
-        else if (!placed) // one case goes back to where it stood
-            place();
-    if (!placed)
-        place();
+    }
+    for (const Row& row : only_id() ? fresh : old) // new rows, or those whose data is not here
+        if (std::ranges::none_of(rows, [&](const Row& r) { return r.same_cell(row); }) &&
+            (only_id() || kept(row)))
+            rows.push_back(row);
     return rows;
 }
 
