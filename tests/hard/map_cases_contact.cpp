@@ -279,7 +279,7 @@ void add_real(std::vector<MapCase>& out)
             if (x[v].y >= high / (high - low) - 0.05)
                 top.push_back(v);
         resolved.bodies[0].pins = {hold(top)};
-        // The largest stretch after 20 steps: mass_spring, implicit_euler and vbd agree on it within a sixth.
+        // The largest stretch after 20 steps: mass_spring and implicit_euler agree on it within a fifth.
         const double right = std::string(file).starts_with("elephant") ? 0.65 : 0.13;
         // 2,798 and 15,656 vertices: a third of what the map costs, so a short run takes three steps.
         out.push_back(

@@ -236,7 +236,7 @@ void add_constrained(std::vector<MapCase>& out)
                    s,
                    100,
                    {},
-                   only(MethodKind::xpbd) | only(MethodKind::vbd) | only(MethodKind::implicit_euler),
+                   0,
                    {},
                    0,
                    redundant});
