@@ -8,8 +8,7 @@
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
-#include "taut/scene/fabric_mesh.hpp"
-#include "taut/scene/locking.hpp"
+#include "taut/scene/mesh_issues.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
 #include "taut/world/crossed_start.hpp"
@@ -64,9 +63,7 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         take();
         if (any_error(issues))
             return;
-        for (const SceneIssue& issue : locking_issues(resolved))
-            issues.push_back(issue);
-        for (const SceneIssue& issue : fabric_mesh_issues(resolved))
+        for (const SceneIssue& issue : mesh_issues(resolved))
             issues.push_back(issue);
         for (const SceneIssue& issue : holes_issues(resolved))
             issues.push_back(issue);

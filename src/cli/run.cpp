@@ -18,6 +18,7 @@
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/embedding.hpp"
+#include "taut/scene/mesh_issues.hpp"
 #include "taut/scene/settings.hpp"
 
 #include <algorithm>
@@ -347,9 +348,9 @@ int run(RunCommand options)
 {
     std::vector<SceneIssue> issues;
     Scene scene = resolve_file(options.scene, options.settings, &issues);
-    for (const SceneIssue& unread :
-         unread_keys(scene.method, given_method_keys(options.scene, options.settings)))
-        issues.push_back(unread);
+    for (const auto& more :
+         {unread_keys(scene.method, given_method_keys(options.scene, options.settings)), mesh_issues(scene)})
+        issues.insert(issues.end(), more.begin(), more.end());
     if (options.folder.empty())
         options.folder = fs::path("out") / fs::path(options.scene).stem();
     const InterruptGuard guard; // until the report is written
@@ -375,8 +376,7 @@ void add_run(CLI::App& app, Command& chosen)
     add_costs_option(*command);
     command
         ->add_option("--split", options->simulation.split,
-                     "What --device hybrid divides: bodies (default), or vertices, which also cuts a single "
-                     "cloth")
+                     "What --device hybrid divides: bodies (default), or vertices: a single cloth, too")
         ->check(CLI::IsMember({kSplitBodies, kSplitVertices}));
     command
         ->add_option("--share", options->simulation.share,

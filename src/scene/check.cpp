@@ -78,6 +78,32 @@ void warn_of_odd_gravity(const Scene& scene, const Checker& out)
                                    " m/s^2, the Earth's is 9.81; are lengths of the scene in m?");
 }
 
+/// What a method or a limit keeps shorter does not come to the strain at which it tears.
+void warn_of_whole_cloth(const Scene& scene, const Checker& out)
+{
+    const MethodSettings& method = scene.method;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+        const Material& m = scene.bodies[b].material;
+        std::string why;
+        if (!(m.tear_strain > 0))
+            continue;
+        if (m.strain_limit > 0 && m.strain_limit <= m.tear_strain)
+            why = "strain_limit " + shown(m.strain_limit) + " keeps springs below it";
+        else if (method.type == MethodKind::acad && method.activate_strain <= m.tear_strain)
+            why = "method acad holds springs at activate_strain " + shown(method.activate_strain) +
+                  "; give it more, or take another method";
+        else if (method.type == MethodKind::pbd)
+            why = "method pbd keeps springs as short as its iterations can, whatever pulls; another method "
+                  "tears them by their load";
+        if (!why.empty())
+            out.at("bodies", b)
+                .at("material")
+                .warning("tear_strain",
+                         "is " + shown(m.tear_strain) + ", which cloth may never come to: " + why);
+    }
+}
+
 } // namespace
 
 void check_scene(const Scene& scene, const Checker& out)
@@ -89,6 +115,7 @@ void check_scene(const Scene& scene, const Checker& out)
         out.warning("bodies", "has none; there is nothing to simulate");
     warn_of_odd_gravity(scene, out);
     warn_of_idle_wind(scene, out);
+    warn_of_whole_cloth(scene, out);
     check_groups(scene, out);
     warn_of_idle_kinematic(scene, out);
     warn_of_idle_contact(scene, out);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace taut::scene_file {
 namespace {
@@ -58,6 +59,16 @@ void check_pair(const char* key, const glm::dvec2& pair, const Checker& out)
                            "]; give both warp and weft, or leave it out");
 }
 
+/// Readings in another unit are off by a factor of 10 and more: beyond what cloth has. 0: none was given.
+void warn_of_unit(std::string_view member, const glm::dvec2& pair, double least, double most,
+                  std::string_view unit, const Checker& out)
+{
+    const double low = std::min(pair.x, pair.y), high = std::max(pair.x, pair.y);
+    if ((low > 0 && low < least) || high > most)
+        out.warning(member,
+                    "is [" + shown(pair.x) + ", " + shown(pair.y) + "]; readings are " + std::string(unit));
+}
+
 /// Moduli, and rigidities, come from one place.
 void check_sources(const Fabric& fabric, const Checker& out)
 {
@@ -90,11 +101,10 @@ void check_fabric_bending(const FabricBending& bending, const Checker& out)
 
 void check_kes(const KesReadings& kes, const Checker& out)
 {
-    constexpr double kLeast = 0.5; // %; woven cloth gives by 1 to 30
-    const double least = std::min(kes.extension.x, kes.extension.y);
-    if (least > 0 && least < kLeast)
-        out.warning("extension", "is [" + shown(kes.extension.x) + ", " + shown(kes.extension.y) +
-                                     "] %; readings at 500 gf/cm are percent, 1 to 30 of most cloth");
+    warn_of_unit("extension", kes.extension, 0.5, 100, "% at 500 gf/cm, 1 to 30 of most cloth", out);
+    warn_of_unit("linearity", kes.linearity, 0, 2, "a ratio, 0.7 to 1.1 of most cloth", out);
+    warn_of_unit("shear", kes.shear, 0.02, 20, "gf/(cm degree), 0.2 to 5 of most cloth", out);
+    warn_of_unit("bending", kes.bending, 1e-4, 5, "gf cm^2/cm, 0.01 to 0.5 of most cloth", out);
     check_pair("shear", kes.shear, out);
     check_pair("bending", kes.bending, out);
 }
@@ -102,11 +112,21 @@ void check_kes(const KesReadings& kes, const Checker& out)
 void check_fast(const FastReadings& fast, const Checker& out)
 {
     check_pair("length", fast.length, out);
+    warn_of_unit("length", fast.length, 4, 200, "mm, 10 to 60 of most cloth", out);
     const bool good = fast.extension_20.x > fast.extension_5.x && fast.extension_20.y > fast.extension_5.y;
     if (!good && fast.extension_20.x > 0 && fast.extension_20.y > 0)
         out.error("extension_20", "is [" + shown(fast.extension_20.x) + ", " + shown(fast.extension_20.y) +
                                       "] %; the strain at 20 gf/cm must be above that at 5 gf/cm, [" +
                                       shown(fast.extension_5.x) + ", " + shown(fast.extension_5.y) + "] %");
+}
+
+void check_peirce(const PeirceReadings& peirce, const Checker& out)
+{
+    constexpr double kLeast = 0.4, kMost = 25; // cm; overhangs of cloth are 2 to 12
+    for (const auto& [member, overhang] :
+         {std::pair("warp", peirce.warp), std::pair("weft", peirce.weft), std::pair("bias", peirce.bias)})
+        if (overhang > 0 && (overhang < kLeast || overhang > kMost))
+            out.warning(member, "is " + shown(overhang) + "; overhangs are cm, 2 to 12 of most cloth");
 }
 
 void check_fabric(const Fabric& fabric, const Checker& out)

@@ -93,6 +93,7 @@ void check_fabric(const Fabric& fabric, const Checker& out);
 void check_fabric_bending(const FabricBending& bending, const Checker& out);
 void check_kes(const KesReadings& kes, const Checker& out);
 void check_fast(const FastReadings& fast, const Checker& out);
+void check_peirce(const PeirceReadings& peirce, const Checker& out);
 void check_fabric_beside(const Material& material, const Checker& out);
 void check_fabric_body(const Body& body, const Checker& out);
 void check_solid(const Material& material, const Checker& out);

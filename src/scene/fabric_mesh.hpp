@@ -1,6 +1,6 @@
 #pragma once
 // Whether a mesh, and numbers of the precision that a scene takes, can carry a fabric: warnings of `taut
-// check`.
+// check` and `run`.
 
 #include "taut/scene/scene.hpp"
 

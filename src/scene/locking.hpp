@@ -1,5 +1,6 @@
 #pragma once
-// Which solids have too few tetrahedra across to bend as their material does: warnings of `taut check`.
+// Which solids have too few tetrahedra across to bend as their material does: warnings of `taut check` and
+// `run`.
 
 #include "taut/scene/scene.hpp"
 

@@ -84,6 +84,6 @@ constinit const TableOf<KesReadings> kKesTable =
 constinit const TableOf<FastReadings> kFastTable =
     TableOf<FastReadings>("fast", kFast).begins<begin_fast>().checks<check_fast>();
 constinit const TableOf<PeirceReadings> kPeirceTable =
-    TableOf<PeirceReadings>("peirce", kPeirce).begins<begin_peirce>();
+    TableOf<PeirceReadings>("peirce", kPeirce).begins<begin_peirce>().checks<check_peirce>();
 
 } // namespace taut::scene_file

@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 
 #include <sstream>
+#include <vector>
 
 using program::Folder;
 using program::Result;
@@ -51,6 +52,24 @@ TEST_CASE("run says what memory the scene takes, in its text and in its report")
     REQUIRE(at != std::string::npos);
     CHECK(1024 * std::stod(text.out.substr(at + 9)) == Approx(buffers).epsilon(0.01));
     CHECK(text.out.find(" KiB in buffers, ", at) != std::string::npos);
+}
+
+TEST_CASE("a run says what check says of meshes that cannot carry their material")
+{
+    const Folder folder;
+    const std::string scene = folder.file("coarse.json", R"({"taut": 1, "bodies": [
+        {"box": {"cells": [2, 1, 1], "size": [0.2, 0.1, 0.1]}, "material": {"youngs_modulus": 1e6}},
+        {"grid": {"cells": [4, 4]}, "transform": {"translate": [0, 0, 2]},
+         "material": {"fabric": {"warp": 2e9, "weft": 1e9, "shear": 1e8}}}]})");
+    std::vector<std::string> warned;
+    const auto check = program::parse(folder.taut({"check", scene, "--json"}).out);
+    for (const auto& issue : check["issues"])
+        warned.push_back(issue["field"].get<std::string>() + ": " + issue["text"].get<std::string>());
+    REQUIRE(warned.size() == 2);
+    const Result run =
+        folder.taut({"run", scene, "--device", "cpu:serial", "--frames", "1", "--no-picture", "--json"});
+    INFO(run.err);
+    CHECK(program::parse(run.out)["messages"].get<std::vector<std::string>>() == warned);
 }
 
 } // namespace

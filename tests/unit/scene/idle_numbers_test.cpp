@@ -66,19 +66,68 @@ TEST_CASE("a gravity and readings in other units are warned of", "[scene]")
     CHECK(!check(scene)[0].error);
     CHECK(check(scene)[0].field == "gravity");
     CHECK_THAT(check(scene)[0].text, Contains("981 m/s^2") && Contains("in m"));
+}
 
-    const auto warned = [](double extension) {
+TEST_CASE("readings in other units are warned of", "[scene][fabric]")
+{
+    const auto warned = [](const std::string& fabric) {
         const Scene read = parse_scene(R"({"taut": 1, "duration": 1, "bodies": [{"grid": {"cells": [2, 2]},
-            "material": {"fabric": {"kes": {"extension": [)" +
-                                       std::to_string(extension) +
-                                       R"(, 4], "linearity": [0.8, 0.8], "shear": [0.8, 0.8]}}}}]})");
-        std::size_t count = 0;
+            "material": {"fabric": )" + fabric +
+                                       "}}]}");
+        std::string fields;
         for (const SceneIssue& issue : check(read))
-            count += !issue.error && issue.field == "bodies[0].material.fabric.kes.extension" ? 1 : 0;
-        return count;
+            if (!issue.error && issue.text.find("of most cloth") != std::string::npos)
+                fields += (fields.empty() ? "" : " ") + issue.field.substr(issue.field.rfind("fabric."));
+        return fields;
     };
-    CHECK(warned(4) == 0);
-    CHECK(warned(0.04) == 1);
+    const auto kes = [&](const std::string& extension, const std::string& linearity, const std::string& shear,
+                         const std::string& bending) {
+        return warned(R"({"kes": {"extension": )" + extension + R"(, "linearity": )" + linearity +
+                      R"(, "shear": )" + shear + R"(, "bending": )" + bending + "}}");
+    };
+    CHECK(kes("[4, 8]", "[0.8, 0.7]", "[0.8, 0.8]", "[0.1, 0.05]") == "");
+    CHECK(kes("[0.04, 4]", "[0.8, 0.7]", "[0.8, 0.8]", "[0.1, 0.05]") ==
+          "fabric.kes.extension");                                                            // no percent
+    CHECK(kes("[4, 8]", "[80, 70]", "[0.8, 0.8]", "[0.1, 0.05]") == "fabric.kes.linearity");  // percent
+    CHECK(kes("[4, 8]", "[0.8, 0.7]", "[40, 40]", "[0.1, 0.05]") == "fabric.kes.shear");      // N/m
+    CHECK(kes("[4, 8]", "[0.8, 0.7]", "[0.8, 0.8]", "[1e-5, 5e-6]") == "fabric.kes.bending"); // N m
+    const std::string moduli = R"({"warp": 1000, "weft": 1000, "shear": 30, "peirce": )";
+    CHECK(warned(moduli + R"({"warp": 4, "weft": 3}})") == "");
+    CHECK(warned(moduli + R"({"warp": 40, "weft": 30}})") == "fabric.peirce.warp fabric.peirce.weft"); // mm
+    CHECK(warned(moduli + R"({"warp": 0.04, "weft": 4, "bias": 3}})") == "fabric.peirce.warp");        // m
+    const std::string fast =
+        R"({"fast": {"extension_5": [0.5, 1], "extension_20": [1.5, 3], "bias_5": 3, "length": )";
+    CHECK(warned(fast + "[18, 15]}}") == "");
+    CHECK(warned(fast + "[1.8, 1.5]}}") == "fabric.fast.length"); // cm
+}
+
+TEST_CASE("cloth that cannot come to the strain at which it tears is warned of", "[scene]")
+{
+    Scene scene = with_body(ShapeKind::grid);
+    Material& material = scene.bodies[0].material;
+    const auto says = [&](const std::string& why) {
+        const auto issues = check(scene);
+        if (issues.empty())
+            return why.empty();
+        return issues.size() == 1 && !issues[0].error && !why.empty() &&
+               issues[0].field == "bodies[0].material.tear_strain" &&
+               issues[0].text.find(why) != std::string::npos;
+    };
+    material.tear_strain = 0.15;
+    CHECK(says(""));
+    scene.method.type = MethodKind::pbd;
+    CHECK(says("method pbd"));
+    scene.method.type = MethodKind::acad;
+    CHECK(says("activate_strain 0.05"));
+    scene.method.activate_strain = 0.2;
+    CHECK(says(""));
+    material.strain_limit = 0.1;
+    CHECK(says("strain_limit 0.1"));
+    material.strain_limit = 0.3;
+    CHECK(says(""));
+    material.tear_strain = 0;
+    material.strain_limit = 0.1;
+    CHECK(says(""));
 }
 
 TEST_CASE("the stiffness of edges beside a network of springs is warned of", "[scene]")
