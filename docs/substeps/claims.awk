@@ -37,8 +37,21 @@ function claims_of_stretch(    i, row, own, ten, gas, ratio)
                 ratio = v("stretch", row, "stretch") / v("stretch", row, "stretch with 300")
         }
     }
-    claim("at most 2.80 % with the substeps that are taken and by up to 15.0 % with a third of them", about(own, "2.80") && about(ten, "15.0"))
+    claim("at most 1.68 % with the substeps that are taken and by up to 15.0 % with 14", about(own, "1.68") && about(ten, "15.0"))
     claim("balls with a gas of 300 to 1,000 Pa by at most 1.22 times what 300 substeps leave", gas == 3 && about(ratio, "1.22"))
+}
+
+# What hangs off the grain, over what is right.
+function longer(row, column) { return v("grain", row, column) / v("grain", row, "right") }
+function claims_of_grain(    i, row, own, few)
+{
+    for (i = 1; i <= rows["grain"]; ++i) {
+        row = row_name["grain", i]
+        if (longer(row, "longer with these, mm") > own) own = longer(row, "longer with these, mm")
+        if (longer(row, "with 38") > few) few = longer(row, "with 38")
+    }
+    claim("at most 34 % too long with the substeps that are taken, and up to 3.5 times as long as is right with 38",
+          about(100 * own - 100, "34") && about(few, "3.5"))
 }
 
 # How far a column of "asked" is from what is right, per cent.
@@ -118,6 +131,7 @@ function claims(    edge)
 {
     claims_of_held()
     claims_of_stretch()
+    claims_of_grain()
     claims_of_asked()
     claims_of_drawn()
     claims_of_solids()

@@ -159,4 +159,15 @@ void add_membrane(Body& body, const Checker& out)
     body.elements.push_back(std::move(list));
 }
 
+double membrane_share(const Body& body)
+{
+    constexpr double kShare = 1.0 / 9, kLeast = 1.0 / 144, kYarnOverShear = 10;
+    const auto is_membrane = [](const Body::Elements& e) { return e.kind == kMembrane; };
+    if (std::none_of(body.elements.begin(), body.elements.end(), is_membrane))
+        return 1;
+    const Fabric& fabric = body.material.fabric;
+    const double ratio = fabric.used ? std::max(fabric.warp, fabric.weft) / shear_modulus(fabric) : 1;
+    return std::max(kShare * std::min(1.0, kYarnOverShear / ratio), kLeast);
+}
+
 } // namespace taut::scene_file

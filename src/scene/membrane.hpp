@@ -26,4 +26,10 @@ void add_membrane(Body& body, const Checker& out);
 /// at rest.
 std::vector<glm::dvec3> warp_directions(const Body& body);
 
+/// Of the strain that sweeps over constraints may leave of springs, what they may leave of a body's
+/// membranes, of which each corner hangs from several triangles at once: a ninth, and 10 times shear over
+/// yarn of that where yarns are stiffer; 1/144 at least. Without that the noise that yarns make in shear
+/// never dies down (docs/methods.md). 1 of bodies without membranes.
+double membrane_share(const Body& resolved);
+
 } // namespace taut::scene_file

@@ -13,7 +13,7 @@
 //   contacts come after the solve. Cloth and chains that begin beside their pins swing: a pendulum let go at
 //   an angle a from the plumb pulls with 3 - 2 cos a times its weight where it passes below. Under vbd a
 //   sweep carries what happened at a vertex over about one edge: held bodies take as many as their waves
-//   need. Membranes, of which each corner hangs from several triangles at once, get a ninth of the strain. A
+//   need. Membranes get the part of the strain that membrane_share() says. A
 //   gas of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
 //   one constraint (the tension of a sphere is p r / 2); one that draws in presses edges together, which
 //   buckle where they act softer by (c h / edge)^2. What a sweep leaves of a plastic body flows like strain.
@@ -39,7 +39,6 @@ namespace taut {
 namespace {
 
 constexpr double kSofter = 0.2;
-constexpr double kMembraneShare = 1.0 / 9; ///< of kSweepStrain
 constexpr double kShortArm = 0.05;         ///< of a body's size: nearer to its pins it does not swing
 constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is within 41 degrees of the plumb
 constexpr double kPressed = 1e-4; ///< strain of edges that are pressed together: less buckles nothing
@@ -224,10 +223,8 @@ double longest_for_push(const Scene& scene, const Body& body, const SweepLoad& l
     const double pull = spanned ? 1 : swing_pull(body, push / g);
     const double open = 2 * std::max(load.vertices, 1.0) * pull * g; // m/s^2: see "Based on"
     const bool sweeps = scene.method.type != MethodKind::vbd; // whose steps at a vertex see all its triangles
-    const auto is_membrane = [](const Body::Elements& e) { return e.kind == scene_file::kMembrane; };
-    const bool membrane = std::any_of(body.elements.begin(), body.elements.end(), is_membrane);
     const double sag = spanned && sweeps ? 8.0 / 3 * kSeenWay * kSeenWay : 1;
-    const double strain = std::min(kSweepStrain * (membrane && sweeps ? kMembraneShare : 1), sag);
+    const double strain = std::min(kSweepStrain * (sweeps ? scene_file::membrane_share(body) : 1), sag);
     return std::sqrt(strain * load.edge / open);
 }
 
