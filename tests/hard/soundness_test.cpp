@@ -318,7 +318,8 @@ Verdict verdict_of(int k, const std::shared_ptr<Device>& device)
         std::ostringstream line;
         line << "case " << k << " | " << to_string(scene.method.type) << " | " << out.truth << " | "
              << out.word << " | kinetic energy a kg " << shown(run.most, 3) << " of "
-             << shown(solution.most, 3) << ", load residual " << shown(run.report.load_residual, 3)
+             << shown(solution.most, 3) << ", judged " << shown(run.report.judged_energy, 3) << " J of "
+             << shown(run.report.energy_most, 3) << ", load residual " << shown(run.report.load_residual, 3)
              << ", strain " << shown(run.strain, 3) << " of " << shown(solution.strain, 3) << " | "
              << run.report.reason;
         out.line = line.str();
