@@ -165,8 +165,7 @@ void add_constraints(std::vector<MapCase>& out)
                    kOwnStiffness | kHoldsThreshold});
     // All springs ten times their length, at most, and what the drag throws.
     out.back().work = [](const Journey& j) { return 0.5 * 1000 * 100 * 3 + pushed_by(10)(j); };
-    // The diagonal between the two corners must be 8.9 % longer; without the limit a spring stretches by 14
-    // %.
+    // The diagonal between the corners must be 8.9 % longer; without the limit a spring stretches by 14 %.
     out.push_back({"F13", "a corner drawn out by 16 cm, strain limit of 10 %", pulled_corner(0.16, 0.1), 60,
                    [](const Journey& j) { return above("stretch", j.last.max_stretch, 0.12); },
                    kOwnStiffness | kHoldsThreshold});

@@ -75,7 +75,7 @@ Findings let_go(const Scene& scene, const std::shared_ptr<Device>& device, int s
     World rest(held, device);
     const double high = centre(rest).y;
     run(rest, 2 * steps);
-    const double sunk = high - centre(rest).y; // what holds nothing falls by 20 m
+    const double sunk = high - centre(rest).y; // what holds nothing falls by 11 m
     free.bodies[0].pins.clear();
     free.bodies[0].start_positions = rest.positions();
     World world(free, device);
@@ -214,8 +214,7 @@ Findings redundant(const Scene& scene, const std::shared_ptr<Device>& device, in
     run(both, steps);
     run(one, steps);
     // Sweeps that have not converged turn a stiff tetrahedron about its pin too slowly, each of the two by
-    // its own much: within its edge of a metre (vbd: 0.51 m with 4 sweeps, 0.018 with 20, 9e-6 with 100 in
-    // double).
+    // its own much: map_effort.cpp says how many do.
     return each_of(above("difference", largest_distance(both.positions(), one.positions()), 1e-4),
                    above("volume", std::abs(measure(both).volume.ratio - 1), 1e-3));
 }
