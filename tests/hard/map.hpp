@@ -27,6 +27,8 @@ struct Journey
     double volume = 0;         ///< largest |V/V0 - 1|
     double lowest_centre = 0;  ///< m, lowest place of the mean of all vertices along y
     double thinnest = HUGE_VAL;               ///< m, least extent of all vertices along y
+    double farthest = 0;                      ///< m, way of a vertex that no pin holds from where it started
+    std::vector<bool> held = {};              ///< by a pin, by vertex
     std::map<int, std::uint64_t> hashes = {}; ///< of the positions after so many steps (kHashed)
 };
 

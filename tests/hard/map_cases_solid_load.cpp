@@ -216,7 +216,8 @@ Findings redundant(const Scene& scene, const std::shared_ptr<Device>& device, in
     // Sweeps that have not converged turn a stiff tetrahedron about its pin too slowly, each of the two by
     // its own much: map_effort.cpp says how many do.
     return each_of(above("difference", largest_distance(both.positions(), one.positions()), 1e-4),
-                   above("volume", std::abs(measure(both).volume.ratio - 1), 1e-3));
+                   above("volume", std::abs(measure(both).volume.ratio - 1), 1e-3),
+                   above("distortion", distortion(scene, both.positions()), 1e-3));
 }
 
 void add_constrained(std::vector<MapCase>& out)

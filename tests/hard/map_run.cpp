@@ -34,6 +34,8 @@ void look(const World& world, Journey& out)
         const auto [low, high] = std::ranges::minmax(x, {}, &glm::dvec3::y);
         out.lowest_centre = std::min(out.lowest_centre, mean(x).y);
         out.thinnest = std::min(out.thinnest, high.y - low.y);
+        for (std::size_t v = 0; v < std::min(x.size(), out.held.size()); ++v)
+            out.farthest = std::max(out.farthest, out.held[v] ? 0 : glm::distance(x[v], out.start[v]));
     }
     out.hashes[static_cast<int>(world.steps())] = report.position_hash;
     out.last = report;
@@ -104,6 +106,7 @@ void run_scene(const MapCase& c, const Scene& scene, const std::shared_ptr<Devic
     World world(scene, device);
     Journey journey{world, world.positions(), measure(world), {}};
     journey.scale = energy_scale(world, journey.first);
+    journey.held = make_model(scene).pinned;
     journey.highest_energy = energy(journey.first);
     const int every = steps > 5000 ? 1000 : 10;
     SoundnessWatch watch(static_cast<std::uint64_t>(steps));

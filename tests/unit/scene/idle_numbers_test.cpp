@@ -91,6 +91,8 @@ TEST_CASE("readings in other units are warned of", "[scene][fabric]")
     CHECK(kes("[4, 8]", "[80, 70]", "[0.8, 0.8]", "[0.1, 0.05]") == "fabric.kes.linearity");  // percent
     CHECK(kes("[4, 8]", "[0.8, 0.7]", "[40, 40]", "[0.1, 0.05]") == "fabric.kes.shear");      // N/m
     CHECK(kes("[4, 8]", "[0.8, 0.7]", "[0.8, 0.8]", "[1e-5, 5e-6]") == "fabric.kes.bending"); // N m
+    CHECK(kes("[400, 8]", "[0.8, 0.7]", "[0.003, 0.8]", "[0.1, 50]") ==
+          "fabric.kes.extension fabric.kes.shear fabric.kes.bending");
     const std::string moduli = R"({"warp": 1000, "weft": 1000, "shear": 30, "peirce": )";
     CHECK(warned(moduli + R"({"warp": 4, "weft": 3}})") == "");
     CHECK(warned(moduli + R"({"warp": 40, "weft": 30}})") == "fabric.peirce.warp fabric.peirce.weft"); // mm
@@ -99,6 +101,7 @@ TEST_CASE("readings in other units are warned of", "[scene][fabric]")
         R"({"fast": {"extension_5": [0.5, 1], "extension_20": [1.5, 3], "bias_5": 3, "length": )";
     CHECK(warned(fast + "[18, 15]}}") == "");
     CHECK(warned(fast + "[1.8, 1.5]}}") == "fabric.fast.length"); // cm
+    CHECK(warned(fast + "[18, 300]}}") == "fabric.fast.length");
 }
 
 TEST_CASE("cloth that cannot come to the strain at which it tears is warned of", "[scene]")
