@@ -376,7 +376,7 @@ void add_run(CLI::App& app, Command& chosen)
     add_costs_option(*command);
     command
         ->add_option("--split", options->simulation.split,
-                     "What --device hybrid divides: bodies (default), or vertices, of a single cloth too")
+                     "What --device hybrid divides: bodies (default), or vertices, which can cut one cloth")
         ->check(CLI::IsMember({kSplitBodies, kSplitVertices}));
     command
         ->add_option("--share", options->simulation.share,

@@ -2,6 +2,7 @@
 
 #include "refusal.hpp"
 #include "support/catch.hpp"
+#include "support/scenes.hpp"
 
 #include "taut/scene/fabric_presets.hpp"
 #include "taut/scene/scene.hpp"
@@ -143,4 +144,23 @@ TEST_CASE("a preset gives a fabric's moduli and density, and keys beside it chan
         CAPTURE(preset.name);
         CHECK(refusal(text(fabric("\"preset\": \"" + std::string(preset.name) + '"'))) == "nothing");
     }
+}
+
+TEST_CASE("membranes take three times the substeps of springs under xpbd, stiff yarns more", "[substeps]")
+{
+    Scene scene = test::hanging(20);
+    scene.method.type = MethodKind::xpbd;
+    scene.method.substeps = 0;
+    const double springs = resolve(scene).method.substeps;
+    scene.bodies[0].material.stretch_stiffness = 0;
+    Fabric& fabric = scene.bodies[0].material.fabric = {.used = true, .warp = 1000, .weft = 1000};
+    const auto with_shear = [&](double shear) {
+        fabric.shear = shear;
+        return double(resolve(scene).method.substeps);
+    };
+    CHECK(with_shear(100) == Approx(3 * springs).margin(3));
+    CHECK(with_shear(25) == Approx(6 * springs).margin(6));    // by the root of yarn over shear
+    CHECK(with_shear(0.1) == Approx(12 * springs).margin(12)); // and no more than four times
+    fabric.warp = 4000;
+    CHECK(with_shear(100) == Approx(6 * springs).margin(6)); // the stiffer yarn
 }

@@ -3,8 +3,6 @@
 #include "support/sphere.hpp"
 #include "unit/scene/temporary.hpp"
 
-#include "taut/scene/fabric_presets.hpp"
-
 using namespace taut;
 
 TEST_CASE("methods that sweep take the substeps that mesh and weight ask for, others ten", "[substeps]")
@@ -140,24 +138,6 @@ TEST_CASE("plastic cloth that its pins draw takes substeps by its stiffness unde
     CHECK(drawn > 2 * elastic);
     scene.bodies[0].material.stretch_stiffness = 1.6e5;
     CHECK(resolve(scene).method.substeps == Approx(4 * drawn).margin(4)); // as the root of the stiffness
-}
-
-TEST_CASE("membranes take three times the substeps of springs under xpbd, stiff yarns more", "[substeps]")
-{
-    Scene scene = test::hanging(20);
-    scene.method.type = MethodKind::xpbd;
-    scene.method.substeps = 0;
-    const double springs = resolve(scene).method.substeps;
-    scene.bodies[0].material.stretch_stiffness = 0;
-    Fabric& fabric = scene.bodies[0].material.fabric = {.used = true, .warp = 1000, .weft = 1000};
-    const auto with_shear = [&](double shear) {
-        return fabric.shear = shear, double(resolve(scene).method.substeps);
-    };
-    CHECK(with_shear(100) == Approx(3 * springs).margin(3));
-    CHECK(with_shear(25) == Approx(6 * springs).margin(6));    // by the root of yarn over shear
-    CHECK(with_shear(0.1) == Approx(12 * springs).margin(12)); // and no more than four times
-    fabric.warp = 4000;
-    CHECK(with_shear(100) == Approx(6 * springs).margin(6)); // the stiffer yarn
 }
 
 TEST_CASE("a gas asks for substeps, also without gravity", "[substeps]")
