@@ -4,6 +4,7 @@
 #include "hard/cases.hpp"
 #include "support/catch.hpp"
 #include "support/devices.hpp"
+#include "support/mean.hpp"
 
 #include "taut/report/report.hpp"
 #include "taut/world/world.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 constexpr double kHalf = 0.1; ///< of a cube's edge, a ball's radius, m
 
-/// A cube or a ball of nothing thick, whose lowest point is at height 0.
+/// A cube or a ball without thickness, whose lowest point is at height 0.
 Scene one_body(const std::string& method, ShapeKind kind, double youngs_modulus)
 {
     Scene scene;
@@ -58,19 +59,11 @@ Keyframe key(double time, const glm::dvec3& translate)
     return k;
 }
 
-glm::dvec3 mean(const std::vector<glm::dvec3>& values)
-{
-    glm::dvec3 sum(0);
-    for (const glm::dvec3& v : values)
-        sum += v;
-    return sum / static_cast<double>(values.size());
-}
-
 /// Degrees by which places have turned about an axis, in (-180, 180]: the best fit of all.
 double turned(const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& after,
               const glm::dvec3& axis)
 {
-    const glm::dvec3 a = mean(before), b = mean(after);
+    const glm::dvec3 a = test::mean(before), b = test::mean(after);
     double along = 0, across = 0;
     for (std::size_t v = 0; v < before.size(); ++v)
     {
@@ -130,7 +123,7 @@ TEST_CASE("a wall strikes a ball away with no more than twice its speed, seen fr
         scene.colliders[0].motion = {key(0, {0, 0, 0}), key(1, {wall * speed, 0, 0})};
         World world(scene, test_device("cpu:serial"));
         run(world, 0.3);
-        rebound.push_back((mean(world.velocities()).x - wall * speed) / speed);
+        rebound.push_back((test::mean(world.velocities()).x - wall * speed) / speed);
     }
     CAPTURE(rebound);
     CHECK(rebound[0] > 0.2);
@@ -153,10 +146,10 @@ TEST_CASE("a floor that starts to rise throws a cube no higher than its speed ca
     {
         world.step();
         const double floor = speed * std::clamp(world.time() - 0.2, 0.0, 1.0);
-        hop = std::max(hop, mean(world.positions()).y - kHalf - floor);
+        hop = std::max(hop, test::mean(world.positions()).y - kHalf - floor);
     }
     CHECK(hop < speed * speed / (2 * 9.81));
-    CHECK(std::abs(mean(world.positions()).y - kHalf - speed) < 0.01);
+    CHECK(std::abs(test::mean(world.positions()).y - kHalf - speed) < 0.01);
 }
 
 TEST_CASE("a ball thrown along a rough floor rolls", "[carried]")
@@ -168,7 +161,7 @@ TEST_CASE("a ball thrown along a rough floor rolls", "[carried]")
     scene.colliders = {floor_of(1)};
     World world(scene, test_device("cpu:serial"));
     std::vector<glm::dvec3> before = world.positions();
-    const double start = mean(before).x;
+    const double start = test::mean(before).x;
     double angle = 0;
     for (int step = 0; step < 60; ++step)
     {
@@ -178,7 +171,7 @@ TEST_CASE("a ball thrown along a rough floor rolls", "[carried]")
         before = after;
     }
     // 5/7 of its speed, were it rigid; facets and what it loses take the rest.
-    const double way = mean(before).x - start;
+    const double way = test::mean(before).x - start;
     CHECK(way > 0.5);
     CHECK(way < 0.75);
     CHECK(glm::radians(angle) * kHalf == Approx(way).epsilon(0.15));

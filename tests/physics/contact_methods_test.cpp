@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"
+#include "support/mean.hpp"
 #include "support/methods.hpp"
 #include "support/sheets.hpp"
 
@@ -39,14 +40,6 @@ std::string any_method()
 {
     return GENERATE(
         from_range(std::vector<std::string>(kWords<MethodKind>.begin(), kWords<MethodKind>.end())));
-}
-
-glm::dvec3 mean(std::span<const glm::dvec3> values)
-{
-    glm::dvec3 sum(0);
-    for (const glm::dvec3& value : values)
-        sum += value;
-    return sum / static_cast<double>(values.size());
 }
 
 } // namespace
@@ -89,7 +82,7 @@ TEST_CASE("two free sheets that collide keep their momentum, under every method"
     CHECK(after.momentum_error < 1e-5);
     CHECK(after.kinetic_energy < 1.001 * before.kinetic_energy);
     // The lower one was at rest, and nothing else could move it.
-    CHECK(mean(world.velocities(0)).y < -0.05);
+    CHECK(test::mean(world.velocities(0)).y < -0.05);
 }
 
 TEST_CASE("a sheet stays on a slope below the angle of friction and slides above it, under every method")
@@ -106,7 +99,7 @@ TEST_CASE("a sheet stays on a slope below the angle of friction and slides above
     World world(scene, test_device("cpu:serial"));
     for (int step = 0; step < 30; ++step)
         world.step();
-    const double way = mean(world.positions(1)).x, time = world.time();
+    const double way = test::mean(world.positions(1)).x, time = world.time();
     const double slides = 0.5 * 9.81 * (std::sin(slope) - friction * std::cos(slope)) * time * time;
     if (friction > 0.36)
         CHECK(std::abs(way) < 0.001);

@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 #include "support/expect.hpp"
+#include "support/mean.hpp"
 #include "support/nearest.hpp"
 #include "support/sheets.hpp"
 
@@ -63,14 +64,6 @@ double lowest(const std::vector<glm::dvec3>& x)
     for (const glm::dvec3& p : x)
         low = std::min(low, p.y);
     return low;
-}
-
-glm::dvec3 centre_of(const std::vector<glm::dvec3>& x)
-{
-    glm::dvec3 sum(0);
-    for (const glm::dvec3& p : x)
-        sum += p;
-    return sum / static_cast<double>(x.size());
 }
 
 } // namespace
@@ -136,7 +129,7 @@ TEST_CASE("two free sheets that collide keep their momentum, and stay apart")
     CHECK(after.momentum_error < 2e-6);
     CHECK(after.kinetic_energy < before.kinetic_energy);
     // The lower one was at rest, and nothing else could move it.
-    CHECK(centre_of(places_of(world, 0)).y < -0.05 * speed);
+    CHECK(test::mean(places_of(world, 0)).y < -0.05 * speed);
 }
 
 TEST_CASE("a sheet on a tilted one stays below the angle of friction and slides above it as a block does")
@@ -154,12 +147,12 @@ TEST_CASE("a sheet on a tilted one stays below the angle of friction and slides 
     World world(scene, test_device("cpu:serial"));
     for (int step = 0; step < 6; ++step)
         world.step(); // the start has no load
-    const glm::dvec3 from = centre_of(places_of(world, 1));
+    const glm::dvec3 from = test::mean(places_of(world, 1));
     const double t0 = world.time();
     for (int step = 0; step < 12; ++step)
         world.step();
     const double t1 = world.time();
-    const double way = from.z - centre_of(places_of(world, 1)).z;
+    const double way = from.z - test::mean(places_of(world, 1)).z;
     const double pull = std::max(0.0, 9.81 * (std::sin(angle) - friction * std::cos(angle)));
     const double expected = 0.5 * pull * (t1 * t1 - t0 * t0);
     CHECK(std::abs(way - expected) < (pull > 0 ? 0.03 * expected : 1e-4));
@@ -345,5 +338,5 @@ TEST_CASE("the napkin of the example lands on the hammock without a triangle in 
             CHECK(test::intersections(triangles, world.positions()) == 0);
     }
     CHECK(world.contacts().pairs > 2000);
-    CHECK(centre_of(places_of(world, 1)).y > centre_of(places_of(world, 0)).y - 0.1);
+    CHECK(test::mean(places_of(world, 1)).y > test::mean(places_of(world, 0)).y - 0.1);
 }

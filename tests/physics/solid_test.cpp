@@ -2,6 +2,7 @@
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"
+#include "support/mean.hpp"
 
 #include "taut/report/report.hpp"
 #include "taut/world/world.hpp"
@@ -30,20 +31,12 @@ Scene block(const std::string& model, std::uint32_t substeps, std::uint32_t iter
     return resolve(scene);
 }
 
-glm::dvec3 centre_of(const std::vector<glm::dvec3>& x)
-{
-    glm::dvec3 sum(0);
-    for (const glm::dvec3& at : x)
-        sum += at;
-    return sum / static_cast<double>(x.size());
-}
-
 /// Root mean square distance to the rest shape after moving it to the same centre; the starts below do not
 /// turn.
 double shape_error(const Scene& scene, const std::vector<glm::dvec3>& x)
 {
     const auto& rest = scene.bodies[0].mesh.positions;
-    const glm::dvec3 centre = centre_of(x), own = centre_of(rest);
+    const glm::dvec3 centre = test::mean(x), own = test::mean(rest);
     double sum = 0;
     for (std::size_t v = 0; v < x.size(); ++v)
         sum += glm::dot(x[v] - centre - (rest[v] - own), x[v] - centre - (rest[v] - own));
@@ -100,12 +93,12 @@ TEST_CASE("a stretched block let go swings without gaining energy, and its centr
         x.x *= 1.5;
     World world(scene, test_device("cpu:serial"));
     const double before = measure(world).potential_energy;
-    const glm::dvec3 start = centre_of(world.positions());
+    const glm::dvec3 start = test::mean(world.positions());
     for (int frame = 0; frame < 60; ++frame)
     {
         world.step();
         const StepReport report = measure(world);
         CHECK(report.kinetic_energy + report.potential_energy < before * (1 + 1e-3));
-        CHECK(glm::distance(centre_of(world.positions()), start) < 1e-4); // rounding of 1200 substeps
+        CHECK(glm::distance(test::mean(world.positions()), start) < 1e-4); // rounding of 1200 substeps
     }
 }
