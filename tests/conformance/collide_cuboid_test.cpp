@@ -1,6 +1,6 @@
 #include "taut/kernels/collide_cuboid.hpp"
 
-#include "support/turned.hpp"
+#include "support/touch_cuboid.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
@@ -10,108 +10,6 @@ namespace {
 
 template <typename Real>
 using Cuboid = layout::CuboidCollider<Real>;
-
-template <typename Real>
-Cuboid<Real> make_cuboid(const Frame& frame, const glm::dvec3& half, double friction)
-{
-    Cuboid<Real> c{};
-    put_frame<Real>(c, frame);
-    c.half_x = static_cast<Real>(half.x);
-    c.half_y = static_cast<Real>(half.y);
-    c.half_z = static_cast<Real>(half.z);
-    c.friction = static_cast<Real>(friction);
-    return c;
-}
-
-/// Height over the highest of the six faces, and which that is; `lead` over the next pair of faces.
-struct Face
-{
-    glm::dvec3 normal{0};
-    double height = 0, lead = 0, extent = 0;
-};
-
-Face highest_face(const glm::dvec3& p, const glm::dvec3& extent)
-{
-    Face best;
-    best.height = -1e300;
-    for (int k = 0; k < 3; ++k)
-        for (const double side : {1.0, -1.0})
-        {
-            const double height = side * p[k] - extent[k];
-            if (height > best.height)
-            {
-                best.normal = glm::dvec3(0);
-                best.normal[k] = side;
-                best.height = height;
-                best.extent = extent[k];
-            }
-        }
-    best.lead = 1e300;
-    for (int k = 0; k < 3; ++k)
-        if (best.normal[k] == 0)
-            best.lead = std::min(best.lead, best.height - (std::abs(p[k]) - extent[k]));
-    return best;
-}
-
-/// A face that a vertex is at, or a rounding behind, and moves into: it counts as outside of it.
-bool enters_at_once(const Way& way, const glm::dvec3& extent, Face& face, bool& doubtful)
-{
-    int found = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-        const double v = way.e[k] - way.a[k];
-        if (v == 0)
-            continue;
-        const double side = v < 0 ? 1 : -1, height = side * way.a[k] - extent[k];
-        doubtful = doubtful || std::abs(height + 5e-4 * extent[k]) < 5e-6;
-        if (height < -5e-4 * extent[k] || height > 0)
-            continue;
-        if (++found == 1)
-        {
-            face = {};
-            face.normal[k] = side;
-            face.extent = extent[k];
-        }
-    }
-    return found > 0;
-}
-
-/// In the frame of the box: the face by which a vertex enters decides; one that starts inside is told by the
-/// face nearest to where it was.
-template <typename Real>
-Touch touch_cuboid(const std::vector<Cuboid<Real>>& poses, const Contacts<Real>& in, std::uint32_t j,
-                   const glm::dvec3& x, const glm::dvec3& d, double kept)
-{
-    const Cuboid<Real>& c = poses[in.substep * in.colliders + j];
-    const glm::dvec3 half(c.half_x, c.half_y, c.half_z), extent = half + kept;
-    const Way way = way_of(poses, in, j, x, d);
-    const auto outside = [&](double t) { return highest_face(way.at(t), extent).height; };
-    const Face start = highest_face(way.a, extent);
-    Face face = start;
-    bool doubtful = false, touches = start.height <= 0;
-    if (start.height > 0)
-    {
-        double least = 0;
-        const double entry = time_of_entry(outside, least);
-        doubtful = std::abs(least) < 1e-3;
-        touches = entry <= 1;
-        if (touches)
-            face = highest_face(way.at(entry), extent);
-        const double slope = std::abs(glm::dot(face.normal, way.e - way.a));
-        doubtful = doubtful || (touches && face.lead < 1e-3 * (way.length() + slope));
-    }
-    else if (!enters_at_once(way, extent, face, doubtful))
-        doubtful = doubtful || face.lead < 1e-5;
-    doubtful = doubtful || (start.height != 0 && std::abs(start.height) < 1e-6);
-    Touch t;
-    t.normal = way.end.turned(face.normal);
-    t.gap_before = touches ? glm::dot(face.normal, way.a) - face.extent : 0;
-    t.gap = touches ? glm::dot(face.normal, way.e) - face.extent : 0;
-    t.friction = static_cast<double>(c.friction);
-    add_slide(t, way, d);
-    t.size = doubtful ? kAnyFinite : 3 * (way.terms + glm::length(extent));
-    return t;
-}
 
 template <typename Real>
 void check_cuboids(const Contacts<Real>& in, const std::vector<Cuboid<Real>>& poses,
@@ -171,19 +69,7 @@ TEMPLATE_TEST_CASE("vertices end outside every box, swept, and friction takes sl
     auto in = random_contacts<Real>(random, count, colliders, 1.2, speed);
     in.substeps = 4;
     in.substep = count % 4;
-    std::vector<Cuboid<Real>> poses((in.substeps + 1) * colliders);
-    for (std::uint32_t j = 0; j < colliders; ++j)
-    {
-        const bool first = j == 0;
-        const Drift drift = random_drift(random);
-        const glm::dvec3 half(random.uniform(0.1, 0.5), random.uniform(0.1, 0.5), random.uniform(0.1, 0.5));
-        const double friction = random.uniform(0, 1);
-        for (std::uint32_t s = 0; s <= in.substeps; ++s)
-            poses[s * colliders + j] =
-                first ? make_cuboid<Real>({}, {1, 0.5, 0.25}, 0.5)
-                      : make_cuboid<Real>(drift.at(s), half,
-                                          friction);
-    }
+    const auto poses = random_cuboids<Real>(random, in.substeps, colliders);
     plant(in);
     check_cuboids(in, poses, variant, first_iteration, report);
 }

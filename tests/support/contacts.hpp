@@ -36,7 +36,8 @@ struct Touch
     double gap = 0;        ///< the same at its end
     glm::dvec3 shift{0};   ///< of the collider during the substep
     double friction = 0;
-    double size = 0; ///< of the numbers that made the gaps
+    double size = 0;        ///< of the numbers that made the gaps
+    double normal_size = 0; ///< of those that made the normal, of length 1; 0: no rounding
 };
 
 /// The reference's view of one vertex.
