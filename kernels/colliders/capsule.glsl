@@ -13,6 +13,7 @@
 
 #define capsule_record CapsuleCollider
 #define capsule_slide slide_of_turned
+#define capsule_way way_of_turned
 
 /// From the nearest point of the axis to p.
 INLINE rvec3 off_axis(rvec3 p, real half_length)

@@ -11,6 +11,7 @@
 
 #define cuboid_record CuboidCollider
 #define cuboid_slide slide_of_turned
+#define cuboid_way way_of_turned
 
 /// When a coordinate comes in through the face that it moves towards, from beyond that face or from a
 /// rounding behind it (where it lies at rest as often as before it); -1 = not through this pair of faces.

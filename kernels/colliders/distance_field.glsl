@@ -16,6 +16,7 @@
 
 #define distance_field_record DistanceFieldCollider
 #define distance_field_slide slide_of_turned
+#define distance_field_way way_of_turned
 
 /// A coordinate in cells, moved into the grid. What is not a number becomes 0, so no index leaves `values`.
 real into_grid(real at, uint points)

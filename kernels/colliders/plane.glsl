@@ -24,3 +24,5 @@ INLINE rvec3 plane_slide(Contact met, rvec3 d)
 {
     return along_surface(met.normal, d) - along_surface(met.normal, met.motion);
 }
+
+INLINE rvec3 plane_way(Contact met, rvec3 d) { return d - met.motion; }

@@ -45,6 +45,8 @@ INLINE rvec3 sphere_slide(Contact met, rvec3 d)
     return along_surface(met.normal, d - met.motion);
 }
 
+INLINE rvec3 sphere_way(Contact met, rvec3 d) { return d - met.motion; }
+
 #if COLLIDER_MEETS_FACES
 #include "shared/face.glsl"
 

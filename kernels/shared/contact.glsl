@@ -13,6 +13,7 @@
 //   cuboid_contact(record, next, x, d, kept)  what the vertex at x meets that goes by d; of a shape "once",
 //   plane_contact(record, substep, substeps, x, d, kept)
 //   cuboid_slide(contact, d)                  what is left of the way along the surface, once pushed out, m
+//   cuboid_way(contact, d)                    the vertex' way as seen from the surface, m
 // under the names OF_COLLIDER(record) and so on.
 //
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014, section 6.1, with

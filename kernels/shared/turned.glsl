@@ -17,4 +17,6 @@ INLINE rvec3 slide_of_turned(Contact met, rvec3 d)
     return along_surface(met.normal, met.motion);
 }
 
+INLINE rvec3 way_of_turned(Contact met, rvec3 d) { return met.motion; }
+
 #endif

@@ -8,6 +8,7 @@
 // Bytes per row: 4 + 48 read (float).
 #include "shared/portable.glsl"
 #include "shared/body_parts.h"
+#include "shared/body_sums.glsl"
 
 PARAMS
 {
@@ -57,13 +58,7 @@ GROUP_KERNEL(64)
         sum[at + 10u + uint(c)] = mixed[c];
     }
     PHASE_END
-    for (uint width = 32u; width > 0u; width /= 2u)
-    {
-        LANES_BEGIN(width)
-        for (uint k = 0u; k < TAUT_MOMENTUM_SUMS; ++k)
-            sum[TAUT_MOMENTUM_SUMS * lane + k] += sum[TAUT_MOMENTUM_SUMS * (lane + width) + k];
-        LANES_END
-    }
+    SUM_BODY_LANES(TAUT_MOMENTUM_SUMS)
     LANES_BEGIN(TAUT_MOMENTUM_SUMS)
     if (group < groups)
         sums[TAUT_MOMENTUM_SUMS * mine + lane] = sum[lane];

@@ -11,6 +11,7 @@
 // Bytes per row: 4 + 48 read, 16 written (float).
 #include "shared/portable.glsl"
 #include "shared/body_parts.h"
+#include "shared/body_sums.glsl"
 #include "shared/layouts.h"
 #include "shared/rigid_turn.glsl"
 
@@ -38,19 +39,12 @@ GROUP_KERNEL(64)
     PHASE_BEGIN
     if (lane < 3u)
         sum[832u + lane] = owed[first][lane];
-    for (uint k = 0u; k < TAUT_MOMENTUM_SUMS; ++k)
-        sum[TAUT_MOMENTUM_SUMS * lane + k] = real(0);
+    CLEAR_BODY_SUM(TAUT_MOMENTUM_SUMS)
     for (uint j = row[own + 3u] + lane; j < row[own + 4u]; j += 64u)
         for (uint k = 0u; k < TAUT_MOMENTUM_SUMS; ++k)
             sum[TAUT_MOMENTUM_SUMS * lane + k] += sums[TAUT_MOMENTUM_SUMS * j + k];
     PHASE_END
-    for (uint width = 32u; width > 0u; width /= 2u)
-    {
-        LANES_BEGIN(width)
-        for (uint k = 0u; k < TAUT_MOMENTUM_SUMS; ++k)
-            sum[TAUT_MOMENTUM_SUMS * lane + k] += sum[TAUT_MOMENTUM_SUMS * (lane + width) + k];
-        LANES_END
-    }
+    SUM_BODY_LANES(TAUT_MOMENTUM_SUMS)
     real h = step_values[0].substep;
     PRECISE rvec3 lack = rvec3(sum[1], sum[2], sum[3]) / sum[0] + rvec3(sum[832], sum[833], sum[834]) * h;
     PRECISE rvec3 centre = rvec3(sum[4], sum[5], sum[6]) / sum[0];

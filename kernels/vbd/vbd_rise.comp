@@ -14,6 +14,7 @@
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
 #include "shared/body_parts.h"
+#include "shared/body_sums.glsl"
 #include "shared/vbd_parts.h"
 #if HINGES
 #include "shared/hinge.glsl"
@@ -28,6 +29,7 @@ PARAMS
     uint groups;
     uint ended; // 0: of the start, by the incremental potential; 1: after the sweeps, by kinetic energy
     uint table; // where in `row` the groups stand: TAUT_BODY_PART words each, behind the last one their rows
+    uint frame; // where in `sums` the frames of vbd_frame are; 0 = none
 };
 
 READ(0, uint, row);        // as in vbd_solve
@@ -45,6 +47,7 @@ READ(7, BendingConstraint, corner);
 #endif
 #endif
 #include "shared/vbd_rows.glsl"
+#include "shared/vbd_frame.glsl"
 
 SHARED(real, sum, 640);
 
@@ -183,25 +186,30 @@ real elements_rise(uint k, uint v, real inverse_substep)
     return rise;
 }
 
-/// Adds to the ten sums of a lane what a row brings. first: the row that the body's groups share.
-void add_row(uint k, uint first, uint lane, bool held)
+/// Adds to the ten sums of a lane what a row brings. first: the row that the body's groups share; at_frame:
+/// the frame of what carries the body, 0 = nothing does.
+void add_row(uint k, uint first, uint lane, bool held, uint at_frame)
 {
     uint v = row_word(k, 0u);
     rvec4 y = predicted[v];
     rvec3 fall = rvec3(real(0));
     if (ended != 0u)
-        fall = rvec3(sums[TAUT_VBD_SUMS * groups], sums[TAUT_VBD_SUMS * groups + 1u],
-                     sums[TAUT_VBD_SUMS * groups + 2u]);
-    rvec3 way = rvec3(delta[v] - low[v]);
-    rvec3 came = rvec3(y - low[v]) - fall;
+        fall = rvec3(sums[TAUT_VBD_PARTS * groups], sums[TAUT_VBD_PARTS * groups + 1u],
+                     sums[TAUT_VBD_PARTS * groups + 2u]);
+    rvec3 frame_way = rvec3(real(0));
+    if (at_frame != 0u)
+        frame_way = carried_way(at_frame, rvec3(position[v] - position[first]));
+    rvec3 way = rvec3(delta[v] - low[v]) - frame_way;
+    rvec3 came = (rvec3(y - low[v]) - fall) - frame_way;
+    bool seen_from_rest = held || at_frame != 0u;
     rvec3 moved = way;
     rvec3 guess = came;
-    if (!held)
+    if (!seen_from_rest)
     {
         moved -= rvec3(delta[first] - low[first]);
         guess -= ended != 0u ? rvec3(predicted[first] - low[first]) - fall : rvec3(delta[first] - low[first]);
     }
-    real work = held ? dot(fall, way) : real(0);
+    real work = seen_from_rest ? dot(fall, way) : real(0);
     real own = ended != 0u ? -work : real(0.5) * dot(moved, rvec3(delta[v] - y) - guess);
     uint at = 10u * lane;
     sum[at] += y.w * own + elements_rise(k, v, sqrt(y.w * position[v].w));
@@ -222,19 +230,15 @@ GROUP_KERNEL(64)
     uint own = table + TAUT_BODY_PART * mine;
     uint rows = table + TAUT_BODY_PART * groups;
     uint first = row_word(row[own], 0u);
+    uint at_frame = 0u;
+    if (frame != 0u)
+        at_frame = is_carried(frame + TAUT_VBD_FRAME * mine) ? frame + TAUT_VBD_FRAME * mine : 0u;
     PHASE_BEGIN
-    for (uint k = 0u; k < 10u; ++k)
-        sum[10u * lane + k] = real(0);
+    CLEAR_BODY_SUM(10u)
     for (uint j = row[own + 1u] + lane; j < row[own + 2u]; j += 64u)
-        add_row(row[rows + j], first, lane, row[own + 5u] != 0u);
+        add_row(row[rows + j], first, lane, row[own + 5u] != 0u, at_frame);
     PHASE_END
-    for (uint width = 32u; width > 0u; width /= 2u)
-    {
-        LANES_BEGIN(width)
-        for (uint k = 0u; k < 10u; ++k)
-            sum[10u * lane + k] += sum[10u * (lane + width) + k];
-        LANES_END
-    }
+    SUM_BODY_LANES(10u)
     LANES_BEGIN(1)
     if (group < groups)
     {

@@ -19,7 +19,8 @@
 //   potential, of how much its spring became longer in the substep. What rounding leaves of a length or an
 //   angle at rest counts as zero: steps of one vertex after another are not opposite, and would push a free
 //   sheet along by it.
-// Bytes per vertex: 16 + 48 read, 16 written; per spring 24 + 32 (damped 48), per hinge 24 + 128,
+// Bytes per vertex: 16 + 48 read, 16 written, with colliders 32 more read and 16 written; per spring 24 + 32
+//   (damped 48), per hinge 24 + 128,
 //   per held volume 24 + 96, per elastic tetrahedron 72 + 96 (float).
 //! variant hinges HINGES=1
 //! variant damped DAMPED=1
@@ -45,6 +46,8 @@
 #include "shared/solid.glsl"
 #endif
 #include "shared/rise.glsl"
+#include "shared/vbd_contact.glsl"
+#include "shared/vbd_parts.h"
 
 PARAMS
 {
@@ -52,15 +55,18 @@ PARAMS
     uint count;       // rows: of one colour; in the tail variants of several
     uint report;      // 1: count elements without a direction or an angle
     float relaxation; // each step times this
+    uint surfaces;    // where in `predicted`, or `block`, contacts begin (vbd_touch); 0 = none
 };
 
 READ(0, uint, row);        // four words a row, five with tetrahedra: shared/vbd_rows.glsl
 READ(1, Spring, end);      // a = this vertex, b = the other; those of row k end where row k + 1 begins
 READ(2, rvec4, position);  // xyz m, w = inverse mass 1/kg
 #if ADDED
-READ(3, rvec4, block); // what inertia and added elements bring (kernels/methods/vbd/vbd.comp)
+UPDATE(3, rvec4, block); // what inertia and added elements bring (kernels/methods/vbd/vbd.comp)
+#define CONTACTS block
 #else
-READ(3, rvec4, predicted); // xyz: inertial guess of the displacement, m; w = inertia m / h^2, kg/s^2
+UPDATE(3, rvec4, predicted); // xyz: inertial guess of the displacement, m; w = inertia m / h^2, kg/s^2
+#define CONTACTS predicted
 #endif
 #if TAIL
 GROUP_UPDATE(4, rvec4, delta); // displacement since the start of the substep, m
@@ -230,21 +236,29 @@ void solve(uint k)
 #endif
     }
 #endif
-    // L D L^T of the block.
-    real pivot1 = max(diagonal.x + even, inertia);
-    real l21 = mixed.x / pivot1;
-    real l31 = mixed.y / pivot1;
-    real pivot2 = max((diagonal.y + even) - l21 * mixed.x, inertia);
-    real below = mixed.z - l21 * mixed.y;
-    real l32 = below / pivot2;
-    real pivot3 = max((diagonal.z + even) - l31 * mixed.y - l32 * below, inertia);
-    real z2 = f.y - l21 * f.x;
-    real z3 = (f.z - l31 * f.x) - l32 * z2;
-    real step_z = z3 / pivot3;
-    real step_y = z2 / pivot2 - l32 * step_z;
-    real step_x = (f.x / pivot1 - l21 * step_y) - l31 * step_z;
-    bool finite = abs(step_x) + abs(step_y) + abs(step_z) < REAL(1e18);
-    rvec3 push = rvec3(step_x, step_y, step_z) * real(relaxation);
+    Block h;
+    h.diagonal = rvec3(diagonal.x + even, diagonal.y + even, diagonal.z + even);
+    h.mixed = mixed;
+    h.pivot.x = max(h.diagonal.x, inertia);
+    h.below.x = mixed.x / h.pivot.x;
+    h.below.y = mixed.y / h.pivot.x;
+    h.pivot.y = max(h.diagonal.y - h.below.x * mixed.x, inertia);
+    real rest = mixed.z - h.below.x * mixed.y;
+    h.below.z = rest / h.pivot.y;
+    h.pivot.z = max(h.diagonal.z - h.below.y * mixed.y - h.below.z * rest, inertia);
+    rvec3 push = solution_of(h, f) * real(relaxation);
+    rvec4 reaction = rvec4(real(0));
+    if (surfaces != 0u)
+    {
+        uint at = surfaces + TAUT_VBD_CONTACT * v;
+        StoppedStep stopped = stopped_step(h, f, rvec3(d), push, CONTACTS[at + TAUT_VBD_PLANE],
+                                           CONTACTS[at + TAUT_VBD_DRAG]);
+        push = stopped.step;
+        reaction = stopped.reaction;
+    }
+    bool finite = abs(push.x) + abs(push.y) + abs(push.z) < REAL(1e18);
+    if (surfaces != 0u)
+        CONTACTS[surfaces + TAUT_VBD_CONTACT * v + TAUT_VBD_REACTION] = finite ? reaction : rvec4(real(0));
     delta[v] = finite ? d + rvec4(push, real(0)) : d;
     if (!finite)
         COUNT_EVENT(events, TAUT_EVENT_NON_FINITE);

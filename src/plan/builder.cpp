@@ -166,7 +166,7 @@ void PlanBuilder::add_dispatch(std::string_view effect, const KernelInfo& kernel
         const std::uint64_t touched =
             std::min<std::uint64_t>(buffer.bytes, elements * uses[slot].touched * binding.stride);
         if (binding.access != Access::count)
-            bytes += touched * (binding.access == Access::update ? 2 : 1);
+            bytes += touched * (binding.access == Access::update && !uses[slot].read_only ? 2 : 1);
     }
     add_pass(effect, std::move(pass), bytes);
 }

@@ -49,6 +49,7 @@ struct Use
 {
     std::uint32_t buffer = kNoBuffer;
     std::uint32_t touched = 1;
+    bool read_only = false; ///< though the kernel may write it: for the accounts
     bool is_set() const { return buffer != kNoBuffer; }
 };
 

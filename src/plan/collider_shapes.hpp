@@ -35,6 +35,9 @@ struct ColliderShape
 
 const ColliderShape& collider_shape(ColliderKind kind);
 
+/// Of the values, read of a vertex that is far from the surface: at both ends of its way.
+inline constexpr std::uint32_t kFarValues = 16;
+
 std::uint32_t collider_count(const Scene& scene, ColliderKind kind);
 
 /// The values of the distance fields of a resolved scene, one after the other, each once.

@@ -44,9 +44,6 @@ void prepare(PlanBuilder& b)
     prepare_faces(b, Kind);
 }
 
-/// Of the values, read of a vertex that is far from the surface: at both ends of its way.
-constexpr std::uint32_t kFarValues = 16;
-
 /// Kernels of all shapes have one interface; that with values is the widest.
 void record(PlanBuilder& b, const Moment& moment, ColliderKind kind)
 {

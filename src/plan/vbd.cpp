@@ -2,9 +2,9 @@
 //
 // Based on: Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024.
 // Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a body
-//   moves bitwise as it would alone; runs of small colours share one group; contacts are projected once a
-//   substep, after the last sweep: sweeps would undo a part of each projection, a different part along the
-//   surface than across it, and Coulomb's cone would be wrong by the ratio.
+//   moves bitwise as it would alone; runs of small colours share one group; collisions with colliders are
+//   exact in the step of a vertex (kernels/shared/vbd_contact.glsl) instead of a penalty, and what moves a
+//   body as a whole is held to Coulomb's law (docs/methods/vbd.md).
 
 #include "taut/plan/vbd.hpp"
 
@@ -196,6 +196,7 @@ void prepare_vbd(PlanBuilder& b)
     f.omega = chebyshev_factors(b.scene.method.spectral_radius, b.plan.iterations);
     prepare_vbd_start(b, f);
     prepare_vbd_added(b, f, elements, colours);
+    prepare_vbd_touch(b, f);
     prepare_acceleration(b, f);
     ConstraintSet set;
     set.kind = "vbd_solve";
@@ -215,10 +216,14 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
     if (!f.omega.empty())
         record_acceleration(b, moment.iteration);
     const std::uint32_t near = 1 + f.near();
+    // With colliders there are plane and drag to read, too, and a reaction to write.
+    Use guesses;
+    if (!f.apart)
+        guesses = f.surfaces ? Use{f.contacts, 2} : Use{b.plan.predicted, 1, true};
     kernels::vbd_solve::Bindings<Use> uses = {.row = {f.row, f.row_words()},
                                               .end = {f.ends, f.springs_each},
                                               .position = {b.plan.position, near},
-                                              .predicted = {f.apart ? kNoBuffer : b.plan.predicted},
+                                              .predicted = guesses,
                                               .delta = {b.plan.delta, near},
                                               .events = {b.plan.events, 0}};
     if (f.corners != kNoBuffer)
@@ -227,7 +232,7 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
     if (damped)
         uses.low = {b.plan.low, f.damped ? 1 + f.springs_each : 1};
     if (f.apart)
-        uses.block = {f.block, 3};
+        uses.block = {f.block, 3, f.surfaces == 0};
     std::string kinds = f.apart     ? "added"
                         : f.elastic ? "elastic"
                         : f.volumes ? "volumes"
@@ -240,7 +245,7 @@ void record_vbd_solve(PlanBuilder& b, const Moment& moment)
         const std::string variant =
             std::string(run.grouped() ? "tail" : "") + (run.grouped() && !kinds.empty() ? "_" : "") + kinds;
         const kernels::vbd_solve::Params params{run.first, run.rows, moment.last,
-                                                static_cast<float>(b.scene.method.relaxation)};
+                                                static_cast<float>(b.scene.method.relaxation), f.surfaces};
         record_vbd_added(b, run, moment.last);
         b.stands_for(run.colours);
         b.dispatch("vbd_solve", variant, uses, params, run.grouped() ? 1 : run.rows, run.rows);

@@ -3,6 +3,9 @@
 
 #include "taut/plan/builder.hpp"
 
+#include "taut/kernels/shared/vbd_parts.h"
+
+#include <algorithm>
 #include <limits>
 
 namespace taut {
@@ -55,6 +58,11 @@ struct BlockBuffers
     std::uint32_t row = kNoBuffer, ends = kNoBuffer, corners = kNoBuffer;
     std::uint32_t share = kNoBuffer, support = kNoBuffer;                    ///< adaptive start
     std::uint32_t touched = kNoBuffer, seen = kNoBuffer, solved = kNoBuffer; ///< and with colliders
+    /// What colliders are in the way of vertices (vbd_touch), four reals each from `surfaces` on; 0 = none.
+    std::uint32_t contacts = kNoBuffer, surfaces = 0;
+    /// Where in `sums` vbd_carry's are, and behind them the frames of what carries a body.
+    std::uint32_t carry() const { return groups * std::max(TAUT_VBD_SUMS, TAUT_VBD_PARTS) + TAUT_VBD_FALL; }
+    std::uint32_t frame() const { return surfaces == 0 ? 0 : carry() + groups * TAUT_VBD_DRIFT; }
     std::uint32_t newest = kNoBuffer, older = kNoBuffer, body = kNoBuffer,
                   progress = kNoBuffer; ///< Chebyshev
     std::vector<float> omega;           ///< by iteration; empty = not accelerated
@@ -79,6 +87,9 @@ void prepare_vbd_start(PlanBuilder& builder, BlockBuffers& blocks);
 /// groups. `row_of`: by plan vertex.
 std::vector<std::uint32_t> guard_table(const PlanBuilder& builder, BlockBuffers& blocks,
                                        std::span<const GuardedRow> row_of);
+void prepare_vbd_touch(PlanBuilder& builder, BlockBuffers& blocks);
+/// What is in the way, before a substep's start.
+void record_vbd_touch(PlanBuilder& builder, const Moment& moment);
 void record_vbd_start(PlanBuilder& builder, const Moment& moment);
 void record_vbd_solve(PlanBuilder& builder, const Moment& moment);
 void record_vbd_end(PlanBuilder& builder, const Moment& moment);

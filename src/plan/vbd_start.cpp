@@ -6,8 +6,10 @@
 
 #include "taut/plan/vbd.hpp"
 
+#include "taut/kernels/vbd_carry.hpp"
 #include "taut/kernels/vbd_choose.hpp"
 #include "taut/kernels/vbd_drift.hpp"
+#include "taut/kernels/vbd_frame.hpp"
 #include "taut/kernels/vbd_limit.hpp"
 #include "taut/kernels/vbd_mark.hpp"
 #include "taut/kernels/vbd_rise.hpp"
@@ -61,8 +63,26 @@ void record_rise(PlanBuilder& b, bool ended)
                                              .sums = {f.sums, 0}};
     if (f.corners != kNoBuffer)
         uses.corner = {f.corners, f.corners_each()};
-    b.dispatch("vbd_start", variant_of(f), uses, {f.groups, ended ? 1u : 0u, f.table}, f.groups, f.rows);
+    b.dispatch("vbd_start", variant_of(f), uses, {f.groups, ended ? 1u : 0u, f.table, f.frame()}, f.groups,
+               f.rows);
     record_vbd_added_rise(b);
+}
+
+/// What carries each body, from which its energies are seen.
+void record_frame(PlanBuilder& b)
+{
+    const BlockBuffers& f = *b.blocks;
+    if (!f.surfaces)
+        return;
+    const kernels::vbd_carry::Bindings<Use> sum = {.row = {f.row, 1},
+                                                   .position = {b.plan.position},
+                                                   .predicted = {b.plan.predicted},
+                                                   .contacts = {f.contacts, 2},
+                                                   .sums = {f.sums, 0}};
+    b.dispatch("vbd_start", "", sum, {f.groups, f.table, f.row_words(), f.surfaces, f.carry()}, f.groups,
+               f.rows);
+    const kernels::vbd_frame::Bindings<Use> fit = {.row = {f.row, 1}, .sums = {f.sums, 0}};
+    b.dispatch("vbd_start", "", fit, {f.groups, f.table, f.carry()}, f.groups, f.groups);
 }
 
 /// No start above the fallback.
@@ -71,13 +91,17 @@ void record_guard(PlanBuilder& b)
     const BlockBuffers& f = *b.blocks;
     if (f.sums == kNoBuffer)
         return;
+    record_frame(b);
     record_rise(b, false);
-    const kernels::vbd_choose::Bindings<Use> uses = {.row = {f.row, 1},
-                                                     .low = {b.plan.low},
-                                                     .sums = {f.sums, 0},
-                                                     .delta = {b.plan.delta},
-                                                     .step_values = {b.plan.step_values, 0}};
-    b.dispatch("vbd_start", "", uses, {f.groups, f.table, f.row_words()}, f.groups, f.rows);
+    kernels::vbd_choose::Bindings<Use> uses = {.row = {f.row, 1},
+                                               .low = {b.plan.low},
+                                               .sums = {f.sums, 0},
+                                               .delta = {b.plan.delta},
+                                               .step_values = {b.plan.step_values, 0}};
+    if (f.surfaces)
+        uses.position = {b.plan.position};
+    b.dispatch("vbd_start", f.surfaces ? "contact" : "", uses, {f.groups, f.table, f.row_words(), f.frame()},
+               f.groups, f.rows);
 }
 
 /// No end that makes energy.
@@ -87,12 +111,15 @@ void record_limit(PlanBuilder& b)
     if (f.sums == kNoBuffer)
         return;
     record_rise(b, true);
-    const kernels::vbd_limit::Bindings<Use> uses = {.row = {f.row, 1},
-                                                    .low = {b.plan.low},
-                                                    .sums = {f.sums, 0},
-                                                    .delta = {b.plan.delta},
-                                                    .lost = {f.lost}};
-    b.dispatch("vbd_start", "", uses, {f.groups, f.table, f.row_words()}, f.groups, f.rows);
+    kernels::vbd_limit::Bindings<Use> uses = {.row = {f.row, 1},
+                                              .low = {b.plan.low},
+                                              .sums = {f.sums, 0},
+                                              .delta = {b.plan.delta},
+                                              .lost = {f.lost}};
+    if (f.surfaces)
+        uses.position = {b.plan.position};
+    b.dispatch("vbd_start", f.surfaces ? "contact" : "", uses, {f.groups, f.table, f.row_words(), f.frame()},
+               f.groups, f.rows);
 }
 
 void record_shift(PlanBuilder& b)
@@ -108,14 +135,18 @@ void record_shift(PlanBuilder& b)
                                              .position = {b.plan.position}};
     kernels::vbd_shift::Bindings<Use> uses = {
         .row = {f.row, 1}, .sums = {f.sums, 0}, .delta = {b.plan.delta}, .position = {b.plan.position}};
-    const bool contact = f.seen != kNoBuffer;
+    const bool contact = f.touched != kNoBuffer;
     if (contact)
     {
         sum.push = {f.solved};
+        sum.contacts = {f.contacts};
         uses.seen = {f.seen, 0};
+        uses.lost = {f.lost};
     }
-    b.dispatch("vbd_start", contact ? "contact" : "", sum, {f.groups, f.table, words}, f.groups, f.rows);
-    b.dispatch("vbd_start", contact ? "contact" : "", uses, {f.groups, f.table, words}, f.groups, f.rows);
+    b.dispatch("vbd_start", contact ? "contact" : "", sum, {f.groups, f.table, words, f.surfaces, f.frame()},
+               f.groups, f.rows);
+    b.dispatch("vbd_start", contact ? "contact" : "", uses, {f.groups, f.table, words, f.frame()}, f.groups,
+               f.rows);
 }
 
 } // namespace
@@ -148,10 +179,9 @@ void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
 {
     if (guarded(b))
     {
-        f.sums =
-            b.add_buffer("vbd_start", "sums of the rise",
-                         (std::uint64_t(f.groups) * std::max(TAUT_VBD_SUMS, TAUT_VBD_DRIFT) + TAUT_VBD_FALL) *
-                             b.real_size());
+        f.sums = b.add_buffer("vbd_start", "sums of the rise",
+                              (std::uint64_t{f.carry()} + f.groups * (TAUT_VBD_DRIFT + TAUT_VBD_FRAME)) *
+                                  b.real_size());
         f.lost = b.add_buffer("vbd_start", "lost energy", std::max(f.groups, 1u) * b.real_size());
         b.plan.kept.push_back(f.lost);
     }
@@ -176,11 +206,12 @@ void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
         b.plan.kept.push_back(f.solved);
 }
 
-void record_vbd_start(PlanBuilder& b, const Moment&)
+void record_vbd_start(PlanBuilder& b, const Moment& moment)
 {
     const BlockBuffers& f = *b.blocks;
     if (f.rows == 0)
         return;
+    record_vbd_touch(b, moment);
     const bool previous = b.scene.method.start == SweepStart::previous, contact = f.touched != kNoBuffer;
     kernels::vbd_start::Bindings<Use> uses = {.position = {b.plan.position},
                                               .predicted = {b.plan.predicted},

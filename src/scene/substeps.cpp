@@ -9,11 +9,12 @@
 //   Spanned bodies sag by L sqrt(3 e / 8) at a strain of e, so they may have less of it. Solids under xpbd
 //   bend: material of speed of sound c acts as if softer by (c h / edge)^2, so that a bar of length L and
 //   thickness t clamped at its end sags by 3/2 rho g L^4 / (E t^2) times that, 3/2 g h^2 L^4 / (t edge)^2,
-//   too far. What lands on a few vertices is carried by them alone, under vbd and implicit_euler too, whose
-//   contacts come after the solve. Cloth and chains that begin beside their pins swing: a pendulum let go at
-//   an angle a from the plumb pulls with 3 - 2 cos a times its weight where it passes below. Under vbd a
-//   sweep carries what happened at a vertex over about one edge: held bodies take as many as their waves
-//   need. Membranes get the part of the strain that membrane_share() says. A
+//   too far. What lands on a few vertices is carried by them alone, under vbd and implicit_euler too:
+//   contacts come after the solve, or a sweep spreads them by an edge. Cloth and chains that begin beside
+//   their pins swing: a pendulum let go at an angle a from the plumb pulls with 3 - 2 cos a times its
+//   weight where it passes below. Under vbd a sweep carries what happened at a vertex over about one edge:
+//   held bodies take as many as their waves need. Membranes get the part of the strain that
+//   membrane_share() says. A
 //   gas of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
 //   one constraint (the tension of a sphere is p r / 2); one that draws in presses edges together, which
 //   buckle where they act softer by (c h / edge)^2. What a sweep leaves of a plastic body flows like strain.
@@ -336,7 +337,7 @@ double longest_substep(const Scene& scene, const Body& body, double g)
         return standing;
     const double weight = sweeps * longest_for_push(scene, body, load, scene.gravity);
     const double all = std::min({carried, blown, weight});
-    if (method == MethodKind::vbd) // whose contacts come once a substep, whatever the sweeps
+    if (method == MethodKind::vbd)
         return std::min(all, standing);
     if (method == MethodKind::pbd)
         return all;

@@ -1,12 +1,13 @@
 #include "taut/kernels/vbd_drift.hpp"
 
-#include "support/rigid_sums.hpp"
+#include "support/vbd_feet.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
 
-TEMPLATE_TEST_CASE("vbd_drift sums what bodies that nothing holds lack of momentum, and their moments", "",
-                   float, double)
+TEMPLATE_TEST_CASE(
+    "vbd_drift sums what bodies that nothing holds lack of momentum, their moments, and their feet", "",
+    float, double)
 {
     using Real = TestType;
     const std::uint32_t count = GENERATE(1u, 63u, 65u, 1000u);
@@ -22,26 +23,36 @@ TEMPLATE_TEST_CASE("vbd_drift sums what bodies that nothing holds lack of moment
     auto predicted = random.vec4s<Real>(n, 1e-2, 0, 0);
     for (auto& y : predicted)
         y.w = random.uniform<Real>(1, 1000);
+    const std::uint32_t surfaces = n, frame = TAUT_VBD_PARTS * parts.groups + 3;
+    const auto contacts = random_surfaces<Real>(random, surfaces, predicted);
+    const auto frames = random_frames<Real>(random, parts, 1e-2);
+    std::vector<Real> sums(frame, Real(7));
+    sums.insert(sums.end(), frames.begin(), frames.end());
     const std::vector<std::uint32_t> row = parts.plain_rows(words, 3);
     Case c;
     c.precision = precision_of<Real>();
-    c.in = {{"row", bytes_of(parts.behind(row))},
-            {"predicted", bytes_of(predicted)},
-            {"delta", bytes_of(delta)},
-            {"sums", bytes_of(std::vector<Real>(TAUT_VBD_DRIFT * parts.groups + 3, Real(7)))},
-            {"position", bytes_of(position)},
-            {"push", bytes_of(push)}};
-    const kernels::vbd_drift::Params params{parts.groups, static_cast<std::uint32_t>(row.size()), words};
+    c.in = {{"row", bytes_of(parts.behind(row))}, {"predicted", bytes_of(predicted)},
+            {"delta", bytes_of(delta)},           {"sums", bytes_of(sums)},
+            {"position", bytes_of(position)},     {"push", bytes_of(push)},
+            {"contacts", bytes_of(contacts)}};
+    const kernels::vbd_drift::Params params{parts.groups, static_cast<std::uint32_t>(row.size()), words,
+                                            surfaces, frame};
     c.launches = {
         make_launch(kernels::vbd_drift::info(contact ? "contact" : "", c.precision), params, parts.groups)};
     Field& field = c.expected["sums"];
-    for (const BodyParts::Part& part : parts.parts)
+    for (std::size_t g = 0; g < parts.groups; ++g)
     {
-        const RigidSums sums = rigid_sums(parts, part, 3, position, predicted, delta, push);
+        const RigidSums own = rigid_sums(parts, parts.parts[g], 3, position, predicted, delta);
         for (std::size_t k = 0; k < TAUT_VBD_DRIFT; ++k)
-            field.add(sums.value[k], sums.size[k]);
+            field.add(own.value[k], own.size[k]);
+        FeetSums feet;
+        feet.value.fill(7);
+        if (contact)
+            feet = feet_sums(parts, g, 3, position, predicted, delta, push, contacts, surfaces, frames);
+        for (std::size_t k = 0; k < feet.value.size(); ++k)
+            field.add(feet.value[k], feet.size[k]);
     }
-    for (int k = 0; k < 3; ++k)
-        field.add(7, 0);
+    for (std::size_t k = field.value.size(); k < sums.size(); ++k)
+        field.add(double(sums[k]), 0);
     check_on_every_device(c);
 }

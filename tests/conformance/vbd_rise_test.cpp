@@ -2,6 +2,7 @@
 
 #include "support/block_parts.hpp"
 #include "support/block_rise.hpp"
+#include "support/vbd_carrier.hpp"
 
 using namespace taut;
 using namespace taut::conformance;
@@ -83,7 +84,8 @@ TEMPLATE_TEST_CASE("vbd_rise sums by how much displacements raise a body's energ
     const std::uint32_t count = GENERATE(1u, 63u, 65u, 1000u);
     const std::string variant = GENERATE("", "hinges", "volumes", "elastic");
     const std::uint32_t ended = GENERATE(0u, 1u);
-    CAPTURE(count, variant, ended);
+    const bool framed = GENERATE(false, true);
+    CAPTURE(count, variant, ended, framed);
     Random random(1400 + count);
     const Solids solids = variant == "volumes"   ? Solids::volumes
                           : variant == "elastic" ? Solids::elastic
@@ -98,10 +100,13 @@ TEMPLATE_TEST_CASE("vbd_rise sums by how much displacements raise a body's energ
     c.precision = precision_of<Real>();
     c.in = buffers_of(net, kinds);
     c.in["row"] = bytes_of(parts.behind(row));
-    std::vector<Real> sums(parts.groups * TAUT_VBD_SUMS, Real(7));
-    sums.insert(sums.end(), {fall.x, fall.y, fall.z});
+    std::vector<Real> sums(parts.groups * TAUT_VBD_PARTS, Real(7));
+    sums.insert(sums.end(), {fall.x, fall.y, fall.z, Real(7), Real(7)});
+    const std::uint32_t frame = framed ? static_cast<std::uint32_t>(sums.size()) : 0;
+    const std::vector<Carrier> carriers = add_frames(sums, parts, random);
     c.in["sums"] = bytes_of(sums);
-    const kernels::vbd_rise::Params params{parts.groups, ended, static_cast<std::uint32_t>(row.size())};
+    const kernels::vbd_rise::Params params{parts.groups, ended, static_cast<std::uint32_t>(row.size()),
+                                           frame};
     c.launches = {make_launch(kernels::vbd_rise::info(variant, c.precision), params, parts.groups)};
     Field& field = c.expected["sums"];
     const auto way_of = [&](const auto& places, std::uint32_t v) {
@@ -110,24 +115,29 @@ TEMPLATE_TEST_CASE("vbd_rise sums by how much displacements raise a body's energ
     const glm::dvec3 taken = ended != 0 ? glm::dvec3(fall) : glm::dvec3(0);
     for (const BodyParts::Part& part : parts.parts)
     {
+        const Carrier& carrier = carriers[part.from];
+        const bool carried = framed && carrier.carries, loose = !part.held && !carried;
         const std::uint32_t base = net.row[4 * part.base];
-        const glm::dvec3 origin = way_of(net.delta, base);
-        const glm::dvec3 came = ended != 0 ? way_of(net.predicted, base) - taken : origin;
+        const glm::dvec3 origin = way_of(net.delta, base), none(0), base_way = loose ? origin : none;
+        const glm::dvec3 base_came = loose && ended != 0 ? way_of(net.predicted, base) - taken : base_way;
         double value[10] = {}, size[10] = {};
         for (std::uint32_t j = part.first; j < part.end; ++j)
         {
             const std::uint32_t i = parts.order[j], v = net.row[4 * i];
             const double inertia = double(net.predicted[v].w);
-            const glm::dvec3 way = way_of(net.delta, v), moved = way - (part.held ? glm::dvec3(0) : origin),
-                             guess = way_of(net.predicted, v) - taken - (part.held ? glm::dvec3(0) : came),
+            const double apart = glm::length(net.before(v)) + glm::length(net.before(base));
+            const glm::dvec3 frame_way = carried ? carrier.way_at(net.before(v) - net.before(base)) : none;
+            const glm::dvec3 moved = way_of(net.delta, v) - base_way - frame_way,
+                             guess = way_of(net.predicted, v) - taken - base_came - frame_way,
                              ahead = glm::dvec3(net.delta[v]) - glm::dvec3(net.predicted[v]);
-            const double far = glm::length(glm::dvec3(net.delta[v])) + glm::length(origin) +
-                               glm::length(glm::dvec3(net.predicted[v])) + glm::length(came) +
-                               glm::length(taken);
+            const double far = glm::length(glm::dvec3(net.delta[v])) + glm::length(base_way) +
+                               glm::length(glm::dvec3(net.predicted[v])) + glm::length(base_came) +
+                               glm::length(taken) + (carried ? carrier.size(apart) : 0);
             const Rise rise = elements_rise(net, still, i, kinds.hinges);
-            const double own = ended == 0  ? 0.5 * (glm::dot(ahead, ahead) - glm::dot(guess, guess))
-                               : part.held ? -glm::dot(glm::dvec3(fall), way)
-                                           : 0;
+            // Gravity does no work on what is seen from the body's own first row.
+            const double own = ended == 0 ? 0.5 * (glm::dot(ahead, ahead) - glm::dot(guess, guess))
+                               : loose    ? 0
+                                          : -glm::dot(glm::dvec3(fall), moved);
             value[0] += inertia * own + rise.value;
             size[0] += inertia * far * far + rise.size;
             value[1] += inertia;
@@ -149,7 +159,7 @@ TEMPLATE_TEST_CASE("vbd_rise sums by how much displacements raise a body's energ
         for (int k = 0; k < 3; ++k)
             field.add(origin[k], glm::length(glm::dvec3(net.delta[base])));
     }
-    for (int k = 0; k < 3; ++k)
-        field.add(double(fall[k]), 0);
+    for (std::size_t k = field.value.size(); k < sums.size(); ++k)
+        field.add(double(sums[k]), 0);
     check_on_every_device(c);
 }

@@ -31,25 +31,6 @@ std::vector<std::pair<Kinds, bool>> all_kinds_and_added()
     return out;
 }
 
-/// Three vectors a vertex, as kernels/methods/vbd/vbd.comp leaves them.
-template <typename Real>
-std::vector<glm::vec<4, Real>> random_blocks(Random& random, const std::vector<glm::vec<4, Real>>& predicted)
-{
-    std::vector<glm::vec<4, Real>> out;
-    for (const auto& y : predicted)
-    {
-        const glm::vec<4, Real> f = random.vec4<Real>(10, 0);
-        out.emplace_back(f.x, f.y, f.z, y.w);
-        for (const double size : {1.0, 0.2})
-        {
-            const auto part = [&] { return y.w * random.uniform<Real>(0.5 * size, size); };
-            const Real x = part(), mid = part(), z = part();
-            out.emplace_back(x, mid, z, Real(0));
-        }
-    }
-    return out;
-}
-
 } // namespace
 
 TEMPLATE_TEST_CASE("vbd_solve takes Newton's step of each vertex' own energy", "", float, double)
@@ -76,33 +57,13 @@ TEMPLATE_TEST_CASE("vbd_solve takes Newton's step of each vertex' own energy", "
     for (std::uint32_t i = 0; i < count; ++i)
     {
         const std::uint32_t v = net.row[4 * i];
-        const double inertia = double(net.predicted[v].w);
-        Block<Real> block;
-        const glm::dvec3 y(net.predicted[v]), d(net.delta[v]);
-        block.f = inertia * (y - d);
-        block.f_scale = inertia * (glm::length(y) + glm::length(d));
-        block.h = glm::dmat3(inertia);
-        block.h_scale = inertia;
-        if (added)
-        {
-            const glm::dvec3 own(known[3 * v + 1]), beside(known[3 * v + 2]);
-            block.f = glm::dvec3(known[3 * v]);
-            block.f_scale = glm::length(block.f);
-            block.h += glm::dmat3(own.x, beside.x, beside.y, beside.x, own.y, beside.z, beside.y, beside.z,
-                                  own.z);
-            block.h_scale += glm::length(own) + glm::length(beside);
-        }
-        for (std::uint32_t k = net.row[4 * i + 1]; k < net.row[4 * i + 5]; ++k)
-            block.spring(net, net.end[k], kinds.damped, std::sqrt(inertia * double(net.position[v].w)));
-        for (std::uint32_t k = net.row[4 * i + 2]; kinds.hinges && k < net.row[4 * i + 6]; ++k)
-            block.hinge(net, net.corner[k], v);
-        for (std::uint32_t k = net.first_tetrahedron[i]; k < net.first_tetrahedron[i + 1]; ++k)
-            block.tetrahedron(net, net.tetrahedra[k]);
+        const Block<Real> block = block_of_row(net, kinds, i, added ? &known : nullptr);
         const glm::dmat3 inverse = glm::inverse(block.h);
         step[v] = double(relaxation) * (inverse * block.f);
         const double norm = std::sqrt(glm::dot(inverse[0], inverse[0]) + glm::dot(inverse[1], inverse[1]) +
                                       glm::dot(inverse[2], inverse[2]));
-        scale[v] = norm * (block.f_scale + block.h_scale * glm::length(step[v])) + glm::length(d);
+        scale[v] = norm * (block.f_scale + block.h_scale * glm::length(step[v])) +
+                   glm::length(glm::dvec3(net.delta[v]));
         c.events[TAUT_EVENT_DEGENERATE] += report != 0 ? block.degenerate : 0;
     }
     Field& field = c.expected["delta"];

@@ -72,6 +72,36 @@ inline Scene effects()
     return scene;
 }
 
+/// A cloth on the field of a ball, and a solid that falls on a floor, a capsule and a box that turns: all
+/// shapes that vertex block descent meets in its sweeps, but for balls.
+inline Scene landings()
+{
+    Scene scene = field();
+    scene.method.type = MethodKind::vbd;
+    scene.method.iterations = 2;
+    Body solid = cube("vbd").bodies[0];
+    solid.start_positions.clear();
+    solid.transform.translate = {3, 0, 0};
+    solid.velocity = {0.5, -2, 0};
+    scene.bodies.push_back(solid);
+    Collider floor, capsule, block;
+    floor.kind = ColliderKind::plane;
+    floor.point = {0, -0.25, 0};
+    floor.friction = 0.25;
+    capsule.kind = ColliderKind::capsule;
+    capsule.point = {2.875, -0.25, -0.5};
+    capsule.end = {2.875, -0.25, 0.5};
+    capsule.radius = 0.0625;
+    block.kind = ColliderKind::cuboid;
+    block.point = {3.25, -0.25, 0};
+    block.half_size = {0.125, 0.125, 0.5};
+    block.rotate_axis = {0, 0, 1};
+    block.rotate_degrees = 15;
+    block.friction = 0.5;
+    scene.colliders.insert(scene.colliders.end(), {floor, capsule, block});
+    return scene;
+}
+
 /// Coarse cloths that fall onto a ball, a capsule and a turned box that goes up, each less wide than a cell.
 inline Scene faces()
 {
@@ -212,32 +242,33 @@ inline Scene in_double(Scene scene)
 inline std::map<std::string, Scene> scenes()
 {
     std::map<std::string, Scene> all = method_scenes();
-    all.merge(std::map<std::string, Scene>{{"effects", effects()},
-                                           {"tear", tear()},
-                                           {"contact", contact()},
-                                           {"grouped", grouped()},
-                                           {"guarded", guarded()},
-                                           {"guarded_pbd", guarded_by("pbd")},
-                                           {"guarded_vbd", guarded_by("vbd")},
-                                           {"guarded_implicit_euler", guarded_by("implicit_euler")},
-                                           {"guarded_mass_spring", guarded_by("mass_spring")},
-                                           {"guarded_implicit_constraints",
-                                            guarded_by("implicit_constraints")},
-                                           {"solids_meet", solids_meet()},
-                                           {"jelly", jelly("xpbd", "tetrahedra")},
-                                           {"hanging", hanging()},
-                                           {"drape", drape()},
-                                           {"field", field()},
-                                           {"faces", faces()},
-                                           {"chain", chain()},
-                                           {"busy", busy()},
-                                           {"star", star()},
-                                           {"bar", bar()},
-                                           {"cube", cube("xpbd")},
-                                           {"cube_vbd", cube("vbd")},
-                                           {"cube_implicit_euler", cube("implicit_euler")},
-                                           {"hanging_double", in_double(hanging())},
-                                           {"drape_double", in_double(drape())}});
+    all.merge(
+        std::map<std::string, Scene>{{"effects", effects()},
+                                     {"tear", tear()},
+                                     {"contact", contact()},
+                                     {"grouped", grouped()},
+                                     {"guarded", guarded()},
+                                     {"guarded_pbd", guarded_by("pbd")},
+                                     {"guarded_vbd", guarded_by("vbd")},
+                                     {"guarded_implicit_euler", guarded_by("implicit_euler")},
+                                     {"guarded_mass_spring", guarded_by("mass_spring")},
+                                     {"guarded_implicit_constraints", guarded_by("implicit_constraints")},
+                                     {"solids_meet", solids_meet()},
+                                     {"jelly", jelly("xpbd", "tetrahedra")},
+                                     {"hanging", hanging()},
+                                     {"drape", drape()},
+                                     {"field", field()},
+                                     {"faces", faces()},
+                                     {"chain", chain()},
+                                     {"busy", busy()},
+                                     {"star", star()},
+                                     {"bar", bar()},
+                                     {"cube", cube("xpbd")},
+                                     {"cube_vbd", cube("vbd")},
+                                     {"landings", landings()},
+                                     {"cube_implicit_euler", cube("implicit_euler")},
+                                     {"hanging_double", in_double(hanging())},
+                                     {"drape_double", in_double(drape())}});
     return all;
 }
 

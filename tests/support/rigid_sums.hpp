@@ -20,7 +20,7 @@ struct RigidSums
 template <typename Vec4>
 RigidSums rigid_sums(const BodyParts& parts, const BodyParts::Part& part, std::uint32_t first_vertex,
                      const std::vector<Vec4>& position, const std::vector<Vec4>& predicted,
-                     const std::vector<Vec4>& delta, const std::vector<Vec4>& push = {})
+                     const std::vector<Vec4>& delta)
 {
     RigidSums out;
     const glm::dvec3 base(position[part.base + first_vertex]);
@@ -45,8 +45,6 @@ RigidSums rigid_sums(const BodyParts& parts, const BodyParts::Part& part, std::u
             add(7 + k, turn[c], 4 * far * way);
             add(10 + k, r[c] * r[c], 2 * far * far);
             add(13 + k, r[(c + 1) % 3] * r[(c + 2) % 3], 2 * far * far);
-            if (!push.empty())
-                add(16 + k, double(push[v][c]), std::abs(double(push[v][c])));
         }
     }
     return out;

@@ -90,14 +90,14 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     floor.friction = 0.3;
     scene.colliders = {floor};
     plan = make_plan(scene, apart);
-    CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4));
+    CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4 + 3)); // what is in the way, and what carries bodies
     CHECK(dispatches(plan, "plane") == 3); // once a substep
-    CHECK(plan.passes.size() == 3 * (2 + 7 + 4 * colours + 1));
+    CHECK(plan.passes.size() == 3 * (2 + 7 + 3 + 4 * colours + 1));
     CHECK(plan.kept.size() == 4);
     Scene loose = scene; // momentum is for what nothing holds: two passes, and what contacts pushed
     loose.bodies[0].pins.clear();
     plan = make_plan(loose, apart);
-    CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4 + 2));
+    CHECK(dispatches(plan, "vbd_start") == 3 * (3 + 4 + 3 + 2));
     CHECK(plan.kept.size() == 5);
 
     DeviceTraits dear; // dispatches that cost much: all colours in one group
