@@ -44,9 +44,9 @@ struct StoppedStep
     rvec4 reaction; // w: 1 where the vertex sticks
 };
 
-/// `free`: the step that f alone asks for. The surface asks that n . (d + step) >= least, n = plane.xyz,
-/// least = plane.w; drag.xyz: the way of the surface, m; drag.w: Coulomb's coefficient.
-///   sticks: step = n least + drag - d, reaction r = H step - f, if |r_t| <= mu r_n;
+/// `free`: the step that f alone asks for, relaxed. The surface asks that n . (d + step) >= least, n =
+/// plane.xyz, least = plane.w; drag.xyz: the way of the surface, m; drag.w: Coulomb's coefficient.
+///   sticks: step = n (least - n . drag) + drag - d, reaction r = H step - f, if |r_t| <= mu r_n;
 ///   slips:  step = free + H^-1 q r_n, q = n + mu r_t / |r_t|, r_n from n . (d + step) = least.
 StoppedStep stopped_step(Block h, rvec3 f, rvec3 d, rvec3 free, rvec4 plane, rvec4 drag)
 {

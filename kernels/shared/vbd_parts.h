@@ -1,4 +1,5 @@
-// What the groups of vbd_rise and vbd_drift leave of their rows (body_parts.h): kernels and host.
+// What the groups of vbd_rise, vbd_carry, vbd_frame and vbd_drift leave of their rows (body_parts.h), and
+// what vbd_touch keeps of vertices: kernels and host.
 #ifndef TAUT_SHARED_VBD_PARTS_H
 #define TAUT_SHARED_VBD_PARTS_H
 

@@ -1,7 +1,8 @@
 // By how much the displacements of a body raise its energy against a fallback: a group's share of the sums
 // from which vbd_choose decides of the start of the sweeps, and vbd_limit of their end. In the fallback a
-// body moves as one: not at all where something of it is held, else by the mean of its displacements. It
-// changes the shape of no element between vertices that move.
+// body moves as one: not at all where something of it is held, with what carries it where something does
+// (vbd_frame), else by the mean of its displacements. It changes the shape of no element between vertices
+// that move.
 //
 // Based on: Martin et al. Example-Based Elastic Materials. SIGGRAPH 2011, eq. 2 (the potential).
 // Departures: differences are formed element by element (shared/rise.glsl); displacements are taken against

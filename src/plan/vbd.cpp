@@ -2,9 +2,9 @@
 //
 // Based on: Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024.
 // Departures: bodies are coloured on their own and colour k of every body shares a dispatch, so that a body
-//   moves bitwise as it would alone; runs of small colours share one group; collisions with colliders are
-//   exact in the step of a vertex (kernels/shared/vbd_contact.glsl) instead of a penalty, and what moves a
-//   body as a whole is held to Coulomb's law (docs/methods/vbd.md).
+//   moves bitwise as it would alone; runs of small colours share one group; collisions with colliders
+//   are solved in the step of a vertex (kernels/shared/vbd_contact.glsl) instead of a penalty, and what moves
+//   a body as a whole is held to Coulomb's law (docs/methods/vbd.md).
 
 #include "taut/plan/vbd.hpp"
 

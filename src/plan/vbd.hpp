@@ -61,7 +61,7 @@ struct BlockBuffers
     /// What colliders are in the way of vertices (vbd_touch), four reals each from `surfaces` on; 0 = none.
     std::uint32_t contacts = kNoBuffer, surfaces = 0;
     /// Where in `sums` vbd_carry's are, and behind them the frames of what carries a body.
-    std::uint32_t carry() const { return groups * std::max(TAUT_VBD_SUMS, TAUT_VBD_PARTS) + TAUT_VBD_FALL; }
+    std::uint32_t carry() const { return groups * TAUT_VBD_PARTS + TAUT_VBD_FALL; }
     std::uint32_t frame() const { return surfaces == 0 ? 0 : carry() + groups * TAUT_VBD_DRIFT; }
     std::uint32_t newest = kNoBuffer, older = kNoBuffer, body = kNoBuffer,
                   progress = kNoBuffer; ///< Chebyshev
@@ -87,6 +87,8 @@ void prepare_vbd_start(PlanBuilder& builder, BlockBuffers& blocks);
 /// groups. `row_of`: by plan vertex.
 std::vector<std::uint32_t> guard_table(const PlanBuilder& builder, BlockBuffers& blocks,
                                        std::span<const GuardedRow> row_of);
+/// Whether any collider is there whose effect is available.
+bool meets_colliders(const PlanBuilder& builder);
 void prepare_vbd_touch(PlanBuilder& builder, BlockBuffers& blocks);
 /// What is in the way, before a substep's start.
 void record_vbd_touch(PlanBuilder& builder, const Moment& moment);

@@ -72,9 +72,9 @@ void prepare_vbd_added(PlanBuilder& b, BlockBuffers& f, const BlockElements& ele
 {
     if (elements.added.empty())
         return;
-    f.block =
-        b.add_buffer("vbd_solve", "blocks of added elements",
-                     std::uint64_t(b.plan.vertex_count) * (f.touched == kNoBuffer ? 12 : 24) * b.real_size());
+    f.block = b.add_buffer("vbd_solve", "blocks of added elements",
+                           std::uint64_t(b.plan.vertex_count) * 4 *
+                               (f.touched == kNoBuffer ? 3 : 3 + TAUT_VBD_CONTACT) * b.real_size());
     for (std::size_t k = 0; k < elements.added.size(); ++k)
     {
         const AddedSet& set = elements.added[k];

@@ -1,5 +1,6 @@
 // Where a substep of vertex block descent begins and ends: the start and its history, the guard that takes
-// the fallback where the start would raise the incremental potential, and the shift that keeps momentum.
+// the fallback where the start would raise the incremental potential, as seen from what carries a body, and
+// the shift that keeps momentum.
 //
 // Based on: Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024, section 3.7 (the starts).
 // Departures: the guard and the shift (docs/methods/vbd.md).
@@ -196,7 +197,7 @@ void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
         f.share = b.add_buffer<Real>("vbd_start", "share of gravity", whole);
     });
     b.plan.kept.push_back(f.share);
-    if (b.scene.colliders.empty())
+    if (!meets_colliders(b))
         return;
     f.touched = b.add_buffer("vbd_start", "touched", b.scene.bodies.size() * sizeof(std::uint32_t));
     f.seen = b.add_buffer("vbd_start", "touched before", n * 2 * sizeof(std::uint32_t));

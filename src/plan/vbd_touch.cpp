@@ -7,9 +7,24 @@
 #include "taut/plan/collider_shapes.hpp"
 #include "taut/plan/vbd.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace taut {
+
+bool meets_colliders(const PlanBuilder& b)
+{
+    const auto& names = b.options.available_effects;
+    for (std::size_t row = 0; row < kColliderKinds; ++row)
+    {
+        const auto kind = static_cast<ColliderKind>(row);
+        const bool available =
+            names.empty() || std::find(names.begin(), names.end(), collider_shape(kind).name) != names.end();
+        if (available && collider_count(b.scene, kind) > 0)
+            return true;
+    }
+    return false;
+}
 
 void prepare_vbd_touch(PlanBuilder& b, BlockBuffers& f)
 {

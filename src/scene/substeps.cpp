@@ -14,8 +14,8 @@
 //   their pins swing: a pendulum let go at an angle a from the plumb pulls with 3 - 2 cos a times its
 //   weight where it passes below. Under vbd a sweep carries what happened at a vertex over about one edge:
 //   held bodies take as many as their waves need. Membranes get the part of the strain that
-//   membrane_share() says. A
-//   gas of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
+//   membrane_share() says. A gas
+//   of pressure p pushes cloth of s kg/m^2 by p / s, and half the radius over an edge of it hang from
 //   one constraint (the tension of a sphere is p r / 2); one that draws in presses edges together, which
 //   buckle where they act softer by (c h / edge)^2. What a sweep leaves of a plastic body flows like strain.
 //   A sail that is held all round is spanned by the wind's push. One sweep bends cloth softer by
@@ -337,7 +337,7 @@ double longest_substep(const Scene& scene, const Body& body, double g)
         return standing;
     const double weight = sweeps * longest_for_push(scene, body, load, scene.gravity);
     const double all = std::min({carried, blown, weight});
-    if (method == MethodKind::vbd)
+    if (method == MethodKind::vbd) // whose sweeps spread a contact by an edge each
         return std::min(all, standing);
     if (method == MethodKind::pbd)
         return all;

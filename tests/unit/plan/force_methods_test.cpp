@@ -2,6 +2,7 @@
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
+#include "taut/plan/effect_names.hpp"
 #include "taut/plan/plan.hpp"
 #include "taut/plan/vbd.hpp"
 
@@ -94,6 +95,12 @@ TEST_CASE("vertex block descent is a start, colours times iterations and what th
     CHECK(dispatches(plan, "plane") == 3); // once a substep
     CHECK(plan.passes.size() == 3 * (2 + 7 + 3 + 4 * colours + 1));
     CHECK(plan.kept.size() == 4);
+    PlanOptions without; // colliders that are left out are not in the way either
+    without.available_effects = effect_names(scene);
+    std::erase(without.available_effects, "plane");
+    plan = make_plan(scene, apart, without);
+    CHECK(dispatches(plan, "vbd_start") == 3 * (2 + 4));
+    CHECK(dispatches(plan, "plane") == 0);
     Scene loose = scene; // momentum is for what nothing holds: two passes, and what contacts pushed
     loose.bodies[0].pins.clear();
     plan = make_plan(loose, apart);
