@@ -74,8 +74,8 @@ KERNEL(count)
         real margin = hit ? real(0) : real(2) * length(OF_COLLIDER(way)(met, d));
         if (!hit)
             met = met_at(j, x, d, guess.w + margin);
-        // What goes away is in nobody's way, nor are the planes of faces that the guess passes beside.
-        bool near = hit || (met.gap < real(0) && met.gap < met.before && met.gap + margin >= real(0));
+        // What goes away is in nobody's way.
+        bool near = hit || (met.gap < real(0) && met.gap < met.before);
         // From below a surface a vertex need only go no deeper: contacts after the sweeps let it out.
         real height = (met.gap + margin) - min(real(0), met.before + margin);
         meets = meets || hit;

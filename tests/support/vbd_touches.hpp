@@ -31,13 +31,11 @@ struct InTheWay
     bool hits = false;            ///< the guess goes below any surface of this launch
     bool near = false;            ///< or comes near one
     bool open = false;            ///< a rounding could decide otherwise
-    bool open_hit = false;        ///< of `hits`
 };
 
 /// `height`: of what came before. Surfaces that the guess stays outside of are moved out by twice its way as
-/// seen from them, and count where it comes nearer and stays above; the height that counts is that of the
-/// guess over the surface, or, from below, over where the vertex was. The least one wins, the first of equal
-/// ones.
+/// seen from them, and count where it comes nearer; the height that counts is that of the guess over the
+/// surface, or, from below, over where the vertex was. The least one wins, the first of equal ones.
 template <typename Real, typename TouchOf>
 InTheWay in_the_way(const Contacts<Real>& in, std::uint32_t i, double height, TouchOf touch)
 {
@@ -53,7 +51,6 @@ InTheWay in_the_way(const Contacts<Real>& in, std::uint32_t i, double height, To
             const bool away = t.gap == 0 && t.gap_before == 0;
             return t.size == kAnyFinite || (!away && std::abs(t.gap) < kDoubt * t.size);
         };
-        out.open_hit = out.open_hit || doubtful();
         out.open = out.open || doubtful();
         const bool hit = t.gap < 0;
         out.hits = out.hits || hit;
@@ -68,12 +65,8 @@ InTheWay in_the_way(const Contacts<Real>& in, std::uint32_t i, double height, To
             continue;
         const double over = t.gap + margin - std::min(0.0, t.gap_before + margin);
         const bool counts = over < out.height + kDoubt * (t.size + out.height_size);
-        const double over_surface = t.gap + margin;
-        const double nearer = t.gap_before - t.gap, doubt = kDoubt * t.size;
-        const bool by_a_digit =
-            std::min(nearer, over_surface) < doubt && std::min(nearer, over_surface) > -doubt;
-        out.open = out.open || (counts && !hit && by_a_digit);
-        if (!hit && !(t.gap < t.gap_before && over_surface >= 0))
+        out.open = out.open || (counts && !hit && std::abs(t.gap - t.gap_before) < kDoubt * t.size);
+        if (!hit && !(t.gap < t.gap_before))
             continue;
         out.near = true;
         out.open = out.open || std::abs(over - out.height) < kDoubt * (t.size + out.height_size);
@@ -151,7 +144,6 @@ void check_touches(Contacts<Real> in, Random& random, const TouchLaunch& launch,
         if (support[i] % 2 == 1) // of a body with something held
         {
             way.nearest.reset();
-            way.open = way.open_hit;
             way.height = before;
             way.height_size = 0;
         }
