@@ -34,9 +34,9 @@
 #define TAUT_VBD_FEET_MIXED 15u
 #define TAUT_VBD_TOUCH 18u
 /// Behind these: with the size of the push as weight slip (3) and place x slip (3); friction times that size
-/// along the slip, where it does not hold (3), place x that (3); with the inertia as weight the displacement
-/// as seen from what carries the body (3), place x that (3); with the size as weight the height over the
-/// surface.
+/// along the slip of the guess, where it does not hold (3), place x that (3); with the inertia as weight the
+/// displacement as seen from what carries the body (3), place x that (3); with the size as weight the height
+/// over the surface.
 #define TAUT_VBD_SLIP 0u
 #define TAUT_VBD_SLIP_TURN 3u
 #define TAUT_VBD_RUB 6u

@@ -3,13 +3,12 @@
 // takes besides is taken. Behind shared/rigid_turn.glsl.
 //
 // Based on: Goyal, Ruina, Papadopoulos. Planar sliding with dry friction. Wear 143, 1991: the forces and
-//   torques
-//   that the contacts of a body can bear together are the sums of what each can.
+//   torques that the contacts of a body can bear together are the sums of what each can.
 // Departures: force, torque about the normal n and torque across it are taken one by one, about the middle p
 //   of the feet. N is what the body was held up by, in shares as the sweeps pushed. Contacts that slip bring
-//   mu N against their slip, the others may bring as much in any direction: a disc of forces, an interval of
-//   torques about n (with the root mean square of the distance from p). Across n the middle of the pushes may
-//   go to the edge of the evenly loaded rectangle that has the moments of the feet.
+//   mu N against where their guess slips, the others may bring as much in any direction: a disc of forces, an
+//   interval of torques about n (with the root mean square of the distance from p). Across n the middle of
+//   the pushes may go to the edge of the evenly loaded rectangle that has the moments of the feet.
 #ifndef TAUT_SHARED_VBD_WRENCH_GLSL
 #define TAUT_SHARED_VBD_WRENCH_GLSL
 
@@ -29,7 +28,7 @@ struct Whole
 
 /// Of its feet: the sum of the pushes on them, N, and of their sizes; of friction times size where they hold,
 /// N; with the size as weight the means of the height over the surface and of slip, m, and place x slip, m^2;
-/// the sums of friction times size along the slip, N, and of place x that, N m.
+/// the sums of friction times size along the slip of the guess, N, and of place x that, N m.
 struct Feet
 {
     rvec3 push;
@@ -44,21 +43,12 @@ struct Shift
     rvec3 way, centre, turn;
 };
 
-Moments places_of(Whole body)
+Moments moments_of(rvec3 middle, rvec3 square, rvec3 mixed)
 {
     Moments m;
-    m.middle = body.middle;
-    m.square = body.square;
-    m.mixed = body.mixed;
-    return m;
-}
-
-Moments places_of(Feet feet)
-{
-    Moments m;
-    m.middle = feet.middle;
-    m.square = feet.square;
-    m.mixed = feet.mixed;
+    m.middle = middle;
+    m.square = square;
+    m.mixed = mixed;
     return m;
 }
 
@@ -70,11 +60,7 @@ Moments moments_about(Moments m, rvec3 at)
     PRECISE rvec3 middle = m.middle - at;
     PRECISE rvec3 square = m.square + at * (at - m.middle * real(2));
     PRECISE rvec3 mixed = m.mixed + a * b - a * l - k * b;
-    Moments moved;
-    moved.middle = middle;
-    moved.square = square;
-    moved.mixed = mixed;
-    return moved;
+    return moments_of(middle, square, mixed);
 }
 
 /// The mean of (u . place)^2.
@@ -129,7 +115,7 @@ Shift free_shift(Whole body)
     Shift s;
     s.way = body.lack;
     s.centre = body.middle;
-    s.turn = turn_of(places_of(body), turn);
+    s.turn = turn_of(moments_of(body.middle, body.square, body.mixed), turn);
     return s;
 }
 
@@ -157,7 +143,8 @@ real room_of(rvec3 slip, rvec3 moved, rvec3 rub)
 /// from its centre of mass; body_turn: how it turned; way_of_push: m / N.
 rvec3 left_spin(Feet feet, Moments own, rvec3 n, real twist, rvec3 body_turn, real way_of_push)
 {
-    real round = spread_about(moments_about(places_of(feet), feet.middle), n);
+    real round =
+        spread_about(moments_about(moments_of(feet.middle, feet.square, feet.mixed), feet.middle), n);
     PRECISE rvec3 slip_turn = feet.slip_turn - cross(feet.middle, feet.slip);
     PRECISE rvec3 rub_turn = feet.rub_turn - cross(feet.middle, feet.rub);
     PRECISE rvec3 spin = n * (round > real(0) ? dot(slip_turn, n) / round : real(0));
@@ -169,7 +156,7 @@ rvec3 left_spin(Feet feet, Moments own, rvec3 n, real twist, rvec3 body_turn, re
 }
 
 /// The part of an angular momentum over the mass about axes across n that N, m, cannot bear. under: of the
-/// pushes, about their middle.
+/// feet, about their middle.
 rvec3 left_tip(Moments under, rvec3 n, rvec3 tip, real carried)
 {
     // Moments along two axes of the surface, and the axis u on which they are greatest.
@@ -203,11 +190,7 @@ Moments resting_moments(Moments own, rvec3 a)
     PRECISE real half_square = dot(a, a) * real(0.5);
     PRECISE rvec3 square = own.square + (rvec3(half_square, half_square, half_square) - a * a);
     PRECISE rvec3 mixed = own.mixed - rvec3(a.y * a.z, a.z * a.x, a.x * a.y);
-    Moments m;
-    m.middle = rvec3(real(0));
-    m.square = square;
-    m.mixed = mixed;
-    return m;
+    return moments_of(rvec3(real(0)), square, mixed);
 }
 
 /// For a body with contacts. None where these oppose each other, as in a grip or a groove: no sum says what
@@ -224,8 +207,8 @@ Shift supported_shift(Whole body, Feet feet)
     PRECISE rvec3 arm = feet.middle - body.middle;
     PRECISE rvec3 down = n * dot(arm, n);
     PRECISE rvec3 aside = cross(arm, n);
-    Moments own = moments_about(places_of(body), body.middle);
-    Moments under = moments_about(places_of(feet), feet.middle);
+    Moments own = moments_about(moments_of(body.middle, body.square, body.mixed), body.middle);
+    Moments under = moments_about(moments_of(feet.middle, feet.square, feet.mixed), feet.middle);
     Moments resting = resting_moments(own, aside);
     PRECISE real away = dot(body.lack, n);
     PRECISE real fall = clamp(-away, real(0), feet.height); // until the feet are on the surface
@@ -261,7 +244,7 @@ Shift supported_shift(Whole body, Feet feet)
 /// The energy over the mass, m^2, that a shift about the centre of mass adds. fall: the way of gravity.
 real energy_of(Shift s, Whole body, rvec3 fall)
 {
-    Moments own = moments_about(places_of(body), body.middle);
+    Moments own = moments_about(moments_of(body.middle, body.square, body.mixed), body.middle);
     PRECISE rvec3 momentum = body.moved_turn - cross(body.middle, body.moved);
     PRECISE real square = dot(s.turn, s.turn);
     PRECISE real spin = square * (own.square.x + own.square.y + own.square.z) - spread_along(own, s.turn);

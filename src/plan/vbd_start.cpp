@@ -180,9 +180,8 @@ void prepare_vbd_start(PlanBuilder& b, BlockBuffers& f)
 {
     if (guarded(b))
     {
-        f.sums = b.add_buffer("vbd_start", "sums of the rise",
-                              (std::uint64_t{f.carry()} + f.groups * (TAUT_VBD_DRIFT + TAUT_VBD_FRAME)) *
-                                  b.real_size());
+        const std::uint64_t frames = meets_colliders(b) ? f.groups * (TAUT_VBD_DRIFT + TAUT_VBD_FRAME) : 0;
+        f.sums = b.add_buffer("vbd_start", "sums of the rise", (f.carry() + frames) * b.real_size());
         f.lost = b.add_buffer("vbd_start", "lost energy", std::max(f.groups, 1u) * b.real_size());
         b.plan.kept.push_back(f.lost);
     }

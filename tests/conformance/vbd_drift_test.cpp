@@ -25,9 +25,8 @@ TEMPLATE_TEST_CASE(
         y.w = random.uniform<Real>(1, 1000);
     const std::uint32_t surfaces = n, frame = TAUT_VBD_PARTS * parts.groups + 3;
     const auto contacts = random_surfaces<Real>(random, surfaces, predicted);
-    const auto frames = random_frames<Real>(random, parts, 1e-2);
     std::vector<Real> sums(frame, Real(7));
-    sums.insert(sums.end(), frames.begin(), frames.end());
+    const auto carriers = add_frames(sums, parts, random);
     const std::vector<std::uint32_t> row = parts.plain_rows(words, 3);
     Case c;
     c.precision = precision_of<Real>();
@@ -48,7 +47,7 @@ TEMPLATE_TEST_CASE(
         FeetSums feet;
         feet.value.fill(7);
         if (contact)
-            feet = feet_sums(parts, g, 3, position, predicted, delta, push, contacts, surfaces, frames);
+            feet = feet_sums(parts, g, 3, position, predicted, delta, push, contacts, surfaces, carriers);
         for (std::size_t k = 0; k < feet.value.size(); ++k)
             field.add(feet.value[k], feet.size[k]);
     }

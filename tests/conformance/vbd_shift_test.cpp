@@ -39,7 +39,8 @@ TEMPLATE_TEST_CASE("vbd_shift moves and turns free bodies as a whole by what the
         y.w = random.uniform<Real>(1, 3);
     const auto push = random.vec4s<Real>(n, 1e-3, 0, 0);
     const auto contacts = random_surfaces<Real>(random, 0, predicted);
-    const auto frames = random_frames<Real>(random, parts, 1e-2);
+    std::vector<Real> frames;
+    const auto carriers = add_frames(frames, parts, random);
     std::vector<std::uint32_t> seen;
     for (std::uint32_t v = 0; v < n; ++v)
         seen.insert(seen.end(), {random.below(3), random.below(2)});
@@ -52,7 +53,7 @@ TEMPLATE_TEST_CASE("vbd_shift moves and turns free bodies as a whole by what the
             sums.push_back(static_cast<Real>(v));
         const bool bare = parts.parts[g].from % 3 == 1; // of some bodies no vertex meets anything
         for (const double v :
-             feet_sums(parts, g, 3, position, predicted, delta, push, contacts, 0, frames).value)
+             feet_sums(parts, g, 3, position, predicted, delta, push, contacts, 0, carriers).value)
             sums.push_back(bare && sums.size() % TAUT_VBD_PARTS >= TAUT_VBD_DRIFT + TAUT_VBD_PUSH
                                ? Real(0)
                                : static_cast<Real>(v));
@@ -87,7 +88,7 @@ TEMPLATE_TEST_CASE("vbd_shift moves and turns free bodies as a whole by what the
         if (contact && !standing.stands() && seen[2 * (part.base + 3) + 1] != 0)
             shift.way -= pushed * (glm::dot(shift.way, pushed) / glm::dot(pushed, pushed));
         const double added = standing.mass() * standing.energy(shift, fall);
-        if (contact && frames[TAUT_VBD_FRAME * g] > 0)
+        if (contact && carriers[g].carries)
         {
             debt[g] -= std::max(added, 0.0);
             debt_scale[g] = 40 * standing.mass() * (speed + 0.05) * (speed + 0.05);

@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/devices.hpp"
+#include "support/mean.hpp"
 
 #include "taut/report/report.hpp"
 #include "taut/world/world.hpp"
@@ -18,10 +19,23 @@ namespace {
 
 constexpr double kSize = 0.1;
 
+/// A body on a level floor.
+Scene on_floor(const Body& body, double friction)
+{
+    Scene scene;
+    scene.bodies = {body};
+    Collider floor;
+    floor.kind = ColliderKind::plane;
+    floor.friction = friction;
+    scene.colliders = {floor};
+    scene.method.type = MethodKind::vbd;
+    scene.method.substeps = 10;
+    return scene;
+}
+
 /// A ball or a cube of rubber with its lowest point that far above a floor.
 Scene rubber(ShapeKind kind, double youngs_modulus, double poissons_ratio, double height, double friction)
 {
-    Scene scene;
     Body body;
     body.shape.kind = kind;
     body.shape.box_cells = {3, 3, 3};
@@ -33,14 +47,7 @@ Scene rubber(ShapeKind kind, double youngs_modulus, double poissons_ratio, doubl
     body.material.poissons_ratio = poissons_ratio;
     body.material.thickness = 1e-3;
     body.transform.translate = {0, kSize / 2 + 1e-3 + height, 0};
-    scene.bodies = {body};
-    Collider floor;
-    floor.kind = ColliderKind::plane;
-    floor.friction = friction;
-    scene.colliders = {floor};
-    scene.method.type = MethodKind::vbd;
-    scene.method.substeps = 10;
-    return scene;
+    return on_floor(body, friction);
 }
 
 double furthest(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b)
@@ -104,7 +111,6 @@ TEST_CASE("stiff cloth that slides slows by Coulomb's law with one sweep, and th
 {
     const double friction = GENERATE(0.2, 0.5);
     CAPTURE(friction);
-    Scene scene;
     Body body;
     body.shape.kind = ShapeKind::grid;
     body.shape.cells = {8, 8};
@@ -114,20 +120,8 @@ TEST_CASE("stiff cloth that slides slows by Coulomb's law with one sweep, and th
     body.transform.rotate_degrees = -90;
     body.transform.translate = {0, 1e-3, 0};
     body.velocity = {2, 0, 0};
-    scene.bodies = {body};
-    Collider floor;
-    floor.kind = ColliderKind::plane;
-    floor.friction = friction;
-    scene.colliders = {floor};
-    scene.method.type = MethodKind::vbd;
-    scene.method.substeps = 10;
-    World world(scene, test_device("cpu:serial"));
-    const auto mean = [&] {
-        glm::dvec3 sum(0);
-        for (const glm::dvec3& v : world.velocities())
-            sum += v;
-        return sum / static_cast<double>(world.velocities().size());
-    };
+    World world(on_floor(body, friction), test_device("cpu:serial"));
+    const auto mean = [&] { return test::mean(world.velocities()); };
     for (int step = 0; step < 15; ++step)
         world.step();
     CHECK(mean().x == Approx(2 - friction * 9.81 * 0.25).epsilon(2e-3));

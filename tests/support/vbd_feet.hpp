@@ -3,6 +3,7 @@
 // kernels/shared/vbd_wrench.glsl allows it, with tensors as matrices.
 
 #include "support/rigid_sums.hpp"
+#include "support/vbd_carrier.hpp"
 
 #include <Eigen/Dense>
 
@@ -31,32 +32,6 @@ std::vector<glm::vec<4, Real>> random_surfaces(Random& random, std::uint32_t fir
         out.emplace_back(glm::dvec4(pushed ? force : glm::dvec3(0), pushed && sticks ? 1 : 0));
     }
     return out;
-}
-
-/// Of groups and bodies: where something carries them, flag, way, place and turn.
-template <typename Real>
-std::vector<Real> random_frames(Random& random, const BodyParts& parts, double way)
-{
-    std::vector<Real> out;
-    for (const BodyParts::Part& part : parts.parts)
-    {
-        const std::size_t first = TAUT_VBD_FRAME * std::size_t{part.from};
-        for (std::size_t k = 0; k < TAUT_VBD_FRAME; ++k)
-            out.push_back(out.size() / TAUT_VBD_FRAME > part.from ? out[first + k]
-                          : k == 0 ? Real(!part.held && random.chance(0.6) ? 1 : 0)
-                                   : random.uniform<Real>(-way, way));
-    }
-    return out;
-}
-
-/// The way at r of what carries a group's body; 0 where nothing does.
-template <typename Real>
-glm::dvec3 carried_way(const std::vector<Real>& frames, std::size_t group, const glm::dvec3& r)
-{
-    const Real* f = &frames[TAUT_VBD_FRAME * group];
-    return f[0] > 0 ? glm::dvec3(f[1], f[2], f[3]) +
-                          glm::cross(glm::dvec3(f[7], f[8], f[9]), r - glm::dvec3(f[4], f[5], f[6]))
-                    : glm::dvec3(0);
 }
 
 struct FeetSums
@@ -116,11 +91,12 @@ void add_foot(FeetSums& out, const Vec4& y, const Vec4& displacement, const Vec4
 }
 
 /// Of the rows of a part; `surfaces`: where in `contacts` they begin.
-template <typename Vec4, typename Real>
+template <typename Vec4>
 FeetSums feet_sums(const BodyParts& parts, std::size_t group, std::uint32_t first_vertex,
                    const std::vector<Vec4>& position, const std::vector<Vec4>& predicted,
                    const std::vector<Vec4>& delta, const std::vector<Vec4>& push,
-                   const std::vector<Vec4>& contacts, std::uint32_t surfaces, const std::vector<Real>& frames)
+                   const std::vector<Vec4>& contacts, std::uint32_t surfaces,
+                   const std::vector<Carrier>& carriers)
 {
     FeetSums out;
     const BodyParts::Part& part = parts.parts[group];
@@ -132,7 +108,7 @@ FeetSums feet_sums(const BodyParts& parts, std::size_t group, std::uint32_t firs
         const double far =
             glm::length(glm::dvec3(position[v])) + glm::length(base) + glm::length(glm::dvec3(delta[v]));
         add_foot(out, predicted[v], delta[v], push[v], &contacts[surfaces + TAUT_VBD_CONTACT * v], x, far,
-                 carried_way(frames, group, x));
+                 carriers[group].carries ? carriers[group].way_at(x) : glm::dvec3(0));
     }
     return out;
 }
