@@ -3,6 +3,7 @@
 #include "taut/cli/command.hpp"
 #include "taut/cli/output.hpp"
 #include "taut/plan/plan.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/report/deep_vertices.hpp"
 #include "taut/report/holes.hpp"
 #include "taut/report/method_settings.hpp"
@@ -16,20 +17,11 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
+#include <set>
 
 namespace taut::cli {
 namespace {
-
-/// What was thrown, by field where the message begins with one: "method.substeps is 1000".
-SceneIssue issue_of(const Error& error)
-{
-    const std::string text = error.what();
-    const std::size_t end = text.find(" is ");
-    const std::string field = text.substr(0, end);
-    const bool named = end != std::string::npos && field.find('.') != std::string::npos &&
-                       field.find(' ') == std::string::npos;
-    return named ? SceneIssue{true, field, text.substr(end + 1)} : SceneIssue{true, "", text};
-}
 
 /// What taking surfaces apart does to a scene. Throws what separate_start() throws.
 void add_separated(const Scene& resolved, std::vector<SceneIssue>& issues)
@@ -63,6 +55,10 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
         take();
         if (any_error(issues))
             return;
+        found = plan_issues(resolved, DeviceTraits{});
+        take();
+        if (any_error(issues))
+            return;
         for (const SceneIssue& issue : mesh_issues(resolved))
             issues.push_back(issue);
         for (const SceneIssue& issue : holes_issues(resolved))
@@ -86,6 +82,58 @@ void add_resolved(const Scene& scene, std::vector<SceneIssue>& issues)
     }
 }
 
+constexpr char kOfBody[] = "bodies[";
+
+/// The body that a field is of, if it is of one.
+std::optional<std::size_t> body_of(const std::string& field)
+{
+    if (!field.starts_with(kOfBody))
+        return {};
+    return std::stoul(field.substr(sizeof(kOfBody) - 1));
+}
+
+/// The numbers of the bodies that no error is of; none if one is of the scene itself, or of all bodies.
+std::vector<std::size_t> sound_bodies(const Scene& scene, const std::vector<SceneIssue>& issues)
+{
+    std::set<std::size_t> faulty;
+    for (const SceneIssue& issue : issues)
+        if (const auto body = body_of(issue.field); body && issue.error)
+            faulty.insert(*body);
+        else if (issue.error)
+            return {};
+    std::vector<std::size_t> out;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        if (!faulty.contains(b))
+            out.push_back(b);
+    return out;
+}
+
+/// An error in a body's values hides what its mesh would show, and one in its mesh what a plan would: bodies
+/// without any are looked at by themselves, until they show no more.
+void add_hidden(const Scene& scene, std::vector<SceneIssue>& issues)
+{
+    for (bool more = any_error(issues); more;)
+    {
+        more = false;
+        const std::vector<std::size_t> sound = sound_bodies(scene, issues);
+        Scene others = scene;
+        others.contact = {}; // what is asked of bodies together cannot be judged of some
+        others.bodies.clear();
+        for (const std::size_t b : sound)
+            others.bodies.push_back(scene.bodies[b]);
+        std::vector<SceneIssue> found;
+        if (!sound.empty())
+            add_resolved(others, found);
+        for (SceneIssue& issue : found)
+            if (const auto body = body_of(issue.field); body && issue.error)
+            {
+                issue.field.replace(0, issue.field.find(']'), kOfBody + std::to_string(sound.at(*body)));
+                issues.push_back(issue);
+                more = true;
+            }
+    }
+}
+
 /// From the file to the plan, as far as it goes. A file that cannot be read, or memory that runs out, is no
 /// issue of a scene and is thrown on.
 std::vector<SceneIssue> find_issues(const std::string& file)
@@ -96,11 +144,13 @@ std::vector<SceneIssue> find_issues(const std::string& file)
         Scene scene;
         std::vector<std::string> given;
         issues = check_file(file, &scene, &given);
-        if (any_error(issues))
-            return issues;
-        for (const SceneIssue& unread : unread_keys(scene.method, given))
-            issues.push_back(unread);
-        add_resolved(scene, issues);
+        if (!any_error(issues))
+        {
+            for (const SceneIssue& unread : unread_keys(scene.method, given))
+                issues.push_back(unread);
+            add_resolved(scene, issues);
+        }
+        add_hidden(scene, issues);
     }
     catch (const Error& error)
     {

@@ -23,6 +23,7 @@
 #include "taut/kernels/shared/active_rows.h"
 #include "taut/plan/mass_spring.hpp"
 #include "taut/plan/records.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #define TAUT_HOST
@@ -190,13 +191,11 @@ void record_choice(PlanBuilder& b, Acad& a)
 
 } // namespace
 
-void check_acad(const Scene& scene, const DeviceTraits&)
+void check_acad(const Scene& scene, Refusals& out)
 {
-    refuse_rigid(scene);
-    check_constrained_lengths(scene);
-    if (scene.method.integrator != Integrator::semi_implicit)
-        throw Error(ErrorCode::unsupported, "method.integrator is " + quoted(scene.method.integrator) +
-                                                ", but method.type \"acad\" steps by \"semi_implicit\" only");
+    refuse_rigid(scene, out);
+    check_constrained_lengths(scene, out);
+    check_semi_implicit(scene, out);
 }
 
 void prepare_acad(PlanBuilder& b)

@@ -6,6 +6,8 @@
 
 namespace taut {
 
+class Refusals;
+
 /// What the method keeps while a plan is made.
 struct Acad
 {
@@ -23,7 +25,7 @@ struct Acad
     std::optional<PlanSolve> solve;
 };
 
-void check_acad(const Scene& resolved, const DeviceTraits&);
+void check_acad(const Scene& resolved, Refusals& out);
 
 void prepare_acad(PlanBuilder& builder);
 /// Forces of the springs, and which of them are constraints in this substep.

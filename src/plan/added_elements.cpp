@@ -6,6 +6,7 @@
 #include "taut/elements/element.hpp"
 #include "taut/plan/coloured_set.hpp"
 #include "taut/plan/pbd.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/scene/keys.hpp"
 #include "taut/scene/pose.hpp"
@@ -200,21 +201,22 @@ std::vector<const ElementKind*> kinds_of(const Scene& scene)
 
 } // namespace
 
-void check_added_elements(const Scene& scene)
+void check_added_elements(const Scene& scene, Refusals& out)
 {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
         for (std::size_t k = 0; k < scene.bodies[b].elements.size(); ++k)
-        {
-            const Body& body = scene.bodies[b];
-            const std::string where = place(scene, b, k);
-            check_list(where, body, body.elements[k]);
-            check_method(where, scene, *find_element(body.elements[k].kind));
-            if (needs_force(scene))
-                check_force(where, body, body.elements[k]);
-            if (body.material.tear_strain > 0)
-                throw Error(ErrorCode::unsupported, where + ": a body with tear_strain " +
-                                                        "cannot have them, since tearing splits vertices");
-        }
+            out.attempt([&] {
+                const Body& body = scene.bodies[b];
+                const std::string where = place(scene, b, k);
+                check_list(where, body, body.elements[k]);
+                check_method(where, scene, *find_element(body.elements[k].kind));
+                if (needs_force(scene))
+                    check_force(where, body, body.elements[k]);
+                if (body.material.tear_strain > 0)
+                    throw Error(ErrorCode::unsupported,
+                                where + ": a body with tear_strain " +
+                                    "cannot have them, since tearing splits vertices");
+            });
 }
 
 bool wants_added_elements(const Scene& scene) { return !kinds_of(scene).empty(); }

@@ -7,9 +7,11 @@
 
 namespace taut {
 
-/// Throws Error{bad_input} naming body, list and what would be right for an unknown kind or lists that do not
-/// fit it, Error{unsupported} for a method without kernels for them and for bodies that tear.
-void check_added_elements(const Scene& resolved);
+class Refusals;
+
+/// Refuses, naming body, list and what would be right, as `bad_input` unknown kinds and lists that do not fit
+/// them, as `unsupported` a method without kernels for them and bodies that tear.
+void check_added_elements(const Scene& resolved, Refusals& out);
 
 /// J, of one element of a list, with the body's vertices at x (m).
 double energy_of(const ElementKind& kind, const Body::Elements& list, std::size_t element,

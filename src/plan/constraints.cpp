@@ -90,9 +90,10 @@ void add_damping(PlanBuilder& b, ConstraintSet& set, const std::vector<StretchEl
         return;
     if (!set.hub_start.empty())
         throw Error(ErrorCode::unsupported,
-                    "stretch_damping with more than " + std::to_string(ColouringOptions{}.hub_degree) +
-                        " springs at one vertex; xpbd solves those at once and without dampers: use "
-                        "stretch_damping 0, or another method");
+                    "method.type is \"xpbd\", but more than " +
+                        std::to_string(ColouringOptions{}.hub_degree) +
+                        " springs with a stretch_damping meet at one vertex; xpbd solves those at once and "
+                        "without dampers: use stretch_damping 0, or another method");
     with_real(b.plan.precision, [&](auto zero) {
         using Real = decltype(zero);
         std::vector<Real> times;

@@ -1,6 +1,7 @@
 #include "taut/plan/contact_scene.hpp"
 
 #include "taut/kernels/shared/contact_rows.h"
+#include "taut/plan/refusals.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/scene/pose.hpp"
@@ -130,12 +131,13 @@ bool wants_guarantee(const Scene& scene)
     return scene.contact.guarantee == Guarantee::no_crossing && wants_contact(scene);
 }
 
-void check_contact(const Scene& scene)
+void check_contact(const Scene& scene, Refusals& out)
 {
-    check_guarantee(scene);
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-        if (takes_part(scene, scene.bodies[k]))
+    out.attempt([&] { check_guarantee(scene); });
+    out.attempt_bodies(scene, [&](const Body& body, std::size_t k) {
+        if (takes_part(scene, body))
             check_radius(scene, k);
+    });
 }
 
 } // namespace taut

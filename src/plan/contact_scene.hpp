@@ -7,6 +7,8 @@
 
 namespace taut {
 
+class Refusals;
+
 /// Pairs that a list may hold at most.
 inline constexpr std::uint32_t kMostContactPairs = 1u << 21;
 /// m: the coordinates of PlanContact::place of a vertex that makes the next substep begin with a search.
@@ -39,8 +41,8 @@ bool wants_contact(const Scene& resolved);
 /// Whether surfaces that meet must never cross.
 bool wants_guarantee(const Scene& resolved);
 
-/// Throws Error{unsupported} naming the key where a guarantee is asked for that cannot be given;
-/// Error{bad_input} for a surface too thin for where it is, and for a guarantee where nothing meets.
-void check_contact(const Scene& resolved);
+/// Refuses, as `unsupported`, a guarantee that cannot be given; as `bad_input` surfaces too thin for where
+/// they are, and a guarantee where nothing meets.
+void check_contact(const Scene& resolved, Refusals& out);
 
 } // namespace taut

@@ -21,6 +21,7 @@
 #include "taut/plan/methods.hpp"
 #include "taut/plan/records.hpp"
 #include "taut/plan/redundant_rows.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/runtime/base/error.hpp"
 
@@ -116,48 +117,55 @@ bool may_be_constrained(const Scene& scene, const StretchElement& spring)
     return scene.method.constrained == ConstrainedSprings::all || spring.kind == SpringKind::structural;
 }
 
-void check_constrained_lengths(const Scene& scene)
+void check_constrained_lengths(const Scene& scene, Refusals& out)
 {
-    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-        for (const StretchElement& e : stretch_elements(scene.bodies[body]))
+    out.attempt_bodies(scene, [&](const Body& body, std::size_t k) {
+        for (const StretchElement& e : stretch_elements(body))
             if (may_be_constrained(scene, e) && !(e.rest_length > 0))
                 throw Error(
                     ErrorCode::degenerate_rest,
-                    "bodies[" + std::to_string(body) + "]: the spring between the vertices " +
+                    "bodies[" + std::to_string(k) + "] has a spring between the vertices " +
                         std::to_string(e.a) + " and " + std::to_string(e.b) +
-                        " has no length at rest, and as a constraint no direction there; give it one, "
-                        "or take method.type \"xpbd\"");
+                        " without length at rest, and as a constraint it has no direction there; give "
+                        "it one, or take method.type \"xpbd\"");
+    });
 }
 
-void check_implicit_constraints(const Scene& scene, const DeviceTraits&)
+void check_semi_implicit(const Scene& scene, Refusals& out)
 {
-    check_constrained_lengths(scene);
-    // No pass would give back what the kick takes of gravity.
-    if (scene.method.integrator != Integrator::semi_implicit)
-        throw Error(ErrorCode::unsupported,
-                    "method.integrator is " + quoted(scene.method.integrator) +
-                        ", but method.type \"implicit_constraints\" steps by \"semi_implicit\" only");
+    // No pass of constraint enforcement would give back what the kick takes of gravity.
+    out.attempt([&] {
+        if (scene.method.integrator != Integrator::semi_implicit)
+            throw Error(ErrorCode::unsupported, "method.integrator is " + quoted(scene.method.integrator) +
+                                                    ", but method.type " + quoted(scene.method.type) +
+                                                    " steps by \"semi_implicit\" only");
+    });
+}
+
+void check_implicit_constraints(const Scene& scene, Refusals& out)
+{
+    check_constrained_lengths(scene, out);
+    check_semi_implicit(scene, out);
     bool rows = false;
-    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-    {
-        const std::string where = "bodies[" + std::to_string(body) + "]";
-        for (const StretchElement& e : stretch_elements(scene.bodies[body]))
+    out.attempt_bodies(scene, [&](const Body& body, std::size_t k) {
+        for (const StretchElement& e : stretch_elements(body))
         {
             rows = rows || may_be_constrained(scene, e);
             if (acts_as_force(scene, e) && !(e.compliance > 0))
                 throw Error(ErrorCode::unsupported,
-                            where + ": the spring between the vertices " + std::to_string(e.a) + " and " +
-                                std::to_string(e.b) +
-                                " is rigid, but method.constrained leaves it a spring; give it a finite "
+                            "bodies[" + std::to_string(k) + "] has a rigid spring between the vertices " +
+                                std::to_string(e.a) + " and " + std::to_string(e.b) +
+                                ", but method.constrained leaves it a spring; give it a finite "
                                 "stiffness, or take method.constrained \"all\"");
         }
-    }
-    for (std::size_t body = 0; body < scene.bodies.size() && !rows; ++body)
-        if (!bend_elements(scene.bodies[body]).empty())
+    });
+    out.attempt_bodies(scene, [&](const Body& body, std::size_t k) {
+        if (!rows && !bend_elements(body).empty())
             throw Error(ErrorCode::unsupported,
-                        "bodies[" + std::to_string(body) +
+                        "bodies[" + std::to_string(k) +
                             "].material has bending_stiffness, but the scene no spring that is a constraint, "
                             "and hinges alone are not solved; give it a stretch_stiffness");
+    });
 }
 
 std::vector<double> row_compliances(const PlanBuilder& b, std::span<const StretchElement> springs)

@@ -10,6 +10,8 @@
 
 namespace taut {
 
+class Refusals;
+
 /// What the method keeps while a plan is made.
 struct ImplicitConstraints
 {
@@ -27,8 +29,10 @@ struct ImplicitConstraints
 bool may_be_constrained(const Scene& scene, const StretchElement& spring);
 
 /// Throws Error{degenerate_rest} for a constrained spring without a length at rest.
-void check_constrained_lengths(const Scene& resolved);
-void check_implicit_constraints(const Scene& resolved, const DeviceTraits&);
+void check_constrained_lengths(const Scene& resolved, Refusals& out);
+/// Refuses other integrators than "semi_implicit" as `unsupported`.
+void check_semi_implicit(const Scene& resolved, Refusals& out);
+void check_implicit_constraints(const Scene& resolved, Refusals& out);
 
 /// The compliance [m/N] of each spring as a row: the scene's, or where that is "material" the spring's own
 /// (under acad none: beyond the threshold its own would be softer than the spring). Rows of a

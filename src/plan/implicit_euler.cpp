@@ -20,6 +20,7 @@
 #include "taut/plan/implicit_system.hpp"
 #include "taut/plan/implicit_table.hpp"
 #include "taut/plan/records.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/plan/solid_constraints.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -98,7 +99,7 @@ void check_trips(const PlanBuilder& b, std::span<const std::uint32_t> table, std
     const std::uint32_t groups = linear::group_count_for(3 * n, b.paper()->info());
     const std::uint64_t trips = implicit_trips(table, n, words, linear::make_grid(n, groups).chunk);
     if (trips > kMaxLoopTrips)
-        throw Error(ErrorCode::limit, "method implicit_euler: the " + std::string(what) +
+        throw Error(ErrorCode::limit, "method.type is \"implicit_euler\", but the " + std::string(what) +
                                           " at one vertex and those that share its lane make " +
                                           std::to_string(trips) + " loop trips, and " +
                                           std::to_string(kMaxLoopTrips) +
@@ -257,25 +258,27 @@ std::uint32_t line_search_of(const Scene& resolved)
     return solid ? kOfSolids : kOfCloth;
 }
 
-void check_implicit_euler(const Scene& resolved, const DeviceTraits&)
+void check_implicit_euler(const Scene& resolved, Refusals& out)
 {
-    const auto refuse = [](std::size_t body, const char* what, const char* setting) {
-        throw Error(ErrorCode::unsupported, "method.type is \"implicit_euler\", but bodies[" +
-                                                std::to_string(body) + "] has rigid " + what +
-                                                ", which have no force; give " + setting +
-                                                " a finite value or take implicit_constraints or xpbd");
-    };
-    for (std::size_t body = 0; body < resolved.bodies.size(); ++body)
-    {
-        for (const StretchElement& e : stretch_elements(resolved.bodies[body]))
-            if (!(e.compliance > 0))
-                refuse(body, "springs", "material.stretch_stiffness or the springs' compliance");
-        for (const BendElement& e : bend_elements(resolved.bodies[body]))
-            if (!(e.compliance > 0))
-                refuse(body, "hinges", "material.bending_stiffness");
-        if (holds_volumes(resolved.bodies[body]) && std::isinf(bulk_modulus(resolved.bodies[body].material)))
-            refuse(body, "volumes", "material.volume_stiffness");
-    }
+    out.attempt_bodies(resolved, [](const Body& body, std::size_t k) {
+        const auto refuse = [k](const std::string& what, const char* setting) {
+            throw Error(ErrorCode::unsupported, "bodies[" + std::to_string(k) + "]" + what +
+                                                    ", which have no force under method.type "
+                                                    "\"implicit_euler\"; give " +
+                                                    setting +
+                                                    " a finite value or take implicit_constraints or xpbd");
+        };
+        const auto is_rigid = [](const auto& e) { return !(e.compliance > 0); };
+        if (std::ranges::any_of(stretch_elements(body), is_rigid))
+            refuse(std::isinf(body.material.stretch_stiffness)
+                       ? ".material.stretch_stiffness is infinite: rigid springs"
+                       : " has rigid springs",
+                   "material.stretch_stiffness or the springs' compliance");
+        if (std::ranges::any_of(bend_elements(body), is_rigid))
+            refuse(".material.bending_stiffness is infinite: rigid hinges", "it");
+        if (holds_volumes(body) && std::isinf(bulk_modulus(body.material)))
+            refuse(".material.volume_stiffness is infinite: rigid volumes", "it");
+    });
 }
 
 ImplicitRecords implicit_records(const PlanBuilder& b)

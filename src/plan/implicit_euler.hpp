@@ -5,8 +5,10 @@
 
 namespace taut {
 
+class Refusals;
+
 /// Throws Error{unsupported} for springs and hinges that are rigid, which have no force.
-void check_implicit_euler(const Scene& resolved, const DeviceTraits&);
+void check_implicit_euler(const Scene& resolved, Refusals& out);
 
 void prepare_implicit_euler(PlanBuilder& builder);
 /// Once a substep, after the inertial guess and the held vertices.

@@ -125,7 +125,7 @@ void add_inner_forces(PlanBuilder& b, std::string_view effect, std::uint32_t spr
     add_force_buffer(b, effect);
 }
 
-void check_mass_spring(const Scene& scene, const DeviceTraits&) { refuse_rigid(scene); }
+void check_mass_spring(const Scene& scene, Refusals& out) { refuse_rigid(scene, out); }
 
 bool wants_forces_after(const Scene& scene) { return scene.method.integrator == Integrator::verlet; }
 bool wants_kick_after(const Scene& scene) { return scene.method.integrator != Integrator::semi_implicit; }

@@ -5,6 +5,8 @@
 
 namespace taut {
 
+class Refusals;
+
 /// What the effects that form forces share while a plan is made.
 struct ForceBuffers
 {
@@ -40,7 +42,7 @@ bool report_now(const PlanBuilder& builder, const Moment& moment);
 void add_inner_forces(PlanBuilder& builder, std::string_view effect, std::uint32_t springs);
 
 /// As refuse_rigid.
-void check_mass_spring(const Scene& resolved, const DeviceTraits&);
+void check_mass_spring(const Scene& resolved, Refusals& out);
 
 /// Whether the integrator needs forces also after the guess (velocity Verlet), or kicks then (explicit
 /// Euler).

@@ -5,6 +5,7 @@
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/mass_spring.hpp"
 #include "taut/plan/pbd.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/plan/solid.hpp"
 #include "taut/plan/stability.hpp"
 #include "taut/plan/surface.hpp"
@@ -61,13 +62,11 @@ std::string methods_with(bool Method::*can)
     return scene_file::listing(names);
 }
 
-void check_solids(const Scene& scene)
+void check_solids(const Scene& scene, Refusals& out)
 {
     const Method& method = find_method(scene.method.type);
     const std::string name = quoted(method.kind);
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    {
-        const Body& body = scene.bodies[k];
+    out.attempt_bodies(scene, [&](const Body& body, std::size_t k) {
         const std::string where = "bodies[" + std::to_string(k) + "].material.";
         if (is_elastic(body) && !method.elastic)
             throw Error(ErrorCode::unsupported,
@@ -80,7 +79,7 @@ void check_solids(const Scene& scene)
                             " does not hold the volume of tetrahedra; set it to 0, or take a method of " +
                             methods_with(&Method::volumes));
         if (!holds_surface_volume(body))
-            continue;
+            return;
         const std::string what =
             body.mesh.tetrahedra.empty() ? "volume_stiffness is not 0" : "volume is \"surface\"";
         if (!method.surface_volume)
@@ -90,7 +89,7 @@ void check_solids(const Scene& scene)
                             "take a method of " +
                             methods_with(&Method::surface_volume));
         check_surface(body, where + what);
-    }
+    });
 }
 
 } // namespace taut

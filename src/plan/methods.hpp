@@ -10,6 +10,8 @@
 
 namespace taut {
 
+class Refusals;
+
 struct DeviceTraits;
 
 /// Substeps of a time step, and the longest that a substep may become later, s; 0 = any length.
@@ -27,7 +29,7 @@ struct Method
     /// The inertial guess of each substep's displacement is kept beside the displacement.
     bool keeps_guess = false;
     /// Throws Error{unsupported, bad_timestep, ...} for what the method cannot do; may be null.
-    void (*check)(const Scene& resolved, const DeviceTraits&) = nullptr;
+    void (*check)(const Scene& resolved, Refusals&) = nullptr; ///< what of the scene it cannot do
     bool volumes = false;        ///< can hold volumes of tetrahedra
     bool elastic = false;        ///< can move neo-Hookean tetrahedra
     bool surface_volume = false; ///< can hold the volume within a closed surface
@@ -40,8 +42,8 @@ const Method& find_method(MethodKind kind);
 /// The names of the methods that can do something, as a list in words.
 std::string methods_with(bool Method::*can);
 
-/// Throws Error{unsupported} naming a body whose tetrahedra the scene's method cannot move, or whose volume
-/// it cannot hold, as its material says, and the methods that can; what check_surface throws for a surface.
-void check_solids(const Scene& resolved);
+/// Refuses, as `unsupported`, bodies whose tetrahedra the scene's method cannot move, or whose volume it
+/// cannot hold, as their material says, naming the methods that can; what check_surface throws for a surface.
+void check_solids(const Scene& resolved, Refusals& out);
 
 } // namespace taut

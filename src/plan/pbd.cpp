@@ -9,15 +9,16 @@
 
 #include "taut/plan/pbd.hpp"
 
-#include "taut/plan/coloured_set.hpp"
-#include "taut/plan/records.hpp"
-#include "taut/plan/solid_constraints.hpp"
-#include "taut/runtime/base/error.hpp"
-#include "taut/runtime/base/shown.hpp"
 #include "taut/kernels/pbd_average.hpp"
 #include "taut/kernels/pbd_hub_spring.hpp"
 #include "taut/kernels/pbd_node.hpp"
 #include "taut/kernels/pbd_spring.hpp"
+#include "taut/plan/coloured_set.hpp"
+#include "taut/plan/records.hpp"
+#include "taut/plan/refusals.hpp"
+#include "taut/plan/solid_constraints.hpp"
+#include "taut/runtime/base/error.hpp"
+#include "taut/runtime/base/shown.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -90,7 +91,8 @@ void check_degree(const PlanBuilder& b, std::span<const Incidence> lists)
         for (const Incidence& at : lists)
             degree += at.start[v + 1] - at.start[v];
         if (degree > kMaxLoopTrips)
-            throw Error(ErrorCode::limit, "a vertex has " + std::to_string(degree) +
+            throw Error(ErrorCode::limit, "method.scheme is " + quoted(b.scene.method.scheme) +
+                                              ", but a vertex has " + std::to_string(degree) +
                                               " springs, hinges and tetrahedra; the Jacobi schemes of pbd "
                                               "take at most " +
                                               std::to_string(kMaxLoopTrips) +
@@ -209,29 +211,31 @@ double chebyshev_weight(double spectral_radius, std::uint32_t iteration)
     return weight;
 }
 
-void check_pbd(const Scene& scene, const DeviceTraits&)
+void check_pbd(const Scene& scene, Refusals& out)
 {
     const MethodSettings& m = scene.method;
-    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-        if (scene.bodies[body].material.stretch_damping > 0)
+    out.attempt_bodies(scene, [](const Body& body, std::size_t k) {
+        if (body.material.stretch_damping > 0)
             throw Error(ErrorCode::unsupported,
-                        "bodies[" + std::to_string(body) + "].material.stretch_damping is " +
-                            shown(scene.bodies[body].material.stretch_damping) +
+                        "bodies[" + std::to_string(k) + "].material.stretch_damping is " +
+                            shown(body.material.stretch_damping) +
                             " s; pbd has no damper along springs; use damping of the scene, or another "
                             "method");
+    });
     if (!(m.spectral_radius > 0))
         return;
-    if (pbd_is_coloured(scene))
-        throw Error(ErrorCode::unsupported,
-                    "method.spectral_radius is " + shown(m.spectral_radius) +
-                        "; Chebyshev's acceleration of pbd needs method.scheme \"node_centric\" or "
-                        "\"constraint_centric\"");
-    if (m.iterations < kLeastChebyshev)
-        throw Error(ErrorCode::unsupported,
-                    "method.spectral_radius is " + shown(m.spectral_radius) + " with " +
-                        std::to_string(m.iterations) +
-                        " iterations; Chebyshev's acceleration diverges with fewer than " +
-                        std::to_string(kLeastChebyshev) + "; use more, or 0");
+    out.attempt([&] {
+        const std::string where = "method.spectral_radius is " + shown(m.spectral_radius);
+        if (pbd_is_coloured(scene))
+            throw Error(ErrorCode::unsupported,
+                        where + "; Chebyshev's acceleration of pbd needs method.scheme \"node_centric\" or "
+                                "\"constraint_centric\"");
+        if (m.iterations < kLeastChebyshev)
+            throw Error(ErrorCode::unsupported,
+                        where + " with " + std::to_string(m.iterations) +
+                            " iterations; Chebyshev's acceleration diverges with fewer than " +
+                            std::to_string(kLeastChebyshev) + "; use more, or 0");
+    });
 }
 
 void record_pbd_sweep(PlanBuilder& b, const ConstraintSet& set, std::string_view kernel,

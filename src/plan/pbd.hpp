@@ -5,9 +5,11 @@
 
 namespace taut {
 
+class Refusals;
+
 /// Throws Error{unsupported} for a damper along springs, and for Chebyshev's acceleration without Jacobi or
 /// with too few iterations.
-void check_pbd(const Scene& resolved, const DeviceTraits& traits);
+void check_pbd(const Scene& resolved, Refusals& out);
 
 /// Which of the two forms of the method a scene asks for.
 bool pbd_is_coloured(const Scene& scene);

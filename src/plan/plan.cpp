@@ -7,6 +7,7 @@
 #include "taut/plan/plasticity.hpp"
 #include "taut/plan/plate.hpp"
 #include "taut/plan/pressure.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -24,24 +25,34 @@ namespace {
 /// The square of a substep's inverse must stay finite in single precision, also times a compliance.
 constexpr double kMinSubstep = 1e-15;
 
-void check_settings(const Scene& scene, const DeviceTraits& traits)
+void check_values(const Scene& scene)
 {
-    const Method& method = find_method(scene.method.type);
+    find_method(scene.method.type); // or throws
     check_timestep(scene.timestep, scene.method.substeps);
     for (const SceneIssue& issue : check_resolved(scene))
         if (issue.error)
             throw Error(issue.code, issue.field + " " + issue.text);
-    if (scene.method.precision == Precision::float64 && !traits.float64)
-        throw Error(ErrorCode::unsupported, "method.precision is \"double\", but the device has no 64-bit "
-                                            "floats; use \"float\" or another device");
-    check_solids(scene);
-    check_pressure(scene);
-    check_plasticity(scene);
-    check_plate(scene);
-    check_added_elements(scene);
-    check_contact(scene);
+}
+
+Refusals refusals_of(const Scene& scene, const DeviceTraits& traits)
+{
+    Refusals out;
+    out.attempt([&] {
+        if (scene.method.precision == Precision::float64 && !traits.float64)
+            throw Error(ErrorCode::unsupported,
+                        "method.precision is \"double\", but the device has no 64-bit "
+                        "floats; use \"float\" or another device");
+    });
+    check_solids(scene, out);
+    check_pressure(scene, out);
+    check_plasticity(scene, out);
+    check_plate(scene, out);
+    check_added_elements(scene, out);
+    check_contact(scene, out);
+    const Method& method = find_method(scene.method.type);
     if (method.check != nullptr)
-        method.check(scene, traits);
+        method.check(scene, out);
+    return out;
 }
 
 /// Single precision where it cannot show what happens: positions carry two floats, but a substep's fall must
@@ -168,6 +179,15 @@ void check_timestep(double timestep, std::uint32_t substeps, double largest)
                         shown(std::ceil(timestep / largest)) + " would do");
 }
 
+std::vector<SceneIssue> plan_issues(const Scene& resolved, const DeviceTraits& traits)
+{
+    const Refusals refusals = refusals_of(resolved, traits);
+    std::vector<SceneIssue> out;
+    for (const Error& error : refusals.found())
+        out.push_back(issue_of(error));
+    return out;
+}
+
 Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOptions& options)
 {
     if (resolved.method.substeps == 0)
@@ -176,7 +196,8 @@ Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOpti
         counted.method.substeps = automatic_substeps(resolved);
         return make_plan(counted, traits, options);
     }
-    check_settings(resolved, traits);
+    check_values(resolved);
+    refusals_of(resolved, traits).throw_first();
     PlanBuilder builder(resolved, traits, options);
     const std::vector<const Effect*> rows = wanted_effects(resolved, options);
     // The state comes first: other effects bind it.

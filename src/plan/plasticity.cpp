@@ -11,6 +11,7 @@
 #include "taut/plan/implicit_euler.hpp"
 #include "taut/plan/mass_spring.hpp"
 #include "taut/plan/material.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/plan/solid_constraints.hpp"
 #include "taut/plan/springs.hpp"
 #include "taut/plan/vbd.hpp"
@@ -212,7 +213,7 @@ bool wants_plasticity(const Scene& scene)
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), keeps_strain);
 }
 
-void check_plasticity(const Scene& scene)
+void check_plasticity(const Scene& scene, Refusals& out)
 {
     constexpr MethodKind kMethodsThatFlow[] = {MethodKind::xpbd, MethodKind::vbd, MethodKind::implicit_euler,
                                                MethodKind::mass_spring};
@@ -221,10 +222,9 @@ void check_plasticity(const Scene& scene)
         flowing.push_back(to_string(kind));
     const bool tears = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.material.tear_strain > 0; });
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    {
-        if (!keeps_strain(scene.bodies[k]))
-            continue;
+    out.attempt_bodies(scene, [&](const Body& body, std::size_t k) {
+        if (!keeps_strain(body))
+            return;
         const std::string where = "bodies[" + std::to_string(k) + "].material.plastic_yield is not 0, but ";
         if (std::find(std::begin(kMethodsThatFlow), std::end(kMethodsThatFlow), scene.method.type) ==
             std::end(kMethodsThatFlow))
@@ -235,7 +235,7 @@ void check_plasticity(const Scene& scene)
             throw Error(ErrorCode::unsupported,
                         where + "a body of the scene can tear, and a tear plans the scene anew and would "
                                 "forget what has flowed; set it, or tear_strain, to 0");
-    }
+    });
 }
 
 void prepare_plasticity(PlanBuilder& b)

@@ -5,6 +5,8 @@
 
 namespace taut {
 
+class Refusals;
+
 /// Buffers of the effect while a plan is made; kNoBuffer and 0 where a scene has no use for them.
 struct Plasticity
 {
@@ -19,9 +21,9 @@ struct Plasticity
 /// Whether any body has springs or elastic tetrahedra that keep strain.
 bool wants_plasticity(const Scene& resolved);
 
-/// Throws Error{unsupported} naming a body that would, under methods that have no such thing, or in a scene
-/// in which cloth can tear.
-void check_plasticity(const Scene& resolved);
+/// Refuses, as `unsupported`, bodies that would, under methods that have no such thing, or in a scene in
+/// which cloth can tear.
+void check_plasticity(const Scene& resolved, Refusals& out);
 
 /// After the effects that own the records: changes those of plastic bodies in place from then on. They and
 /// what has flowed become part of a world's state (Plan::kept).

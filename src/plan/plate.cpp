@@ -9,6 +9,7 @@
 #include "taut/kernels/plate_turn.hpp"
 #include "taut/plan/constraints.hpp"
 #include "taut/plan/plate_hinges.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #define TAUT_HOST
@@ -99,15 +100,13 @@ bool wants_plate(const Scene& scene)
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), is_plate);
 }
 
-void check_plate(const Scene& scene)
+void check_plate(const Scene& scene, Refusals& out)
 {
     const bool tears = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                    [](const Body& body) { return body.material.tear_strain > 0; });
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    {
-        const Body& body = scene.bodies[k];
+    out.attempt_bodies(scene, [&](const Body& body, std::size_t k) {
         if (!is_plate(body))
-            continue;
+            return;
         const auto refuse = [k](ErrorCode code, const std::string& why) {
             throw Error(code,
                         "bodies[" + std::to_string(k) + "].material.bending_model is \"plate\", but " + why);
@@ -130,7 +129,7 @@ void check_plate(const Scene& scene)
         {
             refuse(error.code(), error.what());
         }
-    }
+    });
 }
 
 void prepare_plate(PlanBuilder& b)

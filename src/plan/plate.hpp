@@ -5,6 +5,8 @@
 
 namespace taut {
 
+class Refusals;
+
 /// Buffers of the effect while a plan is made.
 struct PlateBuffers
 {
@@ -20,9 +22,9 @@ struct PlateBuffers
 /// Whether any body bends as a plate.
 bool wants_plate(const Scene& resolved);
 
-/// Throws Error{unsupported} naming a body that would, under methods that have no such thing, where cloth can
-/// tear, with an infinite rigidity, and with an edge of more than two triangles.
-void check_plate(const Scene& resolved);
+/// Refuses, as `unsupported`, bodies that would, under methods that have no such thing, where cloth can tear,
+/// with an infinite rigidity, and with an edge of more than two triangles.
+void check_plate(const Scene& resolved, Refusals& out);
 
 /// After the effects that own the hinges: changes rest angles in place from then on. They and the turns
 /// become part of a world's state (Plan::kept).

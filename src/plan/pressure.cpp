@@ -8,6 +8,7 @@
 #include "taut/kernels/pressure.hpp"
 #include "taut/kernels/surface_volume_sum.hpp"
 #include "taut/plan/material.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/plan/surface.hpp"
 #include "taut/plan/surface_volume.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -47,12 +48,12 @@ bool wants_pressure(const Scene& scene)
     return std::any_of(scene.bodies.begin(), scene.bodies.end(), has_gas);
 }
 
-void check_pressure(const Scene& scene)
+void check_pressure(const Scene& scene, Refusals& out)
 {
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-        if (scene.bodies[k].material.pressure != 0)
-            check_surface(scene.bodies[k], "bodies[" + std::to_string(k) + "].material.pressure is not 0",
-                          "pressure");
+    out.attempt_bodies(scene, [](const Body& body, std::size_t k) {
+        if (body.material.pressure != 0)
+            check_surface(body, "bodies[" + std::to_string(k) + "].material.pressure is not 0", "pressure");
+    });
 }
 
 double pressure_rate(const Body& body)

@@ -5,12 +5,14 @@
 
 namespace taut {
 
+class Refusals;
+
 /// Whether the surface of any body encloses a gas.
 bool wants_pressure(const Scene& resolved);
 
-/// Throws Error{bad_input} naming a body whose surface is open, or looks to different sides, and
-/// Error{degenerate_rest} for one that encloses nothing.
-void check_pressure(const Scene& resolved);
+/// Refuses, as `bad_input`, bodies whose surface is open, or looks to different sides, and as
+/// `degenerate_rest` those that enclose nothing.
+void check_pressure(const Scene& resolved, Refusals& out);
 
 /// A bound on the largest eigenvalue of M^-1 dF/dx of the gas of a body at rest, 1/s^2 (Gershgorin by rows,
 /// and the trace of what the volume's change adds). Beyond 4 / h^2 an explicit force cannot follow it.

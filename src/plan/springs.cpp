@@ -1,6 +1,7 @@
 #include "taut/plan/springs.hpp"
 
 #include "taut/plan/records.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/runtime/base/error.hpp"
 
 #include <glm/geometric.hpp>
@@ -39,56 +40,72 @@ Incidence triangles_at(const PlanBuilder& b, std::string_view effect, std::span<
     return out;
 }
 
-void refuse_rigid(const Scene& scene)
+namespace {
+
+/// `where`: "bodies[0]"; `method`: in quotes. Counts the springs at each vertex.
+void refuse_rigid_springs(const Body& body, const std::string& where, const std::string& method,
+                          std::vector<std::uint32_t>& at)
 {
-    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    for (const StretchElement& e : stretch_elements(body))
     {
-        const Body& own = scene.bodies[body];
-        const std::string where =
-            "bodies[" + std::to_string(body) + "], method " + quoted(scene.method.type) + ": ";
-        std::vector<std::uint32_t> at(own.mesh.positions.size(), 0);
-        for (const StretchElement& e : stretch_elements(own))
-        {
-            const std::string pair = std::to_string(e.a) + " and " + std::to_string(e.b);
-            if (!(e.compliance > 0) && !(e.rest_length > 0))
-                throw Error(ErrorCode::degenerate_rest,
-                            where + "the edge between vertices " + pair +
-                                " has no length, so its stiffness is infinite; weld them");
-            if (!(e.compliance > 0))
-                throw Error(
-                    ErrorCode::unsupported,
-                    where + "the spring between vertices " + pair +
-                        " is rigid; give it a finite stiffness, or take a method with constraints (xpbd)");
-            ++at[e.a];
-            ++at[e.b];
-        }
-        for (const BendElement& e : bend_elements(own))
-        {
-            if (!(e.compliance > 0))
-                throw Error(ErrorCode::unsupported,
-                            where + "bending_stiffness is infinite; give a finite one");
-            for (const std::uint32_t v : corners_of(e))
-                ++at[v];
-        }
-        for (const VolumeElement& e : volume_elements(own))
-        {
-            if (!(e.compliance > 0))
-                throw Error(ErrorCode::unsupported,
-                            where + "volume_stiffness is infinite; give a finite one, or take a method with "
-                                    "constraints (xpbd)");
-            for (const std::uint32_t v : e.vertex)
-                ++at[v];
-        }
-        for (const SolidElement& e : solid_elements(own))
-            for (const std::uint32_t v : e.vertex)
-                ++at[v];
-        const auto most = std::max_element(at.begin(), at.end());
-        if (most != at.end() && *most > kMaxLoopTrips)
-            throw Error(ErrorCode::limit, where + std::to_string(*most) +
-                                              " springs, hinges and tetrahedra at vertex " +
-                                              std::to_string(most - at.begin()) + ", at most " +
-                                              std::to_string(kMaxLoopTrips) + " fit one invocation");
+        const std::string pair = std::to_string(e.a) + " and " + std::to_string(e.b);
+        if (!(e.compliance > 0) && !(e.rest_length > 0))
+            throw Error(ErrorCode::degenerate_rest, where + " has an edge without length between vertices " +
+                                                        pair + ", whose stiffness is infinite; weld them");
+        if (!(e.compliance > 0))
+            throw Error(ErrorCode::unsupported,
+                        where +
+                            (std::isinf(body.material.stretch_stiffness)
+                                 ? ".material.stretch_stiffness is infinite"
+                                 : " has a rigid spring") +
+                            " between vertices " + pair + ", which has no force under method " + method +
+                            "; give it a finite stiffness, or take a method with constraints (xpbd)");
+        ++at[e.a];
+        ++at[e.b];
     }
+}
+
+void refuse_rigid(const Body& body, const std::string& where, const std::string& method)
+{
+    std::vector<std::uint32_t> at(body.mesh.positions.size(), 0);
+    refuse_rigid_springs(body, where, method, at);
+    for (const BendElement& e : bend_elements(body))
+    {
+        if (!(e.compliance > 0))
+            throw Error(ErrorCode::unsupported, where +
+                                                    ".material.bending_stiffness is infinite, which gives no "
+                                                    "force to method " +
+                                                    method + "; give a finite one");
+        for (const std::uint32_t v : corners_of(e))
+            ++at[v];
+    }
+    for (const VolumeElement& e : volume_elements(body))
+    {
+        if (!(e.compliance > 0))
+            throw Error(ErrorCode::unsupported,
+                        where + ".material.volume_stiffness is infinite, which gives no force to method " +
+                            method + "; give a finite one, or take a method with constraints (xpbd)");
+        for (const std::uint32_t v : e.vertex)
+            ++at[v];
+    }
+    for (const SolidElement& e : solid_elements(body))
+        for (const std::uint32_t v : e.vertex)
+            ++at[v];
+    const auto most = std::max_element(at.begin(), at.end());
+    if (most != at.end() && *most > kMaxLoopTrips)
+        throw Error(ErrorCode::limit, where + " has " + std::to_string(*most) +
+                                          " springs, hinges and tetrahedra at vertex " +
+                                          std::to_string(most - at.begin()) + ", at most " +
+                                          std::to_string(kMaxLoopTrips) + " fit one invocation");
+}
+
+} // namespace
+
+void refuse_rigid(const Scene& scene, Refusals& out)
+{
+    out.attempt_bodies(scene, [&](const Body& own, std::size_t k) {
+        refuse_rigid(own, "bodies[" + std::to_string(k) + "]", quoted(scene.method.type));
+    });
 }
 
 std::vector<StretchElement> acting_springs(PlanBuilder& b, std::size_t body)

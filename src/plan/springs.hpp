@@ -11,6 +11,8 @@
 
 namespace taut {
 
+class Refusals;
+
 /// The elements at each vertex: entries start[v] up to start[v + 1], ascending by element.
 struct Incidence
 {
@@ -53,10 +55,10 @@ Incidence incidence_of(std::uint32_t vertex_count, const std::vector<Element>& e
     return incidence_of(vertex_count, corners_of(elements), arity);
 }
 
-/// For methods that move by forces. Throws Error{unsupported} for rigid elements, Error{degenerate_rest} for
-/// springs that are rigid because they have no length, Error{limit} for a vertex of more elements than one
-/// invocation may visit.
-void refuse_rigid(const Scene& resolved);
+/// For methods that move by forces. Refuses bodies with rigid elements as `unsupported`, with springs that
+/// are rigid because they have no length as `degenerate_rest`, with a vertex of more elements than one
+/// invocation may visit as `limit`.
+void refuse_rigid(const Scene& resolved, Refusals& out);
 
 /// Springs of a body that can act (not between two held vertices), in the order of stretch_elements; in plan
 /// vertices. Adds the warning "conflict" for violated ones between held vertices.

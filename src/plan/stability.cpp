@@ -8,6 +8,7 @@
 
 #include "taut/plan/added_elements.hpp"
 #include "taut/plan/added_stiffness.hpp"
+#include "taut/plan/refusals.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/scene/held.hpp"
@@ -113,7 +114,9 @@ double stable_step(const RateBounds& rates)
 
 Substeps stable_substeps(const Scene& scene)
 {
-    check_added_elements(scene);
+    Refusals refused; // what of added elements has no stiffness to take account of
+    check_added_elements(scene, refused);
+    refused.throw_first();
     const MethodSettings& method = scene.method;
     const std::uint32_t asked = method.substeps == 0 ? automatic_substeps(scene) : method.substeps;
     if (method.stability == StabilityRule::ignore)
@@ -132,8 +135,9 @@ Substeps stable_substeps(const Scene& scene)
                   " there may be; use an implicit or position-based method, or softer springs"
             : "; set method.substeps to that, or method.stability to \"substep\"";
     throw Error(ErrorCode::unstable_timestep,
-                "method " + quoted(method.type) + ": a substep is " + shown(scene.timestep / asked, 4) +
-                    " s, the longest stable one " + shown(largest, 4) + " s (" + shown(kStableShare) +
+                "method.substeps is " + std::to_string(asked) + ", so a substep " +
+                    shown(scene.timestep / asked, 4) + " s, and the longest stable one of method " +
+                    quoted(method.type) + " " + shown(largest, 4) + " s (" + shown(kStableShare) +
                     " of what the stiffest vertex allows); it takes " + shown(needed) + " substeps" +
                     way_out);
 }

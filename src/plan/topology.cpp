@@ -115,7 +115,7 @@ void add_hinges(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::span<co
 {
     if (at.size() > kMaxEdgeTriangles)
     {
-        throw Error(ErrorCode::limit, "the edge between vertices " + std::to_string(a) + " and " +
+        throw Error(ErrorCode::limit, "bodies: the edge between vertices " + std::to_string(a) + " and " +
                                           std::to_string(b) + " has " + std::to_string(at.size()) +
                                           " triangles; bending takes at most " +
                                           std::to_string(kMaxEdgeTriangles) + " at one edge");

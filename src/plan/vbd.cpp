@@ -154,7 +154,7 @@ void record_acceleration(PlanBuilder& b, std::uint32_t iteration)
 
 } // namespace
 
-void check_vbd(const Scene& scene, const DeviceTraits&) { refuse_rigid(scene); }
+void check_vbd(const Scene& scene, Refusals& out) { refuse_rigid(scene, out); }
 
 std::vector<float> chebyshev_factors(double radius, std::uint32_t iterations)
 {

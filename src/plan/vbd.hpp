@@ -10,6 +10,8 @@
 
 namespace taut {
 
+class Refusals;
+
 inline constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max(); ///< of a held vertex
 
 /// What the effects of vertex block descent share while a plan is made.
@@ -69,7 +71,7 @@ struct BlockBuffers
 };
 
 /// As refuse_rigid.
-void check_vbd(const Scene& resolved, const DeviceTraits&);
+void check_vbd(const Scene& resolved, Refusals& out);
 
 /// Factors of the iterations of a substep: 1 for the first ones, then those of the recurrence of Wang 2015
 /// with `radius` (at most what that many iterations bear). Empty where it would not pay.

@@ -33,19 +33,22 @@ void place(Scene& scene, const std::filesystem::path& file)
 void add_missing_files(const Scene& scene, const std::filesystem::path& directory,
                        std::vector<SceneIssue>& issues)
 {
-    const auto look = [&](const std::filesystem::path& file, const char* list, std::size_t number) {
+    const auto look = [&](const std::filesystem::path& file, const std::string& field) {
         if (std::error_code ignored; !file.empty() && !std::filesystem::exists(directory / file, ignored))
-            issues.push_back({true, list + ("[" + std::to_string(number) + "]"),
+            issues.push_back({true, field,
                               "names " + file.string() + "; there is no such file (looked for " +
                                   (directory / file).string() + ")",
                               ErrorCode::io});
     };
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-        for (const std::filesystem::path& file :
-             {scene.bodies[b].shape.file, scene.bodies[b].embedded_file})
-            look(file, "bodies", b);
+    {
+        const Body& body = scene.bodies[b];
+        const std::string where = "bodies[" + std::to_string(b) + "].";
+        look(body.shape.file, where + (body.shape.kind == ShapeKind::tetrahedra ? "tetrahedra" : "mesh"));
+        look(body.embedded_file, where + "embedded");
+    }
     for (std::size_t c = 0; c < scene.colliders.size(); ++c)
-        look(scene.colliders[c].field_file, "colliders", c);
+        look(scene.colliders[c].field_file, "colliders[" + std::to_string(c) + "].distance_field.file");
 }
 
 /// Errors may all be among what is left out, so the last line is one if any was.
