@@ -91,11 +91,17 @@ function table(tolerance,    i, m, line) {
     }
 }
 function is_problem(name) { return name !~ /^(precision|ratio_mass|ratio_stiffness)$/ }
+# Which floors a point's error lies below: a share of a bound then says no more than that the bound holds.
+function mark(p) {
+    return (floor[p] ~ /rest/ ? "†" : "") (floor[p] ~ /linear_tolerance/ ? "‡" : "") \
+           (floor[p] ~ /reference/ ? "§" : "") (floor[p] ~ /float|double/ ? "¶" : "")
+}
+function share(p, tolerance) { return short(error[p] / tolerance) mark(p) " of the bound" }
 # The cheapest point of all methods, its error over the bound, and what the best other method costs. Where the cheapest is
 # of another material it says so, and the cheapest with the scene's own follows.
 function say_point(problem, p, tolerance,    q) {
     q = runner_up(problem, p, tolerance)
-    return method[p] ", " setting(p) ", " short(cost[p]) " ms (" short(error[p] / tolerance) " of the bound; " \
+    return method[p] ", " setting(p) ", " short(cost[p]) " ms (" share(p, tolerance) "; " \
            (q ? method[q] " " short(cost[q] / cost[p]) " x" : "no other") ")"
 }
 function say_cheapest(problem, tolerance,    p, q) {
@@ -103,8 +109,8 @@ function say_cheapest(problem, tolerance,    p, q) {
     if (!p) return "none"
     if (!foreign(p)) return say_point(problem, p, tolerance)
     q = cheapest(problem, "", tolerance, 1)
-    return "of another material: " method[p] ", " setting(p) ", " short(cost[p]) " ms (" short(error[p] / tolerance) \
-           " of the bound); of the scene's own: " (q ? say_point(problem, q, tolerance) : "none")
+    return "of another material: " method[p] ", " setting(p) ", " short(cost[p]) " ms (" share(p, tolerance) \
+           "); of the scene's own: " (q ? say_point(problem, q, tolerance) : "none")
 }
 # Where the explicit limit lies, and what it is worth to be below it.
 function say_explicit(problem,    p, least, most, one, q, why) {
@@ -181,6 +187,8 @@ END {
             print "| " p " | " metric[p] ", " class[p] " | " say_cheapest(p, 0.1) " | " say_cheapest(p, 0.01) \
                   " | " say_cheapest(p, 0.001) " |"
     }
+    print "\nMarked shares are of errors below a floor of the study, where they say no more than that the bound holds: † the"
+    print "rest test, ‡ the tolerance of the linear solves, § ten times the reference's own error, ¶ one rounding."
     table(0.1); table(0.01); table(0.001)
     print "\n### Where the explicit limit is met\n"
     for (i = 1; i <= problem_count; ++i)

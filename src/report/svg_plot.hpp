@@ -26,7 +26,8 @@ struct PlotSeries
     std::string note = {};  ///< written below its lowest point
     /// Colour and marker: 0 to 6, the same in every plot; < 0: by its place in this one.
     int style = -1;
-    int variant = 0; ///< of those that share a style: dashes and the marker's filling tell them apart
+    int variant = 0; ///< of those that share a style: dashes and the marker's filling tell them apart, from
+                     ///< the fourth on also another marker
 };
 
 /// Below it values of y say nothing: shaded, with a line and its words.
@@ -74,7 +75,7 @@ std::vector<FrontPoint> pareto_front(const std::vector<PlotSeries>& series);
 /// A bound for Plot::y_most: ten times the largest y that is at most `useful`; infinite where there is none.
 double off_the_top(const std::vector<PlotSeries>& series, double useful);
 
-/// A whole SVG document. Series of more than 100 points have no markers.
+/// A whole SVG document. Joined series of more than 50 points have markers at some of them.
 std::string svg(const Plot& plot);
 
 /// Written to a temporary name, then renamed. Throws Error{io}.

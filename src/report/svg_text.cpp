@@ -45,22 +45,31 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width)
     return out;
 }
 
-static std::string opening(double x, double y, const TextStyle& style)
+static std::string opening(double x, double y, const TextStyle& style, const char* more = "")
 {
     std::string out = "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\" font-size=\"" + fixed(style.size) +
                       "\" text-anchor=\"" + style.anchor + "\" fill=\"" + style.fill + "\"";
     if (style.bold)
         out += " font-weight=\"bold\"";
-    if (style.halo) // lines that run below end at the words
-        out += " stroke=\"#fff\" stroke-width=\"2.50\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     if (style.turn != 0)
         out += " transform=\"rotate(" + fixed(style.turn) + " " + fixed(x) + " " + fixed(y) + ")\"";
-    return out + ">";
+    return out + more + ">";
 }
 
 std::string text(double x, double y, std::string_view words, const TextStyle& style)
 {
     return opening(x, y, style) + escaped(words) + "</text>\n";
+}
+
+// An element of its own: viewers that do not know paint-order (those of Cairo) would draw a white edge of the
+// text itself over its letters.
+std::string halo(double x, double y, std::string_view words, const TextStyle& style)
+{
+    TextStyle white = style;
+    white.fill = "#fff";
+    constexpr const char* kEdge =
+        " stroke=\"#fff\" stroke-width=\"2.50\" stroke-linejoin=\"round\" aria-hidden=\"true\"";
+    return opening(x, y, white, kEdge) + escaped(words) + "</text>\n";
 }
 
 std::string power_of_ten(double x, double y, int exponent, const TextStyle& style)
@@ -77,20 +86,33 @@ std::string line(double x0, double y0, double x1, double y1, std::string_view st
            fixed(y1) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" + fixed(width) + "\"/>\n";
 }
 
-namespace {
+std::string polyline(const Path& path, const std::string& style)
+{
+    if (path.size() < 2)
+        return "";
+    std::string points;
+    for (const auto& [x, y] : path)
+        points += (points.empty() ? "" : " ") + fixed(x) + "," + fixed(y);
+    return "<polyline points=\"" + points + "\" fill=\"none\" " + style + "/>\n";
+}
 
-constexpr std::size_t kShapes = 7;
+namespace {
 
 /// Corners of the shapes beside the circle, in units of half the size.
 std::vector<std::pair<double, double>> shape_corners(std::size_t shape)
 {
-    switch (shape % kShapes)
+    switch (shape)
     {
     case 1: return {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
     case 2: return {{0, -1.1}, {1.05, 0.8}, {-1.05, 0.8}};
     case 3: return {{0, -1.2}, {1.2, 0}, {0, 1.2}, {-1.2, 0}};
     case 4: return {{0, 1.1}, {1.05, -0.8}, {-1.05, -0.8}};
     case 6: return {{-1.1, 0}, {-0.5, -1}, {0.5, -1}, {1.1, 0}, {0.5, 1}, {-0.5, 1}};
+    case 7: return {{0, -0.5}, {0.6, -1.1}, {1.1, -0.6}, {0.5, 0}, {1.1, 0.6}, {0.6, 1.1},
+                    {0, 0.5}, {-0.6, 1.1}, {-1.1, 0.6}, {-0.5, 0}, {-1.1, -0.6}, {-0.6, -1.1}};
+    case 8: return {{0, -1.4}, {0.35, -0.35}, {1.4, 0}, {0.35, 0.35},
+                    {0, 1.4}, {-0.35, 0.35}, {-1.4, 0}, {-0.35, -0.35}};
+    case 9: return {{-1.1, -1}, {1.1, 1}, {1.1, -1}, {-1.1, 1}};
     default: return {{-0.4, -1.1}, {0.4, -1.1}, {0.4, -0.4}, {1.1, -0.4}, {1.1, 0.4}, {0.4, 0.4},
                      {0.4, 1.1}, {-0.4, 1.1}, {-0.4, 0.4}, {-1.1, 0.4}, {-1.1, -0.4}, {-0.4, -0.4}};
     }
@@ -111,7 +133,7 @@ std::string marker(double x, double y, std::size_t shape, std::string_view colou
     };
     const std::string middle =
         filling == Filling::dotted ? circle(size / 6, "\" fill=\"" + own + "\"/>\n") : "";
-    if (shape % kShapes == 0)
+    if (shape == 0)
         return circle(half, style) + middle;
     std::string points;
     for (const auto& [dx, dy] : shape_corners(shape))

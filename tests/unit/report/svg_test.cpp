@@ -79,6 +79,29 @@ std::size_t count(const std::string& text, const std::string& part)
     return n;
 }
 
+constexpr const char* kHalo = "fill=\"#fff\" stroke=\"#fff\"";
+
+struct Place
+{
+    double x = 0, y = 0; ///< left end and foot of words 10 high
+};
+/// Where labels of these words stand, or their halos.
+std::vector<Place> places(const std::string& text, const std::string& words, bool halos = false)
+{
+    std::vector<Place> out;
+    const std::string end = ">" + words + "</text>";
+    for (std::size_t at = 0; (at = text.find(end, at)) != std::string::npos; ++at)
+    {
+        const std::string tag = text.substr(text.rfind("<text", at), at - text.rfind("<text", at));
+        const auto value = [&](const char* key) {
+            return std::stod(tag.substr(tag.find(key) + std::string(key).size()));
+        };
+        if ((tag.find(kHalo) != std::string::npos) == halos)
+            out.push_back({value(" x=\""), value(" y=\"")});
+    }
+    return out;
+}
+
 } // namespace
 
 TEST_CASE("a plot is well-formed XML whatever its words hold", "[svg]")
@@ -150,7 +173,7 @@ TEST_CASE("an outlier does not stretch the axis: it stands at its edge, with its
     CHECK(std::isinf(off_the_top({{"a", {{1, 7, ""}}}}, 1)));
 }
 
-TEST_CASE("a linear axis has round numbers, and long series have no markers", "[svg]")
+TEST_CASE("a linear axis has round numbers, and long series have few markers", "[svg]")
 {
     Plot plot;
     plot.front = false;
@@ -160,7 +183,9 @@ TEST_CASE("a linear axis has round numbers, and long series have no markers", "[
         plot.series[0].points.push_back({k / 48.0, 1.0 + k, ""});
     const std::string text = svg(plot);
     CHECK(malformed(text) == "");
-    CHECK(count(text, "<title>") == 2);
+    CHECK(count(text, "<title>short") == 2);
+    // A point every 560 / 120 pixels: from the first on one in eight stands 36 pixels off the last.
+    CHECK(count(text, "<title>long") == 16);
     CHECK(count(text, ">0.5</text>") == 1);
     CHECK(count(text, ">2.5</text>") == 1);
     CHECK(count(text, ">0</text>") == 1);
@@ -175,24 +200,38 @@ TEST_CASE("labels do not stand on each other", "[svg]")
         plot.series.push_back({"s", {{1000 + 0.1 * k, 0.1 - 0.0001 * k, "label " + std::to_string(k)}}});
     plot.series.push_back({"far", {{1e5, 2e-4, "alone"}}});
     const std::string text = svg(plot);
-    CHECK(count(text, ">alone</text>") == 1);
-    CHECK(count(text, ">label ") >= 2);  // on both sides
-    CHECK(count(text, ">label ") <= 14); // as many places as are tried
-    std::vector<std::pair<double, double>> at; // left end and foot of each, of text 10 high
-    for (std::size_t from = 0; (from = text.find(">label ", from)) != std::string::npos; ++from)
-    {
-        const std::size_t tag = text.rfind("<text", from);
-        const auto value = [&](const char* key) {
-            return std::stod(text.substr(text.find(key, tag) + std::string(key).size()));
-        };
-        at.emplace_back(value("x=\""), value("y=\""));
-    }
+    CHECK(places(text, "alone").size() == 1);
+    std::vector<Place> at;
+    for (int k = 0; k < 40; ++k)
+        for (const Place& place : places(text, "label " + std::to_string(k)))
+            at.push_back(place);
+    CHECK(at.size() >= 2);  // on both sides
+    CHECK(at.size() <= 14); // as many places as are tried
     for (std::size_t a = 0; a < at.size(); ++a)
         for (std::size_t b = a + 1; b < at.size(); ++b)
         {
-            INFO(at[a].first << "," << at[a].second << " and " << at[b].first << "," << at[b].second);
-            CHECK((std::abs(at[a].first - at[b].first) >= 30 || std::abs(at[a].second - at[b].second) >= 10));
+            INFO(at[a].x << "," << at[a].y << " and " << at[b].x << "," << at[b].y);
+            CHECK((std::abs(at[a].x - at[b].x) >= 30 || std::abs(at[a].y - at[b].y) >= 10));
         }
+}
+
+TEST_CASE("the halo of a label is an element of its own before all labels", "[svg]")
+{
+    const std::string text = svg(sample());
+    CHECK(count(text, "paint-order") == 0); // not known to Cairo, which would cover the letters
+    std::size_t labels = 0;
+    for (const char* words : {"4x1", "8x1", "16x1", "32x1", "64x1", "128x1"})
+    {
+        INFO(words);
+        const std::vector<Place> label = places(text, words), halo = places(text, words, true);
+        REQUIRE(label.size() == halo.size());
+        for (std::size_t k = 0; k < label.size(); ++k)
+            CHECK((label[k].x == halo[k].x && label[k].y == halo[k].y));
+        labels += label.size();
+    }
+    CHECK(labels >= 4);
+    CHECK(count(text, kHalo) == labels);
+    CHECK(text.rfind(kHalo) < text.find("font-size=\"10.00\" text-anchor=\"start\" fill=\"#111\""));
 }
 
 TEST_CASE("labels keep off the marks of other series", "[svg]")
@@ -201,15 +240,55 @@ TEST_CASE("labels keep off the marks of other series", "[svg]")
     plot.front = false;
     plot.series = {{"a", {{1, 1e-2, ""}, {100, 1e-4, ""}}, false, "a note"}};
     const auto note = [&plot] {
-        const std::string text = svg(plot);
-        const std::size_t tag = text.rfind("<text", text.find(">a note<"));
-        return text.substr(tag, text.find('>', tag) - tag);
+        const std::vector<Place> at = places(svg(plot), "a note");
+        return at.empty() ? std::pair(-1.0, -1.0) : std::pair(at[0].x, at[0].y);
     };
-    const std::string alone = note();
+    const auto alone = note();
     // A row of marks where the note stood.
     for (double x = 20; x < 100; x *= 1.05)
         plot.series.push_back({"b", {{x, 1.03e-4, ""}, {x, 1.2e-4, ""}}});
     CHECK(note() != alone);
+}
+
+TEST_CASE("the words of a floor stand along its line where no curve and no mark is", "[svg]")
+{
+    Plot plot;
+    plot.front = false;
+    plot.series = {{"a", {{1, 1, ""}, {1000, 1e-4, ""}}}};
+    plot.floors = {{1e-2, "rest test"}};
+    const auto words = [&plot] {
+        const std::vector<Place> at = places(svg(plot), "rest test");
+        REQUIRE(at.size() == 1);
+        return at[0];
+    };
+    // The area is 560 x 400 from (84, 56), four decades high: the floor stands at 256.
+    const Place free = words();
+    CHECK(free.x > 560);
+    CHECK(free.y == Approx(253));
+    plot.series.push_back({"on it", {{100, 1.1e-2, ""}, {1000, 1.1e-2, ""}}}); // a curve of two marks
+    const Place below = words();
+    CHECK(below.x == free.x);
+    CHECK(below.y == Approx(267));
+    plot.series.push_back({"under it", {{100, 9e-3, ""}, {1000, 9e-3, ""}}});
+    const Place left = words();
+    CHECK(left.x + 9 * 5 < 84 + 560 * 2 / 3.0); // left of both, which begin at two thirds
+    for (int k = 0; k < 30; ++k) // nowhere is a place: the words are there nevertheless
+    {
+        const double x = std::pow(10.0, 0.1 * k);
+        plot.series.push_back({"wall", {{x, 1, ""}, {x, 1e-4, ""}}});
+    }
+    words();
+}
+
+TEST_CASE("a floor at a decade is seen: its line is drawn after the grid", "[svg]")
+{
+    Plot plot;
+    plot.series = {{"a", {{1, 1, ""}, {10, 1e-4, ""}}}};
+    plot.floors = {{1e-2, "rest test"}};
+    const std::string line = "<line x1=\"84.00\" y1=\"256.00\" x2=\"644.00\" y2=\"256.00\" ";
+    const std::string text = svg(plot);
+    CHECK(count(text, line) == 2);
+    CHECK(text.find(line + "stroke=\"#777\"") == text.rfind(line));
 }
 
 TEST_CASE("no two series look alike, and a style is the same in every plot", "[svg]")
@@ -236,6 +315,7 @@ TEST_CASE("no two series look alike, and a style is the same in every plot", "[s
     };
     CHECK(looks(0).size() == 20); // by their places
     CHECK(looks(7).size() == 20); // variants of seven styles
+    CHECK(looks(2).size() == 20); // ten variants of one
     Plot first, second;
     first.series = {{"vbd", {{1, 1, ""}}, false, "", 6}};
     second.series = {{"pbd", {{1, 1, ""}}, false, "", 4}, {"vbd", {{1, 1, ""}}, false, "", 6}};
@@ -256,11 +336,11 @@ TEST_CASE("below a floor the plot is shaded, with a line and its words; far belo
     const std::string text = svg(plot);
     CHECK(malformed(text) == "");
     CHECK(count(text, "fill-opacity=\"0.12\"") == 1);
-    CHECK(count(text, ">rest test<") == 1);
+    CHECK(places(text, "rest test").size() == 1);
     plot.floors[0].of_all = false; // a line says it
     const std::string some = svg(plot);
     CHECK(count(some, "fill-opacity=\"0.12\"") == 0);
-    CHECK(count(some, ">rest test<") == 1);
+    CHECK(places(some, "rest test").size() == 1);
     CHECK(text.find("double") == std::string::npos);
 }
 
