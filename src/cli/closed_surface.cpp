@@ -10,22 +10,30 @@
 
 namespace taut::cli {
 
-Mesh read_closed_surface(const std::string& file, double& volume)
+ClosedSurface read_closed_surface(const std::string& file)
 {
-    Mesh surface = read_mesh(file, 0);
+    ClosedSurface out;
+    MeshFindings findings;
+    out.mesh = read_mesh(file, 0, &findings);
+    Mesh& surface = out.mesh;
+    for (const std::string& text : skipped_texts(findings.skipped))
+    {
+        out.messages.push_back(file + ' ' + text);
+        warn(out.messages.back());
+    }
     if (const std::size_t open = unpaired_edges(surface.triangles).size(); open > 0)
         throw Error(ErrorCode::bad_input,
                     file + ": it encloses no volume: " + counted(open, "edge is", "edges are") +
                         " not shared by triangles that are wound alike; close its holes first.");
-    volume = enclosed_volume(surface.triangles, surface.positions);
-    if (volume < 0)
+    const double signed_volume = enclosed_volume(surface.triangles, surface.positions);
+    if (signed_volume < 0)
         for (auto& triangle : surface.triangles)
             std::swap(triangle[1], triangle[2]);
-    volume = std::abs(volume);
-    if (!(volume > 0) || !std::isfinite(volume))
+    out.volume = std::abs(signed_volume);
+    if (!(out.volume > 0) || !std::isfinite(out.volume))
         throw Error(ErrorCode::bad_input,
-                    file + ": it encloses a volume of " + shown(volume, 4) + "; it must be above 0.");
-    return surface;
+                    file + ": it encloses a volume of " + shown(out.volume, 4) + "; it must be above 0.");
+    return out;
 }
 
 } // namespace taut::cli

@@ -40,7 +40,7 @@ class SceneFrames : public FrameSource
 public:
     explicit SceneFrames(const JudgeCommand& command)
         : file_(command.input.string()),
-          world_(resolve_file(file_, command.settings), open_device(command.device))
+          world_(resolve_file(file_, command.settings, &issues_), open_device(command.device))
     {
         const Scene& scene = world_.scene();
         const double steps = std::ceil(scene.duration / scene.timestep - 1e-6);
@@ -63,11 +63,19 @@ public:
         return world_.positions();
     }
     std::string name(std::size_t frame) const override { return file_ + ", step " + std::to_string(frame); }
+    std::vector<std::string> messages() const override
+    {
+        std::vector<std::string> texts;
+        for (const SceneIssue& issue : issues_)
+            texts.push_back((issue.field.empty() ? "" : issue.field + ": ") + issue.text);
+        return texts;
+    }
     const judging::SceneTriangles& all() const { return all_; }
     StepReport report() const { return measure(world_); } ///< of the last step that was taken
 
 private:
     std::string file_;
+    std::vector<SceneIssue> issues_; ///< warnings of what was read
     World world_;
     std::size_t frames_ = 0;
     judging::SceneTriangles all_;
@@ -283,6 +291,8 @@ void print_answer(const Findings& found, std::size_t bad, const StepReport* run)
 int judge_input(const JudgeCommand& command)
 {
     const auto input = open_input(command);
+    const std::vector<std::string> messages = input->messages();
+    std::for_each(messages.begin(), messages.end(), warn);
     const std::vector<glm::dvec3> first = input->positions(0);
     const auto* scene = dynamic_cast<const SceneFrames*>(input.get());
     const judging::SceneTriangles all = scene ? scene->all() : judging::SceneTriangles{};
@@ -303,6 +313,7 @@ int judge_input(const JudgeCommand& command)
                               {"frames", found.frames.size()},
                               {"frames_wanted", found.wanted},
                               {"frames_with_crossings", bad},
+                              {"messages", messages},
                               {"judged", list}});
     }
     else

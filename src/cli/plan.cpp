@@ -1,10 +1,11 @@
-// taut plan: what a step of a scene would run. Runs nothing of it.
+// taut plan: what a step of a scene would run, and what memory a device takes for it. Runs nothing of it.
 
 #include "taut/plan/plan.hpp"
 #include "taut/cli/command.hpp"
 #include "taut/cli/device_option.hpp"
 #include "taut/cli/inventory_text.hpp"
 #include "taut/cli/output.hpp"
+#include "taut/cli/run_result.hpp"
 #include "taut/scene/settings.hpp"
 #include "taut/version.hpp"
 #include "taut/world/kept_traits.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 namespace taut::cli {
 namespace {
@@ -21,6 +23,15 @@ struct PlanCommand
     std::string scene, device;
     std::vector<std::string> settings;
     bool json = false, buffers = false;
+};
+
+/// A plan and what it was made for.
+struct Planned
+{
+    const Plan& plan;
+    const DeviceTraits& traits;
+    std::string device = {};                   ///< its name; empty: for none
+    std::optional<DeviceCounters> memory = {}; ///< of that device, with the scene on it
 };
 
 /// Words in lines of at most `width` columns, the first after `head`, the others below its end.
@@ -56,9 +67,10 @@ std::string costs_text(const DeviceTraits& traits, bool measured)
            "\n";
 }
 
-Json to_json(const PlanCommand& options, const Plan& plan, const std::string& device,
-             const DeviceTraits& traits)
+Json to_json(const PlanCommand& options, const Planned& planned)
 {
+    const Plan& plan = planned.plan;
+    const DeviceTraits& traits = planned.traits;
     Json effects = Json::array();
     for (const EffectCost& effect : plan.effects)
         effects.push_back({{"name", effect.name},
@@ -67,7 +79,7 @@ Json to_json(const PlanCommand& options, const Plan& plan, const std::string& de
                            {"bytes_allocated", effect.bytes_allocated},
                            {"bytes_per_step", effect.bytes_per_step}});
     Json json = {{"taut", TAUT_VERSION}, {"scene", options.scene}};
-    json["device"] = device.empty() ? Json(nullptr) : Json(device);
+    json["device"] = planned.device.empty() ? Json(nullptr) : Json(planned.device);
     json["costs_ns"] = {{"dispatch", traits.dispatch_ns},
                         {"group_barrier", traits.group_barrier_ns},
                         {"element", traits.element_ns},
@@ -81,6 +93,8 @@ Json to_json(const PlanCommand& options, const Plan& plan, const std::string& de
     json["dispatches_per_step"] = plan.passes.size();
     json["barriers_per_step"] = plan.barrier_count();
     json["bytes_allocated"] = plan.bytes_allocated();
+    if (planned.memory)
+        json["memory"] = memory_json(*planned.memory);
     json["buffers"] = buffers_json(plan);
     json["kernels"] = kernels_json(plan);
     json["colours"] = plan.colour_counts();
@@ -121,23 +135,47 @@ std::string to_table(const Plan& plan)
     return text;
 }
 
+void print(const PlanCommand& options, const Planned& planned)
+{
+    if (options.json)
+        std::cout << to_text(to_json(options, planned));
+    else if (options.buffers)
+        std::cout << inventory_markdown(planned.plan);
+    else
+        std::cout << to_table(planned.plan) << (planned.memory ? memory_line(*planned.memory) : "")
+                  << costs_text(planned.traits, !planned.device.empty());
+}
+
+void show_for_none(const PlanCommand& options, const Scene& scene)
+{
+    DeviceTraits traits;
+    if (const auto costs = fixed_costs())
+        set_costs(traits, *costs);
+    const Plan plan = make_plan(scene, traits);
+    print(options, {plan, traits});
+}
+
+/// By a world, as `taut run` makes it: what pools and staging add to the buffers of a scene only the device
+/// can say.
+void show_for_device(const PlanCommand& options, const Scene& scene)
+{
+    auto device = open_device(options.device);
+    if (!costs_kept_in().empty())
+    { // Measuring leaves larger pools behind, and the run that follows finds the costs kept.
+        measure_traits(*device);
+        device = open_device(options.device);
+    }
+    const World world(scene, device);
+    const DeviceCounters memory = device->counters();
+    const DeviceTraits traits = measure_traits(*device); // as the world has them
+    print(options, {world.plan(), traits, device->info().name, memory});
+}
+
 int show_plan(const PlanCommand& options)
 {
     const Scene scene = resolve_file(options.scene, options.settings);
-    DeviceTraits traits;
-    std::string name;
-    if (!options.device.empty())
-    {
-        const auto device = open_device(options.device);
-        traits = measure_traits(*device);
-        name = device->info().name;
-    }
-    else if (const auto costs = fixed_costs())
-        set_costs(traits, *costs);
-    const Plan plan = naming(options.scene, [&] { return make_plan(scene, traits); });
-    std::cout << (options.json      ? to_text(to_json(options, plan, name, traits))
-                  : options.buffers ? inventory_markdown(plan)
-                                    : to_table(plan) + costs_text(traits, !name.empty()));
+    naming(options.scene,
+           [&] { options.device.empty() ? show_for_none(options, scene) : show_for_device(options, scene); });
     return kDone;
 }
 

@@ -110,6 +110,19 @@ std::string errors_line(const StepReport& report)
 
 } // namespace
 
+Json memory_json(const DeviceCounters& counters)
+{
+    return {{"buffers", counters.bytes_allocated},
+            {"reserved", counters.bytes_reserved},
+            {"blocks", counters.memory_blocks}};
+}
+
+std::string memory_line(const DeviceCounters& counters)
+{
+    return "memory  " + bytes_text(counters.bytes_allocated) + " in buffers, " +
+           bytes_text(counters.bytes_reserved) + " taken for them\n";
+}
+
 Json series_json(const std::vector<TimeSample>& series)
 {
     Json list = Json::array();
@@ -132,9 +145,7 @@ Json to_json(const RunResult& result)
     Json json = {{"taut", TAUT_VERSION}, {"scene", result.scene}};
     json["device"] = result.device.name;
     json["executor"] = result.device.executor;
-    json["memory"] = {{"buffers", result.counters.bytes_allocated},
-                      {"reserved", result.counters.bytes_reserved},
-                      {"blocks", result.counters.memory_blocks}};
+    json["memory"] = memory_json(result.counters);
     json["precision"] = to_string(result.precision);
     json["frames"] = result.frames;
     json["simulated_seconds"] = report.time;
@@ -192,8 +203,7 @@ std::string summary(const RunResult& result)
     text += "step    " + number(percentile(result.step_ms, 0.5), 3) + " ms median, " +
             number(percentile(result.step_ms, 0.95), 3) + " ms at the 95th percentile, " +
             std::to_string(result.vertices) + " vertices\n";
-    text += "memory  " + bytes_text(result.counters.bytes_allocated) + " in buffers, " +
-            bytes_text(result.counters.bytes_reserved) + " taken for them\n";
+    text += memory_line(result.counters);
     if (!report.reason.empty())
         text += "why     " + report.reason + "\n";
     text += errors_line(report);

@@ -37,6 +37,10 @@ struct RunResult
     std::vector<std::string> pictures; ///< files written, relative to the folder
 };
 
+/// What a device holds and has taken for it: {buffers, reserved, blocks}, and the line for people.
+Json memory_json(const DeviceCounters& counters);
+std::string memory_line(const DeviceCounters& counters);
+
 /// The keys are documented in docs/program.md.
 Json series_json(const std::vector<TimeSample>& series);
 Json to_json(const RunResult& result);

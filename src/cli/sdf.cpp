@@ -91,11 +91,16 @@ double lost_share(const Mesh& surface, const DistanceField& field)
 
 constexpr double kLost = 0.002; ///< what sharp edges may lose without a warning
 
-void show(const SdfCommand& command, const fs::path& out, const DistanceField& field, double lost)
+void show(const SdfCommand& command, const fs::path& out, const DistanceField& field, double lost,
+          std::vector<std::string> messages)
 {
     if (lost > kLost)
-        warn("the grid has lost what lies below " + shown(100 * lost, 2) +
-             " % of the surface: parts thinner than its cells. Smaller cells (--cells, --cell) keep them.");
+    {
+        messages.push_back(
+            "the grid has lost what lies below " + shown(100 * lost, 2) +
+            " % of the surface: parts thinner than its cells. Smaller cells (--cells, --cell) keep them.");
+        warn(messages.back());
+    }
     if (command.json)
     {
         std::cout << to_text({{"taut", TAUT_VERSION},
@@ -105,7 +110,8 @@ void show(const SdfCommand& command, const fs::path& out, const DistanceField& f
                               {"low", {field.low.x, field.low.y, field.low.z}},
                               {"cell", field.cell},
                               {"depth", field.depth()},
-                              {"lost", lost}});
+                              {"lost", lost},
+                              {"messages", messages}});
         return;
     }
     std::cout << out.string() << ": " << field.points[0] << " x " << field.points[1] << " x "
@@ -116,8 +122,8 @@ void show(const SdfCommand& command, const fs::path& out, const DistanceField& f
 int make_sdf(const SdfCommand& command)
 {
     const fs::path out = out_file(command);
-    double volume = 0;
-    const Mesh surface = read_closed_surface(command.surface, volume);
+    const ClosedSurface read = read_closed_surface(command.surface);
+    const Mesh& surface = read.mesh;
     const glm::dvec3 extent = extent_of(surface);
     const double longest = std::max({extent.x, extent.y, extent.z});
     const double cell = command.cell > 0 ? command.cell : longest / command.cells;
@@ -133,7 +139,7 @@ int make_sdf(const SdfCommand& command)
                         "--margin may help; a part that is wound inwards, and a surface that cuts itself, "
                         "have no inside.");
     write_distance_field(out, field);
-    show(command, out, field, lost_share(surface, field));
+    show(command, out, field, lost_share(surface, field), read.messages);
     return kDone;
 }
 

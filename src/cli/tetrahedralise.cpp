@@ -126,12 +126,19 @@ struct Made
 {
     fs::path program, file;
     double surface_volume;
+    std::vector<std::string> messages; ///< what the surface was warned of for
 };
 
-void show(const TetrahedraliseCommand& command, const Made& made, const Mesh& solid,
-          const MeshFindings& findings)
+void show(const TetrahedraliseCommand& command, Made made, const Mesh& solid, const MeshFindings& findings)
 {
     const double filled = enclosed_volume(solid.triangles, solid.positions), largest = largest_volume(solid);
+    if (command.limited && largest > command.max_volume)
+    {
+        made.messages.push_back("the largest tetrahedron has a volume of " + number(largest) +
+                                ", above --max-volume " + number(command.max_volume) +
+                                "; programs take it as an aim, so a smaller value helps.");
+        warn(made.messages.back());
+    }
     if (command.json)
         std::cout << to_text({{"taut", TAUT_VERSION},
                               {"surface", command.surface},
@@ -143,27 +150,24 @@ void show(const TetrahedraliseCommand& command, const Made& made, const Mesh& so
                               {"turned_tetrahedra", findings.turned_tetrahedra},
                               {"volume", filled},
                               {"surface_volume", made.surface_volume},
-                              {"largest_volume", largest}});
+                              {"largest_volume", largest},
+                              {"messages", made.messages}});
     else
         std::cout << made.file.string() << ": " << solid.positions.size() << " vertices, "
                   << solid.tetrahedra.size() << " tetrahedra by " << made.program.filename().string()
                   << ", volume " << number(filled) << " of " << number(made.surface_volume) << "\n";
-    if (command.limited && largest > command.max_volume)
-        warn("the largest tetrahedron has a volume of " + number(largest) + ", above --max-volume " +
-             number(command.max_volume) + "; programs take it as an aim, so a smaller value helps.");
 }
 
 int tetrahedralise(const TetrahedraliseCommand& command)
 {
     const fs::path out = out_file(command);
-    double volume = 0;
-    const Mesh surface = read_closed_surface(command.surface, volume);
+    const ClosedSurface surface = read_closed_surface(command.surface);
     const auto mesher = choose_mesher(command.program);
     check_writable(out);
     MeshFindings findings;
-    const Mesh solid = fill(surface, volume, mesher, command.max_volume, findings);
+    const Mesh solid = fill(surface.mesh, surface.volume, mesher, command.max_volume, findings);
     write_medit(out, solid);
-    show(command, {mesher.second, out, volume}, solid, findings);
+    show(command, {mesher.second, out, surface.volume, surface.messages}, solid, findings);
     return kDone;
 }
 

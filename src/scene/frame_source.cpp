@@ -46,6 +46,15 @@ bool before(const std::string& a, const std::string& b)
     return a.size() - i < b.size() - j || (a.size() - i == b.size() - j && a < b);
 }
 
+/// Of a mesh, by its file.
+std::vector<std::string> skipped_messages(const std::string& file, const RawMesh& mesh)
+{
+    std::vector<std::string> messages = skipped_texts(mesh.skipped);
+    for (std::string& text : messages)
+        text.insert(0, file + ' ');
+    return messages;
+}
+
 class Folder : public FrameSource
 {
 public:
@@ -63,7 +72,9 @@ public:
         std::sort(files_.begin(), files_.end(), [](const fs::path& a, const fs::path& b) {
             return before(a.filename().string(), b.filename().string());
         });
-        triangles_ = scene_file::read_raw_mesh(files_.front()).triangles;
+        RawMesh mesh = scene_file::read_raw_mesh(files_.front());
+        messages_ = skipped_messages(files_.front().string(), mesh);
+        triangles_ = std::move(mesh.triangles);
     }
 
     std::size_t frames() const override { return files_.size(); }
@@ -77,10 +88,12 @@ public:
         return std::move(mesh.positions);
     }
     std::string name(std::size_t frame) const override { return files_.at(frame).string(); }
+    std::vector<std::string> messages() const override { return messages_; }
 
 private:
     std::vector<fs::path> files_;
     std::vector<Triangle> triangles_;
+    std::vector<std::string> messages_;
 };
 
 constexpr std::size_t kCacheHead = 32; ///< bytes: signature, version, points, start, rate, samples
@@ -89,9 +102,10 @@ class PointCache : public FrameSource
 {
 public:
     PointCache(const fs::path& cache, std::size_t vertices, std::vector<Triangle> triangles,
-               const std::string& mesh)
+               const std::string& mesh, std::vector<std::string> messages = {})
         : file_(cache.string()),
-          triangles_(std::move(triangles))
+          triangles_(std::move(triangles)),
+          messages_(std::move(messages))
     {
         static_assert(std::endian::native == std::endian::little, "bytes of a point cache are little endian");
         std::error_code failed;
@@ -133,6 +147,7 @@ public:
         return positions;
     }
     std::string name(std::size_t frame) const override { return file_ + ", frame " + std::to_string(frame); }
+    std::vector<std::string> messages() const override { return messages_; }
 
 private:
     static std::uint32_t word(const std::array<char, kCacheHead>& head, std::size_t at)
@@ -145,6 +160,7 @@ private:
     std::string file_;
     std::ifstream stream_;
     std::vector<Triangle> triangles_;
+    std::vector<std::string> messages_;
     std::uint32_t points_ = 0, samples_ = 0;
 };
 
@@ -158,7 +174,8 @@ std::unique_ptr<FrameSource> open_frame_folder(const fs::path& folder)
 std::unique_ptr<FrameSource> open_point_cache(const fs::path& cache, const fs::path& mesh)
 {
     RawMesh moved = scene_file::read_raw_mesh(mesh);
-    return open_point_cache(cache, moved.positions.size(), std::move(moved.triangles), mesh.string());
+    return std::make_unique<PointCache>(cache, moved.positions.size(), std::move(moved.triangles),
+                                        mesh.string(), skipped_messages(mesh.string(), moved));
 }
 
 std::unique_ptr<FrameSource> open_point_cache(const fs::path& cache, std::size_t vertices,

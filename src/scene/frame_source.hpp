@@ -22,6 +22,9 @@ public:
     virtual std::vector<glm::dvec3> positions(std::size_t frame) = 0;
     /// What messages and reports call a frame: its file, or its number.
     virtual std::string name(std::size_t frame) const = 0;
+    /// What is doubtful of what the frames came from, a sentence each: lines of its mesh (of a folder, of its
+    /// first file) that are not read.
+    virtual std::vector<std::string> messages() const { return {}; }
 };
 
 /// The .obj files of a folder in natural order (mesh_2 before mesh_10). Each must have the faces of the

@@ -43,6 +43,9 @@ struct MeshFindings
     std::map<std::string, std::size_t> skipped; ///< lines of an OBJ that are not read, by their first word
 };
 
+/// What is to be said of MeshFindings::skipped, a kind each: "has 94 lines \"seam\", which are not read".
+std::vector<std::string> skipped_texts(const std::map<std::string, std::size_t>& skipped);
+
 /// OBJ, PLY, OFF, STL. Throws Error{io} or Error{bad_input} naming file and what is wrong.
 Mesh read_mesh(const std::filesystem::path& file, double weld_distance, MeshFindings* findings = nullptr);
 

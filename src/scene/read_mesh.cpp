@@ -77,6 +77,15 @@ Mesh parse_mesh(std::string_view text, std::string extension, const std::string&
 
 } // namespace scene_file
 
+std::vector<std::string> skipped_texts(const std::map<std::string, std::size_t>& skipped)
+{
+    std::vector<std::string> texts;
+    for (const auto& [word, lines] : skipped)
+        texts.push_back("has " + std::to_string(lines) + (lines == 1 ? " line " : " lines ") + word +
+                        (lines == 1 ? ", which is not read" : ", which are not read"));
+    return texts;
+}
+
 Mesh read_mesh(const std::filesystem::path& file, double weld_distance, MeshFindings* findings)
 {
     MeshFindings found;

@@ -59,9 +59,8 @@ void warn_of(const MeshFindings& findings, bool solid, const Checker& out, const
                                (solid ? "tetrahedron" : "triangle") + ", dropped");
     if (findings.turned_tetrahedra > 0)
         out.warning(field, "had " + count(findings.turned_tetrahedra, "left-handed tetrahedra, turned"));
-    for (const auto& [word, lines] : findings.skipped)
-        out.warning(field, "has " + count(lines, lines == 1 ? "line " : "lines ") + word +
-                               (lines == 1 ? ", which is not read" : ", which are not read"));
+    for (const std::string& text : skipped_texts(findings.skipped))
+        out.warning(field, text);
     if (!findings.non_manifold_edges.empty())
         out.warning(field, "has " +
                                count(findings.non_manifold_edges.size(), "edges of more than two triangles") +
@@ -369,9 +368,11 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
     {
         Body& body = resolved.bodies[b];
         const Checker at = out.at("bodies", b);
+        const std::size_t before = issues.size();
         resolve_body(body, scene.directory, at);
-        if (any_error(issues)) // pins may name what is not there
-            continue;
+        if (std::any_of(issues.begin() + static_cast<std::ptrdiff_t>(before), issues.end(),
+                        [](const SceneIssue& issue) { return issue.error; }))
+            continue; // pins may name what is not there
         scene_file::check_size(body, scene.method.precision == Precision::float64, at);
         if (body.kinematic.used)
         {

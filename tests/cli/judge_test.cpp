@@ -2,6 +2,7 @@
 
 #include "cli/program.hpp"
 #include "support/catch.hpp"
+#include "unit/scene/point_cache.hpp"
 
 using program::Folder;
 using program::Result;
@@ -159,4 +160,35 @@ TEST_CASE("what cannot be judged is refused by name")
     CHECK_THAT(refusal({"judge", ".", "--every", "0"}), Contains("--every"));
     folder.file("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK_THAT(refusal({"judge", "."}), Contains("b.obj: its faces are not those of"));
+}
+
+TEST_CASE("judge warns of lines of an OBJ that it does not read: of a folder, a cache's mesh and a scene")
+{
+    const Folder folder;
+    const std::string obj = triangle_at(0.5) + "stitch 1 4\nstitch 2 5\n";
+    const std::string has = "has 2 lines \"stitch\", which are not read";
+    const auto warned = [&](std::vector<std::string> arguments, const std::string& subject) {
+        arguments.insert(arguments.begin(), "judge");
+        const Result text = folder.taut(arguments);
+        CHECK(text.status == 0);
+        CHECK(text.err == "taut: warning: " + subject + has + "\n");
+        arguments.emplace_back("--json");
+        const Result json = folder.taut(arguments);
+        CHECK(json.err == text.err);
+        CHECK(program::parse(json.out)["messages"] == nlohmann::json({subject + has}));
+    };
+    std::filesystem::create_directory(folder / "frames");
+    folder.file("frames/f_1.obj", obj);
+    folder.file("frames/f_2.obj", obj);
+    warned({"frames"}, "frames/f_1.obj ");
+    std::vector<float> places{0, 0, 0, 1, 0, 0, 0, 1, 0}; // a triangle, and another above it
+    for (int k = 0; k < 9; ++k)
+        places.push_back(places[std::size_t(k)] + (k % 3 == 2 ? 0.5f : 0));
+    folder.file("walk.pc2", point_cache(6, 1, places));
+    warned({"walk.pc2", "--mesh", "frames/f_1.obj"}, "frames/f_1.obj ");
+    folder.file("scene.json", R"({"taut": 1, "bodies": [{"mesh": "frames/f_1.obj"}]})");
+    warned({"scene.json", "--device", "cpu:serial", "--frames", "1"}, "bodies[0].mesh: ");
+    const Result run = folder.taut({"run", "scene.json", "--device", "cpu:serial", "--frames", "1",
+                                    "--no-picture", "--json"}); // the same words
+    CHECK_THAT(program::parse(run.out)["messages"].dump(), Contains("bodies[0].mesh: has 2 lines"));
 }

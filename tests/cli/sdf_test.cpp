@@ -84,3 +84,22 @@ TEST_CASE("sdf says that parts thinner than its cells are lost")
     CHECK(folder.taut({"sdf", both, "--cell", "0.01"}).err.find("lost") == std::string::npos);
     CHECK(folder.taut({"sdf", folder.file("cube.obj", kCube), "--cells", "16"}).err.empty());
 }
+
+TEST_CASE("sdf warns of lines of an OBJ that it does not read, and of a surface that it refuses, too")
+{
+    const Folder folder;
+    const std::string lines = "seam 1 2\nstitch 1 5\nstitch 2 6\n";
+    const std::string cube = folder.file("cube.obj", kCube + lines);
+    const std::vector<std::string> said = {cube + " has 1 line \"seam\", which is not read",
+                                           cube + " has 2 lines \"stitch\", which are not read"};
+    const Result made = folder.taut({"sdf", cube, "--cells", "16", "--json"});
+    CHECK(made.status == 0);
+    CHECK(program::parse(made.out)["messages"] == said);
+    CHECK(made.err == "taut: warning: " + said[0] + "\ntaut: warning: " + said[1] + "\n");
+    const std::string open = folder.file("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nseam 1 2\n");
+    const Result refused = folder.taut({"sdf", open});
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains("has 1 line \"seam\"") && Contains("encloses no volume"));
+    const Result clean = folder.taut({"sdf", folder.file("clean.obj", kCube), "--cells", "16", "--json"});
+    CHECK(program::parse(clean.out)["messages"].empty());
+}

@@ -49,6 +49,32 @@ TEST_CASE("a plan for a device measures the device and names it")
     CHECK(readable.out.find("distance") != std::string::npos);
 }
 
+TEST_CASE("a plan for a device tells the memory that a run on it reports, and without one none")
+{
+    const Folder folder;
+    const std::string before = std::getenv("TAUT_DEVICE_COSTS") ? std::getenv("TAUT_DEVICE_COSTS") : "";
+    setenv("TAUT_DEVICE_COSTS", (folder / "costs.txt").c_str(), 1); // else each measures, and plans by that
+    const std::string scene = folder.file("cloth.json", scenes::cloth_and_box());
+    std::set<std::string> kinds;
+    for (const auto& device : program::parse(folder.taut({"devices", "--json"}).out)["devices"])
+    {
+        const std::string selector = device["selector"].get<std::string>();
+        if (!kinds.insert(selector.substr(0, selector.find(':'))).second)
+            continue;
+        INFO(selector);
+        const auto plan = program::parse(folder.taut({"plan", scene, "--device", selector, "--json"}).out);
+        const auto run = program::parse(
+            folder.taut({"run", scene, "--device", selector, "--frames", "1", "--no-picture", "--json"}).out);
+        CHECK(plan["memory"] == run["memory"]);
+        CHECK(plan["memory"]["buffers"] >= plan["bytes_allocated"]); // OpenGL keeps parameters in one, too
+        CHECK(plan["memory"]["reserved"] >= plan["memory"]["buffers"]);
+    }
+    CHECK(folder.taut({"plan", scene, "--device", "cpu:serial"}).out.find("\nmemory  ") != std::string::npos);
+    setenv("TAUT_DEVICE_COSTS", before.c_str(), 1);
+    CHECK_FALSE(program::parse(folder.taut({"plan", scene, "--json"}).out).contains("memory"));
+    CHECK(folder.taut({"plan", scene}).out.find("\nmemory  ") == std::string::npos);
+}
+
 TEST_CASE("costs of a device are measured once and kept: the plan is the same in every run")
 {
     const Folder folder;
@@ -312,7 +338,7 @@ TEST_CASE("check lists a mesh file that is not there beside other faults")
     CHECK(all.find("duration is -1 s") != std::string::npos);
     CHECK(all.find("method.iterations is 1.5; it must be a whole number from 1 to 1000") !=
           std::string::npos);
-    CHECK(all.find("bodies[0] names missing.obj; there is no such file") != std::string::npos);
+    CHECK(all.find("bodies[0].mesh names missing.obj; there is no such file") != std::string::npos);
 }
 
 TEST_CASE("check finds a mesh file that is not there")

@@ -120,6 +120,13 @@ TEST_CASE("tetrahedralise takes the program that is named, and a largest volume"
     const Result large = shop.folder.taut({"tetrahedralise", cube, "--max-volume", "0.125"});
     CHECK(large.status == 0);
     CHECK_THAT(large.err, Contains("volume of 0.1667, above --max-volume 0.125"));
+    const std::string seams = shop.folder.file("seams.obj", std::string(kCube) + "seam 1 2\nseam 2 3\n");
+    const Result both = shop.folder.taut({"tetrahedralise", seams, "--max-volume", "0.125", "--json"});
+    CHECK(both.status == 0);
+    const auto said = program::parse(both.out)["messages"].get<std::vector<std::string>>();
+    REQUIRE(said.size() == 2);
+    CHECK(said[0] == seams + " has 2 lines \"seam\", which are not read");
+    CHECK(both.err == "taut: warning: " + said[0] + "\ntaut: warning: " + said[1] + "\n");
 
     shop.install("gmsh",
                  script({{"volume.msh", "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n$ELM\n1\n"

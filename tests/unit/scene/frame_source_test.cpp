@@ -80,3 +80,15 @@ TEST_CASE("a point cache gives the frames of its mesh")
     CHECK_THAT(refusal([&] { open_point_cache(folder.path / "none.pc2", mesh); }),
                Contains("cannot be read"));
 }
+
+TEST_CASE("frames say which lines of their mesh are not read: of a folder, of its first file")
+{
+    const Temporary folder;
+    const fs::path first = folder.write("mesh_1.obj", obj(1) + "seam 1 2\n");
+    folder.write("mesh_2.obj", obj(2) + "stitch 1 2\n");
+    const std::vector<std::string> said{first.string() + " has 1 line \"seam\", which is not read"};
+    CHECK(open_frame_folder(folder.path)->messages() == said);
+    const fs::path cache = folder.write("a.pc2", point_cache(3, 1, std::vector<float>(9)));
+    CHECK(open_point_cache(cache, first)->messages() == said);
+    CHECK(open_point_cache(cache, folder.write("clean.obj", obj(0)))->messages().empty());
+}
