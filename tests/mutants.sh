@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # Breaks one kernel or one decision of the host at a time and writes down which tests notice.
 #   tests/mutants.sh [--kernels GLOB] [--kinds LIST] [--suites LIST] [--sample N] [--budget SECONDS]
-#                    [--first TESTS] [--limit SECONDS] [--out FILE] [--again] [--survivors] [--report]
+#                    [--first TESTS] [--limit SECONDS] [--out FILE] [--again] [--survivors] [--report] [--stale]
 # --kernels: 'vbd_*'. --kinds: of nothing,sign,drop,host (all). --suites: of
 # conformance,unit,physics,golden,hard (all), in this order. --sample: every Nth mutant only. --budget: no new
 # mutant after so long. --limit: of one run of one suite, 1,800 s; a suite that takes longer has noticed.
 # --first: tests, as Catch2 names them ("[#contact_test]": of a file), that each program runs before all.
 # --again: runs mutants that the table has. --survivors: no further suite for a mutant that one has noticed.
-# --report: the table in Markdown, runs nothing.
+# --report: the table in Markdown, runs nothing. --stale: names the rows that are out of date, and runs nothing:
+# of lines and kernels that are no more, and kernels that have none; exit status 1 if there are any.
 #
-# A run goes on where the last one stopped: a suite that a row of the table answers is not run again. Kinds:
+# A run goes on where the last one stopped: a suite that a row of the table answers is not run again, but where the
+# line of a row is no more. Kinds:
 #   nothing  the kernel returns at once
 #   sign     its first sum becomes a difference, or the other way about
 #   drop     its first sum loses its last term
@@ -21,13 +23,13 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 build=${TAUT_BUILD:-$root/build/release}
 kernels='*' kinds=nothing,sign,drop,host suites=conformance,unit,physics,golden,hard
-sample=1 budget=1000000 limit=1800 first="" out=$root/tests/mutants.csv again="" survivors="" report=""
+sample=1 budget=1000000 limit=1800 first="" out=$root/tests/mutants.csv again="" survivors="" report="" stale=""
 while [ $# -gt 0 ]; do
     case $1 in
-    --again | --survivors | --report) declare "${1#--}=1" && shift ;;
+    --again | --survivors | --report | --stale) declare "${1#--}=1" && shift ;;
     --kernels | --kinds | --suites | --sample | --budget | --first | --limit | --out)
         declare "${1#--}=$2" && shift 2 ;;
-    *) sed -n '2,18p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
+    *) sed -n '2,20p' "$0" | sed 's/^# \{0,1\}//' && exit 2 ;;
     esac
 done
 [ -z "$again" ] || [ -z "$survivors" ] || {
@@ -165,7 +167,7 @@ make_kernel() {
     fi
     changed=$work/$stem.${text##*.}
     mutated "$kind" "$root/kernels/$text" "$4" 3> "$work/line" > "$changed" || return 1
-    what=$(sed 's/\/\/.*//; s/^[ \t]*//; s/[ \t]*$//; s/,/;/g' "$work/line")
+    what=$(as_field "$work/line")
     for source in native lanes; do
         [ -f "$generated.$source.cpp" ] || continue
         sed "s|\"$text\"|\"$changed\"|" "$generated.$source.cpp" > "$work/$stem.$source.cpp"
@@ -207,16 +209,19 @@ passes() {
 # has_tests PROGRAM TESTS: of a name that nothing has Catch2 makes a failure.
 has_tests() { [ -n "$("$1" --filenames-as-tags --list-tests --verbosity quiet "$2" 2> /dev/null)" ]; }
 
-# run_suite SUITE: "killed" or "lives".
+# run_suite SUITE MUTANT: "killed" or "lives". The tests of --first and those of the file that has the kernel's
+# name run before the others: they are the likeliest to notice.
 run_suite() {
-    local program linked
+    local program linked stem=${2%%[.:]*} likely
     for program in $(programs_of "$1"); do
         linked=0
         link "$program" "$work/$program" "${pairs[@]}" || linked=$?
         [ $linked -ne 3 ] || continue
-        if [ -n "$first" ] && has_tests "$work/$program" "$first"; then
-            passes "$1" "$work/$program" "$first" || { echo killed; return; }
-        fi
+        for likely in "$first" "[#${stem}_test]"; do
+            if [ -n "$likely" ] && has_tests "$work/$program" "$likely"; then
+                passes "$1" "$work/$program" "$likely" || { echo killed; return; }
+            fi
+        done
         passes "$1" "$work/$program" || { echo killed; return; }
     done
     echo lives
@@ -246,7 +251,7 @@ judge() {
         ! spared "$1" || break
         [ -n "$again" ] || [ -z "$(field "$1" "$suite")" ] || continue
         require_sound "$suite"
-        note "$1" "$2" "$what" "$suite" "$(run_suite "$suite")"
+        note "$1" "$2" "$what" "$suite" "$(run_suite "$suite" "$1")"
     done
     grep "^$1," "$out" >&2
 }
@@ -296,31 +301,74 @@ table() {
 
 [ -z "$report" ] || { table; exit; }
 
-for kind in nothing sign drop; do
-    case ,$kinds, in *,$kind,*) ;; *) continue ;; esac
-    for native in "$build"/generated/taut/kernels/*.native.cpp; do
-        stem=$(basename "$native" .native.cpp)
-        # shellcheck disable=SC2053 # a pattern
-        [[ $stem == $kernels ]] || continue
-        for text in $(texts_of "$native"); do
-            name=$stem:$kind
-            # What its element adds to a method's kernel, or a shape to that of contact.
-            [[ $text == *.comp ]] || name=$stem.element:$kind
-            [[ $text == *.comp || $kind != nothing ]] || continue
-            wanted "$name" || continue
-            made=2
-            for ((n = 0; made == 2; ++n)); do # an index without its sum does not compile: the next one
-                made=0
-                make_kernel $kind "$stem" "$text" $n || made=$?
+# as_field LINE...: as the table has a line of a kernel.
+as_field() { sed 's/\/\/.*//; s/^[ \t]*//; s/[ \t]*$//; s/,/;/g' "$@"; }
+
+# is_stale MUTANT TEXT: the table has the mutant by a line that the text no longer has.
+is_stale() {
+    local line
+    line=$(awk -F, -v mutant="$1" '$1 == mutant { print $3 }' "$out")
+    [ -n "$line" ] && [ "$line" != 'returns at once' ] && ! as_field "$root/kernels/$2" | grep -xF -- "$line" > /dev/null
+}
+
+# run_mutant MUTANT KIND STEM TEXT: judged, where it is wanted.
+run_mutant() {
+    local made=2 n
+    if is_stale "$1" "$4"; then
+        grep -v "^$1," "$out" > "$out.new" && mv "$out.new" "$out"
+    fi
+    wanted "$1" || return 0
+    for ((n = 0; made == 2; ++n)); do # an index without its sum does not compile: the next one
+        made=0
+        make_kernel "$2" "$3" "$4" $n || made=$?
+    done
+    if [ $made -eq 0 ]; then
+        judge "$1" "$2"
+    else
+        echo "$1: no sum that can be changed" >&2
+    fi
+}
+
+# name_stale MUTANT KIND STEM TEXT: printed if it is out of date. A kernel that returns at once is always one.
+name_stale() {
+    echo "$1" >> "$work/mutants"
+    if is_stale "$1" "$4"; then
+        echo "$1: its line is no more in kernels/$4"
+    elif [ "$2" = nothing ] && ! grep -q "^$1," "$out"; then
+        echo "$1: has no row"
+    fi
+}
+
+# each_kernel ACTION: called with every mutant of a kernel: MUTANT KIND STEM TEXT.
+each_kernel() {
+    local kind native stem text name
+    for kind in nothing sign drop; do
+        case ,$kinds, in *,$kind,*) ;; *) continue ;; esac
+        for native in "$build"/generated/taut/kernels/*.native.cpp; do
+            stem=$(basename "$native" .native.cpp)
+            # shellcheck disable=SC2053 # a pattern
+            [[ $stem == $kernels ]] || continue
+            for text in $(texts_of "$native"); do
+                name=$stem:$kind
+                # What its element adds to a method's kernel, or a shape to that of contact.
+                [[ $text == *.comp ]] || name=$stem.element:$kind
+                [[ $text == *.comp || $kind != nothing ]] || continue
+                "$1" "$name" "$kind" "$stem" "$text"
             done
-            if [ $made -eq 0 ]; then
-                judge "$name" $kind
-            else
-                echo "$name: no sum that can be changed" >&2
-            fi
         done
     done
-done
+}
+
+if [ -n "$stale" ]; then
+    : > "$work/mutants"
+    each_kernel name_stale > "$work/stale"
+    awk -F, 'NR == FNR { made[$1] = 1; next } FNR > 1 && $2 != "host" && !($1 in made) { print $1 ": its kernel is no more" }' \
+        "$work/mutants" "$out" >> "$work/stale"
+    cat "$work/stale"
+    [ ! -s "$work/stale" ]
+    exit
+fi
+each_kernel run_mutant
 case ,$kinds, in
 *,host,*)
     while IFS='|' read -r name file expression; do
