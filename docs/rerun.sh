@@ -41,4 +41,5 @@ figure()
     holds "docs/$1/$2.csv" "$scratch/docs/$1/$2.csv"
 }
 figure cloth methods
+figure solids methods
 exit $bad

@@ -33,9 +33,9 @@ function claims(    held)
           about(least("stiffness", "1e6"), "96.6") && about(least("stiffness", "3e4, volume held"), "99.95"))
     claim("while 301 tetrahedra inside are turned over", inverted("stiffness", "3e4, volume held") == 301)
 
-    claim("the neo-Hookean bodies lose 5 to 12 %",
-          among(100 - least("methods", "xpbd, neo-Hookean"), 5, 12.1) && among(100 - least("methods", "vbd, neo-Hookean"), 5, 12.1) \
-          && among(100 - least("methods", "implicit Euler, neo-Hookean"), 5, 12.1))
+    claim("the neo-Hookean bodies lose 4.9 to 12 %",
+          among(100 - least("methods", "xpbd, neo-Hookean"), 4.85, 12.1) && among(100 - least("methods", "vbd, neo-Hookean"), 4.85, 12.1) \
+          && among(100 - least("methods", "implicit Euler, neo-Hookean"), 4.85, 12.1))
     claim("volumes of springs 7 % by compliant constraints, and 0.8 % by `pbd`",
           about(100 - least("methods", "xpbd, springs and volumes"), "7") && about(100 - least("methods", "implicit constraints"), "7") \
           && about(100 - least("methods", "pbd, springs and volumes"), "0.8"))
