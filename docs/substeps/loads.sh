@@ -1,4 +1,5 @@
-# For docs/substeps/update.sh: bodies that ask for substeps by other things than their weight, and cloth that pins draw apart.
+# For docs/substeps/update.sh: bodies that ask for substeps by other things than their weight, cloth that pins draw apart, and
+# chains that swing.
 
 # asks NAME WHAT N NUMBER UNIT REFERENCE SETTING: a row of "asked", scene (N); NUMBER prints it from report and meshes.
 asks()
@@ -60,3 +61,34 @@ drawn()
     done; done
 }
 table drawn "|---:|---|---:|---:|---:|---:|---:|" drawn
+
+# swings LINKS LENGTH K DEGREES SECONDS [MASS]: a row of "chains"; MASS is that of each vertex, without it the material's.
+swings()
+{
+    name="$1 links, $2 m, $3 N/m, $4°, $5 s${6:+, $6 kg a vertex}"
+    masses=
+    [ $# -lt 6 ] || masses=$(awk -v n="$1" -v m="$6" 'BEGIN { printf "\"vertex_masses\": [" m; while (n--) printf "," m; print "]," }')
+    scene '"duration": '"$5"', "bodies": [{"chain": {"links": '"$1"', "length": '"$2"'}, "material": {"stretch_stiffness": '"$3"'},
+        '"$masses"' "pins": [{"corner": "first"}], "transform": {"rotate": {"axis": [0, 0, 1], "degrees": '"$4"'}}}]'
+    runs "$scratch/scene.json" method.type=xpbd method.substeps=1000 method.precision=double
+    cp "$(ls "$scratch"/run/*.obj | tail -1)" "$scratch/there.obj"
+    [ "$(report status)" = completed ] || { echo "$name: the reference is $(report status)" >&2; exit 1; }
+    set -- "$2" "$name" "$(substeps "$scratch/scene.json" method.type=vbd)"
+    for settings in "" method.substeps=25; do
+        runs "$scratch/scene.json" method.type=vbd $settings
+        set -- "$@" "$(digits "$(off | awk -v all="$1" '{ print $1 / 1000 / all }')" 2)$(said)"
+    done
+    shift
+    row "$@"
+}
+chains()
+{
+    row chain substeps "off, lengths" "with 25"
+    swings 3 0.07 8e3 85 0.35
+    swings 10 0.3 8e3 75 0.6
+    swings 10 0.5 1e4 60 1
+    swings 20 1 8e3 80 1
+    swings 20 1 5e5 90 1 0.01
+    swings 50 1 1e4 90 1
+}
+table chains "|---|---:|---:|---:|" chains

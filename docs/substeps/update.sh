@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes the tables of docs/methods.md about substeps anew, but that of the test of cloth that pins draw: no number between
-# their marks is typed by hand. TABLE is held, stretch, grain, asked, drawn, named, balls, lying, falling or hanging; on one core lying
-# and falling take four and two minutes, the others some seconds to a minute.
+# their marks is typed by hand. TABLE is held, stretch, grain, asked, drawn, chains, named, balls, lying, falling, few or hanging; on one core
+# lying, falling and few take four, two and three minutes, the others some seconds to a minute.
 #
 #   docs/substeps/update.sh build/release/taut [TABLE...]
 set -eu

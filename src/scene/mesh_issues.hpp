@@ -1,5 +1,6 @@
 #pragma once
-// What meshes cannot carry of their materials: warnings of `taut check` and `taut run`.
+// What meshes, and substeps that a scene names, cannot carry of its materials: warnings of `taut check` and
+// `taut run`.
 
 #include "taut/scene/scene.hpp"
 
@@ -7,7 +8,8 @@
 
 namespace taut {
 
-/// locking_issues() and fabric_mesh_issues(). `resolved`: by resolve(). Time: linear. Thread-safe.
+/// locking_issues(), fabric_mesh_issues() and few_substeps_issues(). `resolved`: by resolve(). Time: linear.
+/// Thread-safe.
 std::vector<SceneIssue> mesh_issues(const Scene& resolved);
 
 } // namespace taut

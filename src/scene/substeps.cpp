@@ -25,6 +25,8 @@
 
 #include "taut/scene/substeps.hpp"
 
+#include "taut/scene/body_measures.hpp"
+#include "taut/scene/chain_waves.hpp"
 #include "taut/scene/drawn_strain.hpp"
 #include "taut/scene/extent.hpp"
 #include "taut/scene/held.hpp"
@@ -34,7 +36,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace taut {
 namespace {
@@ -84,41 +85,6 @@ double swing_pull(const Body& body, const glm::dvec3& down)
     const glm::dvec3 arm = centre_of_mass(body) - pins / held;
     const double length = glm::length(arm);
     return length > kShortArm * size.size() ? 3 - 2 * glm::dot(arm, down) / length : 1;
-}
-
-/// m^2, of all triangles.
-double area_of(const Body& body)
-{
-    const auto& x = body.mesh.positions;
-    double area = 0;
-    for (const auto& t : body.mesh.triangles)
-        area += glm::length(glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]])) / 2;
-    return area;
-}
-
-/// m^3, of all tetrahedra.
-double volume_of(const Body& body)
-{
-    const auto& x = body.mesh.positions;
-    double volume = 0;
-    for (const auto& t : body.mesh.tetrahedra)
-        volume += std::abs(glm::dot(x[t[1]] - x[t[0]], glm::cross(x[t[2]] - x[t[0]], x[t[3]] - x[t[0]]))) / 6;
-    return volume;
-}
-
-/// m: of a bar of square section its side, by volume over surface.
-double thickness_of(const Body& body)
-{
-    const double area = area_of(body);
-    return area > 0 ? 4 * volume_of(body) / area : 0;
-}
-
-/// kg
-double mass_of(const Body& body)
-{
-    if (!body.vertex_masses.empty())
-        return std::accumulate(body.vertex_masses.begin(), body.vertex_masses.end(), 0.0);
-    return body.material.density * (body.mesh.tetrahedra.empty() ? area_of(body) : volume_of(body));
 }
 
 constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
@@ -209,11 +175,16 @@ double longest_for_standing(const Body& body, const SweepLoad& load, const glm::
 }
 
 /// s: the longest substep in which sweeps over the vertices of a held body carry its waves on; no limit where
-/// nothing holds it.
-double longest_for_waves(const Body& body, const SweepLoad& load, double iterations)
+/// nothing holds it, nor for a chain that hangs still, which is right with ten.
+double longest_for_waves(const Scene& scene, const Body& body, const SweepLoad& load)
 {
-    const double square = body.pins.empty() ? 0 : wave_speed_squared(body);
-    return square > 0 ? load.edge * std::sqrt(kWave * iterations / square) : HUGE_VAL;
+    const double carried = kWave * scene.method.iterations; // edges^2
+    if (body.pins.empty())
+        return HUGE_VAL;
+    if (const double rate = chain_waves(body); rate > 0)
+        return hangs_still(scene, body) ? HUGE_VAL : std::sqrt(carried / rate);
+    const double square = wave_speed_squared(body);
+    return square > 0 ? load.edge * std::sqrt(carried / square) : HUGE_VAL;
 }
 
 /// s: the longest substep in which sweeps carry a body that is pushed everywhere by so many m/s^2.
@@ -323,7 +294,7 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     const double gas =
         method == MethodKind::implicit_euler ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
     const double carried = // whatever gravity does
-        method == MethodKind::vbd    ? std::min(gas, longest_for_waves(body, load, scene.method.iterations))
+        method == MethodKind::vbd    ? std::min(gas, longest_for_waves(scene, body, load))
         : method == MethodKind::xpbd ? std::min({gas, sweeps * longest_for_flow(body, load),
                                                  sweeps * longest_for_drawn(scene, body, load)})
                                      : gas;
@@ -383,6 +354,17 @@ double wanted_substeps(const Scene& scene)
         method == MethodKind::implicit_euler)
         for (const Body& body : scene.bodies)
             most = std::max(most, std::ceil(scene.timestep / longest_substep(scene, body, g)));
+    return most;
+}
+
+double substeps_of_solids(const Scene& scene)
+{
+    const bool meets = !scene.colliders.empty() || scene.contact.between;
+    double most = 0;
+    for (const Body& body : scene.bodies)
+        if (!body.mesh.tetrahedra.empty() && (meets || !body.pins.empty()))
+            most = std::max(most,
+                            scene.timestep / longest_substep(scene, body, glm::length(scene.gravity)));
     return most;
 }
 

@@ -21,6 +21,10 @@ struct SweepLoad
 };
 SweepLoad sweep_load(const Body& resolved);
 
+/// What the solids of a scene ask for that are held or can meet something, whatever it names and without the
+/// least that there are; 0 without such solids. Of methods that sweep, and implicit_euler.
+double substeps_of_solids(const Scene& resolved);
+
 /// Whether pins on all sides carry a body across a push, of gravity or the wind, as a hammock or a sail: then
 /// strain shows as its root. A push of 0 spans nothing.
 bool is_spanned(const Body& resolved, const glm::dvec3& push);
