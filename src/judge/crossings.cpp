@@ -13,11 +13,11 @@ std::vector<CrossingEdge> crossing_edges(const Surface& surface, const std::vect
     std::vector<CrossingEdge> out;
     for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
     {
-        const auto [a, b] = surface.edges[e];
+        const std::uint32_t a = surface.edges[e][0], b = surface.edges[e][1];
         Box box;
         box.add(positions[a]);
         box.add(positions[b]);
-        trees.overlapping(surface.is_led(surface.edges[e]), box, [&, a = a, b = b](std::uint32_t t) {
+        trees.overlapping(surface.is_led(surface.edges[e]), box, [&](std::uint32_t t) {
             const Triangle& other = surface.triangles[t];
             if (!has(other, a) && !has(other, b) && surface.judged(surface.edges[e], other) &&
                 segment_meets_triangle(positions[a], positions[b],

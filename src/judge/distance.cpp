@@ -82,8 +82,8 @@ void Search::edges()
     const BoxTree tree(boxes);
     for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
     {
-        const auto [a, b] = surface.edges[e];
-        tree.near(boxes[e], squared, [&, a = a, b = b](std::uint32_t other) {
+        const std::uint32_t a = surface.edges[e][0], b = surface.edges[e][1];
+        tree.near(boxes[e], squared, [&](std::uint32_t other) {
             const auto [c, d] = surface.edges[other];
             if (other <= e || a == c || a == d || b == c || b == d || !allowed(a, c) ||
                 !surface.judged(surface.edges[e], surface.edges[other]))

@@ -161,8 +161,8 @@ void add_edges(const Ways& ways, std::vector<Passing>& out)
     const BoxTree tree(boxes);
     for (std::uint32_t e = 0; e < s.edges.size(); ++e)
     {
-        const auto [a, b] = s.edges[e];
-        tree.overlapping(boxes[e], [&, a = a, b = b](std::uint32_t other) {
+        const std::uint32_t a = s.edges[e][0], b = s.edges[e][1];
+        tree.overlapping(boxes[e], [&](std::uint32_t other) {
             const auto [c, d] = s.edges[other];
             if (other <= e || a == c || a == d || b == c || b == d || !s.judged(s.edges[e], s.edges[other]))
                 return;

@@ -48,10 +48,10 @@ std::vector<StartLength> start_lengths(const Scene& scene, const StartSurfaces& 
     const judging::Surface& surface = surfaces.surface();
     for (std::size_t e = 0; e < surface.edges.size(); ++e)
     {
-        const auto [a, b] = surface.edges[e];
+        const std::uint32_t a = surface.edges[e][0], b = surface.edges[e][1];
         add(a, b);
         const auto& beside = surface.edge_triangles[e];
-        const auto other = [&, a = a, b = b](std::uint32_t t) {
+        const auto other = [&](std::uint32_t t) {
             for (const std::uint32_t v : surface.triangles[t])
                 if (v != a && v != b)
                     return v;

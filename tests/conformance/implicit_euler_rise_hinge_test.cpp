@@ -21,12 +21,8 @@ Rise hinge(const Net<Real>& net, const layout::BendingConstraint<Real>& c, const
 {
     const auto v = corners_of(c);
     std::array<glm::dvec3, 4> then{};
-    double size = 0;
     for (std::size_t k = 0; k < 4; ++k)
-    {
         then[k] = net.between(v[0], v[k]) + glm::dvec3(step[k] - step[0]);
-        size += double(glm::length(step[k]));
-    }
     const HingeTerms now = hinge_terms(net, c), later = hinge_terms(then);
     if (!now.shaped || !later.shaped)
         return {};

@@ -40,10 +40,7 @@ TEST_CASE("G04: gravity of 1e4, turned round every frame, gives no more than its
             if (!held)
                 scene.bodies[0].pins.clear();
             World world(scene, device);
-            double mass = 0;
             const PhysicalModel model = make_model(scene);
-            for (const double m : model.mass)
-                mass += m;
             // Inner energy: with gravity off, kinetic + elastic. It may rise by the work of gravity only.
             glm::dvec3 gravity(0, -1e4, 0);
             const auto inner = [&] {
