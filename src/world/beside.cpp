@@ -13,7 +13,7 @@ constexpr std::chrono::microseconds kLook{500};
 
 Beside::~Beside()
 {
-    turn_to(over);
+    turn_to(ended);
     thread_.join();
 }
 
@@ -50,7 +50,7 @@ void Beside::work()
     for (;;)
     {
         const int now = turn_.load();
-        if (now == over)
+        if (now == ended)
             return;
         if (now != asked)
         {

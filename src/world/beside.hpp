@@ -28,7 +28,7 @@ private:
         idle,
         asked,
         done,
-        over
+        ended
     };
 
     void work();
