@@ -31,6 +31,7 @@ cost spring_cost spring --methods all
 cost chain_1_cost chain_1 --methods all --substeps 64 --iterations 1
 cost net_9_cost net_9 --methods xpbd,vbd,mass_spring --substeps 16 --iterations 1
 cost cube_cost cube --methods xpbd,vbd,implicit_euler --substeps 16 --iterations 1
+cost slide_cost slide --methods vbd,xpbd --substeps 16 --iterations 1
 
 # figure PAGE NAME: a comparison of docs/PAGE.md, measured in a copy of the pages.
 cp -r docs examples "$scratch"
