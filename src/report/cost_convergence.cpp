@@ -141,9 +141,11 @@ Plot convergence_plot(const CostStudy& study, CostSplit split)
     plot.floors = plot_floors(study);
     plot.caption.push_back("Reference class " + study.reference.name + ". " + study.reference.text);
     plot.caption.push_back(
-        "Observed order, mean of the last two slopes between errors below 50 % and above the"
-        " reference's floor: " +
-        orders + ".");
+        orders.empty() ? "No method has two settings that differ in their " +
+                             std::string(substeps ? "substeps" : "iterations") + " alone."
+                       : "Observed order, mean of the last two slopes between errors below 50 % and above the"
+                         " reference's floor: " +
+                             orders + ".");
     return plot;
 }
 

@@ -218,3 +218,11 @@ TEST_CASE("where energy is not kept there is nothing to follow", "[figures]")
     scene.colliders.emplace_back();
     CHECK_THROWS_AS(run_energy(scene, serial(), one_setting(4)), Error);
 }
+
+TEST_CASE("a figure without a line says why", "[figures]")
+{
+    const CostStudy study = table({made("xpbd", 2, 1, 1e-3), made("xpbd", 4, 1, 2.5e-4)}, 1e-6);
+    const Plot plot = convergence_plot(study, CostSplit::iterations);
+    CHECK(plot.series.empty());
+    CHECK(plot.caption.back() == "No method has two settings that differ in their iterations alone.");
+}
