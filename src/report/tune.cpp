@@ -112,8 +112,9 @@ private:
                          [](const Ran& a, const Ran& b) { return a.candidate.prior < b.candidate.prior; });
         for (const auto& [candidate, error] : std::vector<Ran>(run_))
         {
+            const std::string block = settings_block(candidate.settings);
             const auto fell = std::find_if(out_.rejected.begin(), out_.rejected.end(), [&](const auto& r) {
-                return settings_block(r.settings) == settings_block(candidate.settings);
+                return settings_block(r.settings) == block;
             });
             const bool may = fell != out_.rejected.end() && fell->error.value_or(1) <= kMargin * out_.bound;
             if (!may || (error && !(*error <= own_bound(0))) || !left_out(candidate, 1).empty())

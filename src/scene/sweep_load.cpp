@@ -112,7 +112,7 @@ SweepLoad sweep_load(const Body& body)
     const auto [reach, end] =
         furthest(around, pinned.empty() ? std::vector{furthest(around, {0}).second} : pinned);
     out.reach = reach;
-    const auto apart = [&](std::uint32_t v) {
+    const auto apart = [&, end = end](std::uint32_t v) { // clang 14 takes no bindings along
         return glm::distance(body.mesh.positions[v], body.mesh.positions[end]);
     };
     const auto nearest = std::ranges::min_element(pinned, {}, apart);
