@@ -112,8 +112,8 @@ SweepLoad sweep_load(const Body& body)
     const auto [reach, end] =
         furthest(around, pinned.empty() ? std::vector{furthest(around, {0}).second} : pinned);
     out.reach = reach;
-    const auto apart = [&, end = end](std::uint32_t v) { // clang 14 takes no bindings along
-        return glm::distance(body.mesh.positions[v], body.mesh.positions[end]);
+    const auto apart = [&, last = end](std::uint32_t v) { // clang 14 takes no bindings along
+        return glm::distance(body.mesh.positions[v], body.mesh.positions[last]);
     };
     const auto nearest = std::ranges::min_element(pinned, {}, apart);
     out.length = nearest == pinned.end() ? 0 : apart(*nearest);
