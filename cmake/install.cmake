@@ -9,7 +9,7 @@ set(taut_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 # install_prefix compiles them (each alone in tests/matrix.sh headers).
 set(taut_public_headers
     elements/element.hpp
-    scene/scene.hpp scene/contact.hpp scene/fabric.hpp scene/fabric_readings.hpp scene/method_kind.hpp scene/options.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
+    scene/scene.hpp scene/kinds.hpp scene/contact.hpp scene/fabric.hpp scene/fabric_readings.hpp scene/method_kind.hpp scene/options.hpp scene/settings.hpp scene/mesh.hpp scene/embed.hpp scene/embedding.hpp
     scene/frame_source.hpp scene/distance_field.hpp
     plan/plan.hpp plan/methods.hpp plan/topology.hpp plan/colouring.hpp plan/material.hpp plan/plate_hinges.hpp plan/solid.hpp plan/surface.hpp
     linear/sparse.hpp linear/matrix_market.hpp linear/check.hpp linear/format.hpp linear/grid.hpp linear/operator.hpp
@@ -17,7 +17,7 @@ set(taut_public_headers
     linear/cg.hpp linear/small.hpp linear/solve.hpp
     world/world.hpp world/program_moves.hpp world/program_motion.hpp world/mover.hpp world/hybrid.hpp world/sleep.hpp
     judge/judge.hpp judge/box_tree.hpp judge/mesh_distance.hpp judge/surface.hpp judge/distance.hpp judge/exact.hpp judge/linking.hpp judge/swept.hpp
-    report/report.hpp report/errors.hpp report/model.hpp report/picture.hpp report/continuum.hpp report/cost.hpp
+    report/report.hpp report/energy_lost.hpp report/errors.hpp report/model.hpp report/picture.hpp report/continuum.hpp report/cost.hpp
     report/compare.hpp report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/time_series.hpp report/residuals.hpp
     report/gas.hpp report/energy_budget.hpp report/mover_paths.hpp report/soundness.hpp report/scene_budget.hpp
     report/soundness_watch.hpp)

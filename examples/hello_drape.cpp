@@ -6,19 +6,16 @@
 
 int main()
 {
-    taut::Body cloth; // 1 m by 1 m in the plane z = 0
-    cloth.shape.cells = {64, 64};
+    taut::Body cloth;
+    cloth.shape = taut::shapes::Grid{.cells = {64, 64}, .size = {1, 1}}; // m, in the plane z = 0
     cloth.transform.rotate_axis = {1, 0, 0};
     cloth.transform.rotate_degrees = -90;
     cloth.material.density = 0.2;            // kg/m^2
     cloth.material.stretch_stiffness = 2000; // N/m
-    taut::Collider ball;
-    ball.point = {0, -0.4, 0};
-    ball.radius = 0.3;
-    ball.friction = 0.4;
     taut::Scene scene;
     scene.bodies = {cloth};
-    scene.colliders = {ball};
+    scene.colliders = {taut::colliders::Sphere{.centre = {0, -0.4, 0}, .radius = 0.3, .friction = 0.4}};
+    scene.method = taut::methods::Xpbd{.substeps = 160}; // fewer are cheaper, and stretch more
     taut::World world(scene, taut::Device::open("auto"));
     while (world.time() < 1.0)
         world.step();

@@ -11,6 +11,7 @@
 #include "taut/cli/run_result.hpp"
 #include "taut/cli/simulation.hpp"
 #include "taut/cli/tunnelling.hpp"
+#include "taut/report/energy_lost.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/report/residuals.hpp"
 #include "taut/report/soundness_watch.hpp"
@@ -247,6 +248,7 @@ RunResult describe(const RunCommand& options, const World& world, const Runner& 
     result.colours = world.plan().colour_counts();
     result.solvers = world.plan().solvers.size();
     result.report = measure(world);
+    result.energy_takers = energy_takers(world.scene());
     result.series = runner.series();
     result.crossings = runner.crossings();
     result.volume_min = runner.volume_min();
@@ -268,12 +270,9 @@ void describe_counts(const Simulation& simulation, RunResult& result)
     count(Warning::iteration_limit, result.report.solver.limited, result.report.warnings);
     count(Warning::solve_failed, result.report.solver.failed, result.report.warnings);
     if (events.non_finite > 0)
-    {
-        Soundness lost;
-        lost.status = Status::non_finite;
-        lost.reason = "displacements were not finite " + std::to_string(events.non_finite) + " times";
-        set_status(lost, result.report);
-    }
+        set_status({Status::non_finite,
+                    "displacements were not finite " + std::to_string(events.non_finite) + " times"},
+                   result.report);
     const double substeps = static_cast<double>(result.frames) * simulation.substeps();
     const auto vertices = static_cast<double>(result.vertices);
     set_status(judge_clamps(simulation.scene(), events, substeps * vertices), result.report);

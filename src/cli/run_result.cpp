@@ -2,6 +2,7 @@
 
 #include "taut/cli/output.hpp"
 #include "taut/cli/tunnelling.hpp"
+#include "taut/report/energy_lost.hpp"
 #include "taut/runtime/base/shown.hpp"
 #include "taut/version.hpp"
 
@@ -11,6 +12,8 @@
 
 namespace taut::cli {
 namespace {
+
+constexpr double kLostToSay = 0.05; ///< share of energy that is lost
 
 /// Nearest rank; 0 of nothing.
 double percentile(std::vector<double> values, double share)
@@ -108,6 +111,28 @@ std::string errors_line(const StepReport& report)
     return text + "penetration " + number(1000 * report.penetration, 3) + " mm" + residuals(report) + "\n";
 }
 
+double lost_share(const StepReport& report)
+{
+    return taut::lost_share(*report.energy_lost, report.kinetic_energy, report.energy_most);
+}
+
+Json lost_json(const RunResult& result)
+{
+    return {{"joules", *result.report.energy_lost},
+            {"share", lost_share(result.report)},
+            {"takers", result.energy_takers}};
+}
+
+/// Where the method alone has lost it; empty where that cannot be told, or is next to nothing.
+std::string lost_line(const RunResult& result)
+{
+    const StepReport& report = result.report;
+    if (!report.energy_lost || !result.energy_takers.empty() || lost_share(report) < kLostToSay)
+        return "";
+    return "energy  the method has lost " + number(100 * lost_share(report), 3) +
+           " % of what was set free; nothing in the scene takes any\n";
+}
+
 } // namespace
 
 Json memory_json(const DeviceCounters& counters)
@@ -169,6 +194,7 @@ Json to_json(const RunResult& result)
     json["potential_energy"] = report.potential_energy;
     json["judged_energy"] = report.judged_energy;
     json["energy_most"] = report.energy_most;
+    json["energy_lost"] = report.energy_lost ? lost_json(result) : Json(nullptr);
     json["momentum_error"] = known(report.momentum_error);
     json["primal_residual"] = known(report.primal_residual);
     json["dual_residual"] = known(report.dual_residual);
@@ -206,7 +232,7 @@ std::string summary(const RunResult& result)
     text += memory_line(result.counters);
     if (!report.reason.empty())
         text += "why     " + report.reason + "\n";
-    text += errors_line(report);
+    text += errors_line(report) + lost_line(result);
     if (result.solvers > 0)
         text += "solver  " + std::to_string(report.solver.solves) + " linear solves, " +
                 std::to_string(report.solver.iterations) + " iterations, " +

@@ -26,6 +26,7 @@ struct RunResult
     std::size_t solvers = 0; ///< linear systems of a step
     StepReport report;
     Crossings crossings; ///< of bodies and colliders, over the run
+    std::vector<std::string_view> energy_takers; ///< energy_takers() of the scene
     std::vector<TimeSample> series; ///< of methods that solve linear systems
     double volume_min = 1; ///< smallest V / V0 of all frames, of scenes with solids
     std::vector<double> step_ms;       ///< wall time of each frame, ms

@@ -190,10 +190,10 @@ std::vector<SceneIssue> plan_issues(const Scene& resolved, const DeviceTraits& t
 
 Plan make_plan(const Scene& resolved, const DeviceTraits& traits, const PlanOptions& options)
 {
-    if (resolved.method.substeps == 0)
+    if (resolved.method.substeps == 0 || resolved.method.iterations == 0)
     {
         Scene counted = resolved;
-        counted.method.substeps = automatic_substeps(resolved);
+        count_steps(counted);
         return make_plan(counted, traits, options);
     }
     check_values(resolved);

@@ -20,6 +20,8 @@ namespace {
 /// that speed, in one blow. The rest of it is squeezed until it moves as fast, and springs back: as a ball
 /// from a racket.
 constexpr double kThrown = 2;
+constexpr double kRounded = 1e-9; ///< of all energy: what lengths off by rounding alone can give
+
 /// Where the body of the vertices from `first` to before `last` can have been: a box around its start and
 /// now, as much larger on every side as it was itself and as its speed at the start took it.
 Extent room_of(const PhysicalModel& model, std::span<const glm::dvec3> x, std::uint32_t first,
@@ -215,7 +217,7 @@ MoverReach EnergyBudget::reach_at(const WorldDrive& drive, std::span<const glm::
 EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& drive) const
 {
     if (drive.placed > 0)
-        return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), false};
     const MoverReach reach = reach_at(drive, x);
     const double wind = std::max(wind_speed_, drive.wind), wind_force = wind_drag_ * wind * wind;
     const double g = glm::length(shared_->gravity);
@@ -227,7 +229,8 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         root += std::sqrt(mass_ / 2) * drive.fall;
     if (depth_ > 0)
         in += mass_ * (g * depth_ + 0.5 * kThrown * kThrown * depenetration_ * depenetration_);
-    in += 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
+    const double put_right = 0.5 * mass_ * (violation_ / drive.substep) * (violation_ / drive.substep);
+    in += put_right;
     if (wind_force > 0)
     {
         double moved = 0;
@@ -246,7 +249,9 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         const double all = root + std::sqrt(std::max(in + kHits * elastic, 0.0));
         return all * all;
     };
-    return {with(drawn.freed), with(drawn.held)};
+    const bool exact = root == 0 && wind_force == 0 && depth_ <= 0 && put_right <= kRounded * in &&
+                       damped_ == 0 && reach.travel == 0 && drawn.held == 0 && drive.steady_gravity;
+    return {with(drawn.freed), with(drawn.held), exact};
 }
 
 double EnergyBudget::rounding(Precision precision, double substep) const

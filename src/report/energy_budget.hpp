@@ -23,6 +23,7 @@ struct EnergyMost
 {
     double kinetic = 0; ///< less than `all` by what pins hold drawn
     double all = 0;     ///< kinetic and elastic together
+    bool exact = false; ///< gravity alone has driven bodies: without losses they would have all of it
 };
 
 /// Bounds on energy, fp64 on the host. Const members may be called from any thread.

@@ -3,6 +3,7 @@
 #include "taut/plan/methods.hpp"
 #include "taut/report/contact_depth.hpp"
 #include "taut/report/deep_vertices.hpp"
+#include "taut/report/energy_lost.hpp"
 #include "taut/report/measure_residuals.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/scene_budget.hpp"
@@ -154,6 +155,7 @@ void judge_all(const View& view, StepReport& out)
     const Soundness found = taut::judge(SceneBudget(view.world.scene(), model), view.world);
     out.judged_energy = found.energy;
     out.energy_most = found.energy_most;
+    out.energy_lost = energy_lost(view.world, view.model, found, out);
     set_status(found, out);
 }
 

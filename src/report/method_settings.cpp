@@ -122,10 +122,12 @@ std::string settings_details(const MethodSettings& settings)
 
 std::string settings_block(const MethodSettings& settings)
 {
-    const Json substeps = settings.substeps == 0 ? Json("automatic") : Json(settings.substeps);
-    Json json = {{"type", to_string(settings.type)}, {"substeps", substeps}};
-    if (reads_iterations(settings.type) || settings.iterations != 1)
-        json["iterations"] = settings.iterations;
+    const auto or_automatic = [](std::uint32_t count) {
+        return count == 0 ? Json("automatic") : Json(count);
+    };
+    Json json = {{"type", to_string(settings.type)}, {"substeps", or_automatic(settings.substeps)}};
+    if (reads_iterations(settings.type) || settings.iterations > 1)
+        json["iterations"] = or_automatic(settings.iterations);
     json["precision"] = to_string(settings.precision);
     json.update(details(settings));
     return json.dump();
@@ -133,11 +135,12 @@ std::string settings_block(const MethodSettings& settings)
 
 std::string settings_text(const MethodSettings& settings)
 {
-    const bool automatic = settings.substeps == 0;
-    std::string text = std::string(to_string(settings.type)) + ", " +
-                       (automatic ? "automatic substeps" : counted(settings.substeps, "substep"));
+    const auto so_many = [](std::uint32_t count, const std::string& what) {
+        return count == 0 ? "automatic " + what + "s" : counted(count, what.c_str());
+    };
+    std::string text = std::string(to_string(settings.type)) + ", " + so_many(settings.substeps, "substep");
     if (reads_iterations(settings.type))
-        text += " x " + counted(settings.iterations, "iteration");
+        text += " x " + so_many(settings.iterations, "iteration");
     const std::string more = settings_details(settings);
     return text + " in " + std::string(to_string(settings.precision)) + (more.empty() ? "" : ", " + more);
 }

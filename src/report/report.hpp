@@ -7,6 +7,7 @@
 #include "taut/world/world.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,7 @@ struct StepReport
     double potential_energy = 0; ///< gravity + elastic, zero of gravity at the origin
     double judged_energy = 0;    ///< J, kinetic and of what is strained beyond accept.stretch (soundness.hpp)
     double energy_most = 0;      ///< J, that physics can have put into it
+    std::optional<double> energy_lost; ///< J, where it can be told (energy_lost.hpp)
     /// |P - P0 - impulse| / (M v), v the largest of the root mean square of the speeds now and at the start,
     /// sqrt(g D) and what rounding of places makes; -1 where pins, colliders, max_speed or others take or
     /// give momentum.

@@ -122,14 +122,17 @@ Soundness SceneBudget::judge_whole(const World& world, const std::vector<Soundne
     const double substeps = static_cast<double>(world.steps()) * plan.substeps;
     Soundness out = judge_counts(world.scene(), world.events(), substeps * plan.vertex_count);
     double energy = 0, most = 0;
+    bool exact = true;
     for (const Soundness& part : parts)
     {
         out = worse(part, out);
         energy += part.energy;
         most += part.energy_most;
+        exact = exact && part.energy_exact;
     }
     out.energy = energy;
     out.energy_most = most;
+    out.energy_exact = exact;
     return out;
 }
 

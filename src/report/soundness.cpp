@@ -217,6 +217,7 @@ Soundness judge_motion(const EnergyBudget& budget, const RunState& state)
     out = worse(out, judge_counts(state.scene, state.events, state.vertex_substeps));
     out.energy = energy;
     out.energy_most = most.all;
+    out.energy_exact = most.exact;
     return out;
 }
 
@@ -242,6 +243,7 @@ Soundness judge_state(const EnergyBudget& budget, const RunState& state)
                                 "the energy of tetrahedra strained beyond a tenth of accept.stretch is"));
     out.energy = energy;
     out.energy_most = most;
+    out.energy_exact = motion.energy_exact;
     return out;
 }
 

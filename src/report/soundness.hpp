@@ -29,6 +29,7 @@ struct Soundness
     std::string reason;                ///< a sentence with the numbers; empty when completed
     double energy = 0;                 ///< J: kinetic, and of elements strained beyond accept.stretch
     double energy_most = 0;            ///< J: EnergyBudget::most
+    bool energy_exact = false;         ///< EnergyMost::exact
 
     bool sound() const { return status == Status::completed; }
 };

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -43,6 +44,27 @@ inline double mass_of(const Body& body)
     if (!body.vertex_masses.empty())
         return std::accumulate(body.vertex_masses.begin(), body.vertex_masses.end(), 0.0);
     return body.material.density * (body.mesh.tetrahedra.empty() ? area_of(body) : volume_of(body));
+}
+
+/// N/m of a network along its rows: springs over two edges overlap, and are twice as long.
+inline double network_stiffness(const SpringNetwork& network)
+{
+    return network.structural + network.shear + 4 * network.bend;
+}
+
+/// (m/s)^2 of waves along a body: of a fabric along its stiffer yarns.
+inline double wave_speed_squared(const Body& body)
+{
+    const Material& m = body.material;
+    if (!(m.density > 0))
+        return 0;
+    if (!body.mesh.tetrahedra.empty())
+        return m.youngs_modulus / m.density;
+    const SpringNetwork& network = body.shape.network;
+    const double along = m.fabric.used  ? std::max(m.fabric.warp, m.fabric.weft)
+                         : network.used ? network_stiffness(network)
+                                        : m.stretch_stiffness;
+    return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
 }
 
 } // namespace taut

@@ -386,8 +386,7 @@ Scene resolve(const Scene& scene, std::vector<SceneIssue>* found)
         std::erase_if(body.pins, [](const Pin& pin) { return pin.vertices.empty(); });
     }
     throw_if_any(issues, found);
-    if (resolved.method.substeps == 0)
-        resolved.method.substeps = automatic_substeps(resolved);
+    count_steps(resolved);
     if (resolved.contact.sweeps == 0)
         resolved.contact.sweeps = automatic_sweeps(resolved);
     if (found)

@@ -271,8 +271,9 @@ struct MethodSettings
     MethodKind type = MethodKind::xpbd;
     std::uint32_t substeps = 0; ///< per time step, 1..1000; 0: automatic_substeps(), put in by resolve()
     /// Per substep, 1..1000: sweeps (pbd, xpbd, vbd), Newton steps (implicit_euler), linear solves, each at
-    /// the places that the one before led to (implicit_constraints, acad).
-    std::uint32_t iterations = 1;
+    /// the places that the one before led to (implicit_constraints, acad). 0: automatic_iterations(), put in
+    /// by resolve().
+    std::uint32_t iterations = 0;
     Precision precision = Precision::float32;
 
     Integrator integrator = Integrator::semi_implicit;
@@ -377,6 +378,13 @@ std::vector<SceneIssue> check_resolved(const Scene& scene);
 /// stiffness ask for, under implicit_euler what solids on colliders do; 10 under others (docs/methods.md).
 std::uint32_t automatic_substeps(const Scene& resolved);
 double wanted_substeps(const Scene& resolved); ///< the same without an upper limit
+
+/// Iterations for a resolved scene that names none: under implicit_euler 2 where a substep carries waves of
+/// cloth or a chain over more than an edge (docs/methods.md), else 1.
+std::uint32_t automatic_iterations(const Scene& resolved);
+
+/// Puts in the substeps and iterations of a resolved scene that names none.
+void count_steps(Scene& resolved);
 
 /// Checks, generates or loads every body's mesh, applies transforms, resolves pins; returns a scene
 /// whose bodies have `mesh`, and whose pins have only `vertices` and `motion`. Throws Error with the

@@ -41,6 +41,7 @@ namespace taut {
 namespace {
 
 constexpr double kSofter = 0.2;
+constexpr double kAimedWay = kSeenWay / 2; ///< of a body's size: what the rule aims at is less than is seen
 constexpr double kShortArm = 0.05;         ///< of a body's size: nearer to its pins it does not swing
 constexpr double kStandsOut = 1.5;         ///< weights (swing_pull): less is within 41 degrees of the plumb
 constexpr double kPressed = 1e-4; ///< strain of edges that are pressed together: less buckles nothing
@@ -87,28 +88,12 @@ double swing_pull(const Body& body, const glm::dvec3& down)
     return length > kShortArm * size.size() ? 3 - 2 * glm::dot(arm, down) / length : 1;
 }
 
-constexpr double kWave = 0.4; ///< of (c h / edge)^2 that a sweep of vbd carries on
+/// Of (c h / edge)^2, what a sweep of vbd carries on: through a solid, and through cloth and chains, of which
+/// at 0.4 waves arrive too late for what swings, which loses a quarter of its energy.
+constexpr double kWaveInSolid = 0.4, kWave = 0.1;
 
-/// N/m of a network along its rows: springs over two edges overlap, and are twice as long.
-double network_stiffness(const SpringNetwork& network)
-{
-    return network.structural + network.shear + 4 * network.bend;
-}
-
-/// (m/s)^2 of waves along a body: of a fabric along its stiffer yarns.
-double wave_speed_squared(const Body& body)
-{
-    const Material& m = body.material;
-    if (!(m.density > 0))
-        return 0;
-    if (!body.mesh.tetrahedra.empty())
-        return m.youngs_modulus / m.density;
-    const SpringNetwork& network = body.shape.network;
-    const double along = m.fabric.used   ? std::max(m.fabric.warp, m.fabric.weft)
-                         : network.used ? network_stiffness(network)
-                                        : m.stretch_stiffness;
-    return body.mesh.triangles.empty() || !std::isfinite(along) ? 0 : along / m.density;
-}
+/// Iterations that sweep: one where a scene names none.
+std::uint32_t sweeps_of(const MethodSettings& method) { return std::max(method.iterations, 1u); }
 
 /// s: the longest substep in which a body acts under xpbd as stiff as it is but for kSofter.
 double longest_for_stiffness(const Body& body, const SweepLoad& load)
@@ -151,7 +136,7 @@ double longest_for_solid(const Body& body, const SweepLoad& load, double gravity
     if (!(thick > 0) || body.mesh.tetrahedra.empty() || !(body.material.youngs_modulus > 0))
         return HUGE_VAL;
     const double length = load.reach * load.edge;
-    const double seen = thick * load.edge * std::sqrt(kSeenWay / (1.5 * gravity * length * length * length));
+    const double seen = thick * load.edge * std::sqrt(kAimedWay / (1.5 * gravity * length * length * length));
     return std::max(seen, longest_for_stiffness(body, load));
 }
 
@@ -178,7 +163,8 @@ double longest_for_standing(const Body& body, const SweepLoad& load, const glm::
 /// nothing holds it, nor for a chain that hangs still, which is right with ten.
 double longest_for_waves(const Scene& scene, const Body& body, const SweepLoad& load)
 {
-    const double carried = kWave * scene.method.iterations; // edges^2
+    const double wave = body.mesh.tetrahedra.empty() ? kWave : kWaveInSolid;
+    const double carried = wave * sweeps_of(scene.method); // edges^2
     if (body.pins.empty())
         return HUGE_VAL;
     if (const double rate = chain_waves(body); rate > 0)
@@ -195,7 +181,7 @@ double longest_for_push(const Scene& scene, const Body& body, const SweepLoad& l
     const double pull = spanned ? 1 : swing_pull(body, push / g);
     const double open = 2 * std::max(load.vertices, 1.0) * pull * g; // m/s^2: see "Based on"
     const bool sweeps = scene.method.type != MethodKind::vbd; // whose steps at a vertex see all its triangles
-    const double sag = spanned && sweeps ? 8.0 / 3 * kSeenWay * kSeenWay : 1;
+    const double sag = spanned && sweeps ? 8.0 / 3 * kAimedWay * kAimedWay : 1;
     const double strain = std::min(kSweepStrain * (sweeps ? scene_file::membrane_share(body) : 1), sag);
     return std::sqrt(strain * load.edge / open);
 }
@@ -279,7 +265,7 @@ double longest_for_bending(const Body& body, const SweepLoad& load, const glm::d
         return HUGE_VAL;
     const double fourth = std::pow(length / steps, 4); // m^4, of an edge along the way
     const double softer = kSofter * m.density * fourth / (kHingeSweep * rigidity);
-    const double seen = 8 * kSeenWay * length / (kHingeSweep * g * std::pow(steps, 4));
+    const double seen = 8 * kAimedWay * length / (kHingeSweep * g * std::pow(steps, 4));
     return std::sqrt(std::max(softer, seen));
 }
 
@@ -290,7 +276,7 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     const SweepLoad load = sweep_load(body);
     if (!(load.edge > 0) || body.kinematic.used) // whose vertices are all led
         return HUGE_VAL;
-    const double sweeps = std::sqrt(scene.method.iterations);
+    const double sweeps = std::sqrt(sweeps_of(scene.method));
     const double gas =
         method == MethodKind::implicit_euler ? HUGE_VAL : sweeps * longest_for_pressure(scene, body, load);
     const double carried = // whatever gravity does

@@ -32,6 +32,9 @@ constexpr Key kMethod[] = {
         "iterations", "in a substep: sweeps (pbd, xpbd, vbd), Newton steps (implicit_euler), linear solves "
                       "(implicit_constraints, acad), solves for the volume within surfaces (mass_spring)")
         .range(1, 1000)
+        .or_word("automatic", 0)
+        .usually("\"automatic\": 1, but 2 under implicit_euler where cloth or chains are stiff "
+                 "([rule](methods.md#iterations-that-nobody-named))")
         .read_by(kAllMethods),
     key<&MethodSettings::precision>("precision", "the arithmetic of the kernels"),
     // implicit_constraints and acad refuse what is not "semi_implicit".

@@ -7,6 +7,7 @@
 #include "taut/plan/plan.hpp"
 #include "taut/report/report.hpp"
 #include "taut/runtime/device.hpp"
+#include "taut/scene/kinds.hpp"
 #include "taut/scene/scene.hpp"
 #include "taut/version.hpp"
 #include "taut/world/world.hpp"

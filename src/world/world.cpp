@@ -220,10 +220,8 @@ Scene resolved(const Scene& scene)
     for (const Body& body : scene.bodies)
         if (body.mesh.positions.empty())
             return resolve(scene);
-    if (scene.method.substeps != 0)
-        return scene;
     Scene counted = scene;
-    counted.method.substeps = automatic_substeps(scene);
+    count_steps(counted);
     return counted;
 }
 

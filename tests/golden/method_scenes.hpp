@@ -25,6 +25,7 @@ inline Scene swing(const std::string& method)
     scene.colliders = {ball};
     scene.method.type = option_named<MethodKind>(method);
     scene.method.substeps = 4;
+    scene.method.iterations = 1; // of implicit_euler too
     scene.method.stability = StabilityRule::substep;
     return scene;
 }

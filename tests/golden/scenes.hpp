@@ -189,6 +189,7 @@ inline Scene guarded_by(const std::string& method)
 {
     Scene scene = guarded();
     scene.method.type = option_named<MethodKind>(method);
+    scene.method.iterations = 1;
     scene.method.stability = StabilityRule::substep;
     return scene;
 }

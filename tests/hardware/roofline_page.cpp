@@ -39,7 +39,8 @@ const Step& cloth(std::uint32_t cells)
         return found->second;
     const std::string side = std::to_string(cells);
     const std::string settings[] = {"bodies[0].grid.cells=[" + side + "," + side + "]",
-                                    "bodies[0].contact.self=false"}; // searches have no fixed length
+                                    "bodies[0].contact.self=false", // searches have no fixed length
+                                    "method.substeps=20"};
     Plan plan = make_plan(resolve_file(TAUT_SOURCE_DIR "/examples/scenes/drape.json", settings));
     return made[cells] = {std::move(plan.passes), std::move(plan.effects), double(plan.substeps)};
 }

@@ -119,7 +119,12 @@ TEST_CASE("details name what a method reads and is not as usual, and nothing els
     settings.start = SweepStart::inertial;
     settings.integrator = Integrator::verlet; // not vbd's
     CHECK(settings_details(settings) == "start inertial");
-    CHECK(settings_text(settings) == "vbd, automatic substeps x 1 iteration in float, start inertial");
+    CHECK(settings_text(settings) ==
+          "vbd, automatic substeps x automatic iterations in float, start inertial");
+    settings.iterations = 1;
+    settings.substeps = 1;
+    CHECK(settings_text(settings) == "vbd, 1 substep x 1 iteration in float, start inertial");
+    settings.substeps = 0;
     settings.type = MethodKind::mass_spring;
     CHECK(settings_text(settings) == "mass_spring, automatic substeps in float, integrator verlet");
     settings.compress = true; // not mass_spring's

@@ -39,15 +39,15 @@ double plumb(const std::function<void(Scene&)>& change)
 TEST_CASE("under vbd a chain that swings takes the substeps that its waves ask for", "[substeps]")
 {
     Scene scene = level();
-    // h <= sqrt(0.4 m / k), but that of the twenty links the first has an end that does not give way.
-    CHECK(substeps_of(scene) == Approx(1 / 60.0 / std::sqrt(0.4 * 0.01 / 1e5)).epsilon(0.02));
+    // h <= sqrt(0.1 m / k), but that of the twenty links the first has an end that does not give way.
+    CHECK(substeps_of(scene) == Approx(1 / 60.0 / std::sqrt(0.1 * 0.01 / 1e5)).epsilon(0.02));
     const double one = substeps_of(scene);
-    scene.bodies[0].material.stretch_stiffness *= 100;
-    CHECK(substeps_of(scene) == Approx(10 * one).epsilon(0.02)); // as the root of the stiffness
+    scene.bodies[0].material.stretch_stiffness *= 25;
+    CHECK(substeps_of(scene) == Approx(5 * one).epsilon(0.02)); // as the root of the stiffness
     scene.method.iterations = 4;
-    CHECK(substeps_of(scene) == Approx(5 * one).epsilon(0.02));
+    CHECK(substeps_of(scene) == Approx(2.5 * one).epsilon(0.02));
     for (double& m : scene.bodies[0].vertex_masses)
-        m *= 25;
+        m *= 6.25;
     CHECK(substeps_of(scene) == Approx(one).epsilon(0.04));
     scene = level();
     scene.bodies[0].vertex_masses.back() = 1; // a bob: waves run in the links
@@ -64,7 +64,7 @@ TEST_CASE("the waves of a chain go by the material where no masses are given", "
     scene.bodies[0].vertex_masses.clear();
     scene.bodies[0].material.density = 0.2;
     scene.bodies[0].material.stretch_stiffness = 8e3; // 200 m/s, 5 cm an edge: 4,000 edges a second
-    CHECK(substeps_of(scene) == Approx(4000 / 60.0 / std::sqrt(0.4)).epsilon(0.02));
+    CHECK(substeps_of(scene) == Approx(4000 / 60.0 / std::sqrt(0.1)).epsilon(0.02));
 }
 
 TEST_CASE("springs beside the links, or in their place, carry waves", "[substeps]")

@@ -153,7 +153,7 @@ TEST_CASE("a wrong type is refused by file, field, what is there and what would 
     CHECK(refusal_of("\"method\": {\"substeps\": 2.5}") ==
           "my.json: method.substeps is 2.5; it must be a whole number from 1 to 1000, or \"automatic\"");
     CHECK(refusal_of("\"method\": {\"iterations\": 1.5}") ==
-          "my.json: method.iterations is 1.5; it must be a whole number from 1 to 1000");
+          "my.json: method.iterations is 1.5; it must be a whole number from 1 to 1000, or \"automatic\"");
     CHECK(refusal_of("\"method\": {\"linear_iterations\": -1}") ==
           "my.json: method.linear_iterations is -1; it must be a whole number from 1 to 100000");
     CHECK_THAT(refusal_of("\"method\": {\"substeps\": -1}"), Contains("is -1; it must be a whole number"));

@@ -15,12 +15,13 @@ TEST_CASE("methods that sweep take the substeps that mesh and weight ask for, ot
     };
     const std::uint32_t sweeps = substeps("xpbd");
     CHECK(sweeps > 40);
-    CHECK(substeps("vbd") == sweeps);
+    const std::uint32_t waves = substeps("vbd"); // run further than weight is carried
+    CHECK(waves > 1.5 * sweeps);
     CHECK(substeps("pbd") == sweeps);
     CHECK(substeps("implicit_euler") == 10);
     CHECK(substeps("mass_spring") == 10);
     scene.method.iterations = 4;
-    CHECK(substeps("vbd") <= sweeps / 2 + 1);
+    CHECK(substeps("vbd") <= waves / 2 + 1);
 }
 
 TEST_CASE("what pins on all sides carry takes more substeps than what hangs from an edge", "[substeps]")
