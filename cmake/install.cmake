@@ -17,7 +17,7 @@ set(taut_public_headers
     linear/cg.hpp linear/small.hpp linear/solve.hpp
     world/world.hpp world/program_moves.hpp world/program_motion.hpp world/mover.hpp world/hybrid.hpp world/sleep.hpp
     judge/judge.hpp judge/box_tree.hpp judge/mesh_distance.hpp judge/surface.hpp judge/distance.hpp judge/exact.hpp judge/linking.hpp judge/swept.hpp
-    report/report.hpp report/energy_lost.hpp report/errors.hpp report/model.hpp report/picture.hpp report/continuum.hpp report/cost.hpp
+    report/report.hpp report/energy_lost.hpp report/errors.hpp report/model.hpp report/picture.hpp report/continuum.hpp report/cost_contact.hpp report/cost.hpp
     report/compare.hpp report/volume.hpp report/ablation.hpp report/svg_plot.hpp report/time_series.hpp report/residuals.hpp
     report/gas.hpp report/energy_budget.hpp report/mover_paths.hpp report/soundness.hpp report/scene_budget.hpp
     report/soundness_watch.hpp)

@@ -103,6 +103,8 @@ std::string points_table(const CostStudy& study)
     const auto beside_error = static_cast<std::ptrdiff_t>(several ? 5 : 4); // columns
     if (study.has_continuum())
         rows[0].insert(rows[0].begin() + beside_error, "continuum %");
+    if (study.contact)
+        rows[0].insert(rows[0].begin() + beside_error, {"impulse %", "friction %", "depth mm"});
     for (const CostPoint& point : study.points)
     {
         const auto timed = [&](double ms) { return point.error ? number(ms, 3) : std::string("-"); };
@@ -115,6 +117,15 @@ std::string points_table(const CostStudy& study)
             rows.back().insert(rows.back().begin(), point.method);
         if (study.has_continuum())
             rows.back().insert(rows.back().begin() + beside_error, percent(point.error_continuum));
+        if (study.contact)
+        {
+            const auto share = [&](double cost::ContactError::*error) {
+                return percent(point.contact ? std::optional(*point.contact.*error) : std::nullopt);
+            };
+            rows.back().insert(rows.back().begin() + beside_error,
+                               {share(&cost::ContactError::impulse), share(&cost::ContactError::friction),
+                                point.contact ? number(1000 * point.contact->depth, 3) : "-"});
+        }
     }
     return table(rows);
 }

@@ -4,8 +4,10 @@
 // Departures: none.
 #include "taut/report/cost.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/report/cost_design.hpp"
 #include "taut/report/cost_reference.hpp"
+#include "taut/report/cost_self.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/report/tune_parts.hpp"
 #include "taut/runtime/base/error.hpp"
@@ -135,6 +137,7 @@ public:
             out_.frames = out_.reference.frames.size() - 1;
         choose_metric();
         compare_places_of_rest();
+        trace_reference(input);
         facts_ = tuning::scene_facts(model_, out_.reference);
         const std::vector<MethodSettings> all = settings_to_try(scene_, options_);
         for (const MethodSettings& settings : all)
@@ -190,6 +193,32 @@ private:
             out_.continuum->reason = "the reference comes to rest elsewhere on the same mesh";
     }
 
+    /// The finest run of the reference once more, for what its surfaces do to each other.
+    void trace_reference(const cost::CostInput& input)
+    {
+        const CostReference& reference = out_.reference;
+        if (!reference.verified || reference.methods.empty() || !wants_contact(scene_))
+            return;
+        Trial trial(scene_, cost::double_device(input),
+                    cost::fine_settings(input, reference.methods[0], reference.substeps));
+        run_traced(trial, {weights_, nullptr, options_.rest_seconds});
+        if (trial.contacts()->impulse > 0)
+            out_.contact = trial.contacts();
+    }
+
+    /// To the end of a study, adding up contacts: of what moves on the way, at rest for a second more.
+    Motion run_traced(Trial& trial, const cost::RestRule& rule) const
+    {
+        if (!at_rest())
+        {
+            trial.trace_contacts();
+            return trial.trajectory(out_.frames);
+        }
+        Motion motion = trial.settle(rule);
+        trial.trace_contacts(static_cast<std::size_t>(std::ceil(1 / scene_.timestep)));
+        return motion;
+    }
+
     CostPoint point(const MethodSettings& settings)
     {
         CostPoint out;
@@ -237,10 +266,11 @@ private:
     {
         const std::vector<glm::dvec3>& goal = out_.reference.frames.back();
         const bool displaced = out_.metric == "e_disp";
-        const Motion motion =
-            at_rest() ? trial.settle(
-                            {weights_, &goal, options_.rest_seconds, displaced, {}, options_.rest_tolerance})
-                      : trial.trajectory(out_.frames);
+        const cost::RestRule rule{
+            weights_, &goal, options_.rest_seconds, displaced, {}, options_.rest_tolerance};
+        const Motion motion = out_.contact ? run_traced(trial, rule)
+                              : at_rest()  ? trial.settle(rule)
+                                           : trial.trajectory(out_.frames);
         out.simulated_seconds = static_cast<double>(motion.steps) * scene_.timestep;
         out.status = motion.status;
         out.reason = motion.reason;
@@ -254,6 +284,8 @@ private:
             out.error = displacement_error(weights_, motion.frames.back(), goal, reference.front());
         else
             out.error = trajectory_error(weights_, motion.frames, reference);
+        if (out_.contact)
+            out.contact = cost::contact_error(*trial.contacts(), *out_.contact);
         if (out_.has_continuum())
             out.error_continuum = displacement_error(weights_, motion.frames.back(),
                                                      out_.continuum->positions, reference.front());

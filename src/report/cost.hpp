@@ -4,6 +4,7 @@
 
 #include "taut/plan/methods.hpp"
 #include "taut/report/continuum.hpp"
+#include "taut/report/cost_contact.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/svg_plot.hpp"
 
@@ -104,6 +105,7 @@ struct CostPoint
     std::optional<double> error_l;        ///< e_L at the last frame
     std::optional<double> error_smoothed; ///< e_traj of moving averages over six frames
     std::optional<double> error_continuum; ///< e_disp against R1
+    std::optional<cost::ContactError> contact; ///< where surfaces push each other
     bool at_floor = false;                ///< error below 10 times the reference's own: not told apart
     double simulated_seconds = 0;         ///< until the error was taken
     double ms = 0, ms_least = 0;          ///< per simulated second, wall: median and least of the repetitions
@@ -157,6 +159,10 @@ struct CostStudy
     std::vector<CostTarget> targets;
     std::vector<CostMethod> methods; ///< in the order of points
     bool interrupted = false;
+
+    /// What surfaces do to each other in the reference: of what moves on the way, at rest in a second more. None
+    /// where none push each other, and under R2 and R3, which know no contact.
+    std::optional<cost::ContactTrace> contact;
 
     /// At least one point has an error.
     bool sound() const;

@@ -46,6 +46,10 @@ Json point_json(const CostStudy& study, const CostPoint& point)
     json["error_l"] = number_or_null(point.error_l);
     json["error_continuum"] = number_or_null(point.error_continuum);
     json["error_smoothed"] = number_or_null(point.error_smoothed);
+    json["contact"] = point.contact ? Json{{"impulse_error", point.contact->impulse},
+                                           {"friction_error", point.contact->friction},
+                                           {"depth", point.contact->depth}}
+                                    : Json(nullptr);
     json["at_reference_floor"] = point.at_floor;
     json["ms_per_simulated_second"] = gap ? Json(nullptr) : Json(point.ms);
     json["ms_least"] = gap ? Json(nullptr) : Json(point.ms_least);
@@ -154,6 +158,10 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
         row += (row.empty() ? "" : ",") + cell;
     if (study.has_continuum()) // files of studies without one keep their columns
         row += "," + value(point.error_continuum);
+    if (study.contact)
+        row += point.contact ? "," + shown(point.contact->impulse, 6) + "," + shown(point.contact->friction, 6) +
+                                   "," + shown(point.contact->depth, 6)
+                             : ",,,";
     return row + "\n";
 }
 
@@ -173,6 +181,10 @@ std::string cost_json(const CostStudy& study)
     json["constraints"] = study.constraints;
     json["status"] = to_string(study.interrupted ? Status::interrupted : Status::completed);
     json["reference"] = reference_json(study.reference);
+    json["contact"] = study.contact ? Json{{"impulse", study.contact->impulse},
+                                           {"friction", study.contact->friction},
+                                           {"depth", study.contact->depth}}
+                                    : Json(nullptr);
     json["continuum"] = continuum_json(study);
     json["basis"] = basis_word(study);
     json["rest_tolerance"] = study.kind == CostKind::at_rest ? Json(study.rest_tolerance) : Json(nullptr);
@@ -196,7 +208,8 @@ std::string cost_csv(const CostStudy& study)
         "cpu_ms_per_simulated_second,sweeps,pareto,at_reference_floor,status,reason,details,refused,"
         "ms_quartile_1,ms_quartile_3,cpu_ms_quartile_1,cpu_ms_quartile_3,repetitions,floor,"
         "other_material";
-    out += study.has_continuum() ? ",error_continuum\n" : "\n";
+    out += study.has_continuum() ? ",error_continuum" : "";
+    out += study.contact ? ",impulse_error,friction_error,contact_depth\n" : "\n";
     for (const CostPoint& point : study.points)
         out += csv_row(study, point);
     return out;

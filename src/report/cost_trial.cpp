@@ -73,6 +73,8 @@ bool Trial::advance(Motion& motion)
 {
     world_.step();
     x_ = world_.positions();
+    if (contacts_)
+        contacts_->add(world_, x_);
     ++motion.steps;
     motion.reason = lost_vertex(x_, motion.status);
     if (motion.reason.empty() && world_.events().non_finite > 0)
@@ -155,6 +157,14 @@ Motion Trial::settle(const RestRule& rule)
                      " simulated seconds" + (out_of_time ? ", when the time was up" : "");
     judge_end(out);
     return out;
+}
+
+void Trial::trace_contacts(std::size_t frames)
+{
+    trace_contacts();
+    Motion on; // of no interest but for what it adds up
+    while (on.steps < frames && advance(on))
+        ;
 }
 
 void Trial::run(std::size_t frames)

@@ -57,6 +57,12 @@ public:
     /// iterations and solves, counted by the device; call it before time().
     double sweeps() const;
 
+    /// From now on contacts of every frame are added up. Costs a read of them a frame.
+    void trace_contacts() { contacts_.emplace(); }
+    /// The same of so many frames from here on, as after settle().
+    void trace_contacts(std::size_t frames);
+    const std::optional<ContactTrace>& contacts() const { return contacts_; }
+
     Motion trajectory(std::size_t frames);
     /// Goes on from where the motion of this trial stands until it has that many frames after the start, or
     /// until `enough`.
@@ -79,6 +85,7 @@ private:
     World world_;
     WorldState start_;
     std::vector<glm::dvec3> x_;
+    std::optional<ContactTrace> contacts_;
 };
 
 } // namespace taut::cost
