@@ -266,8 +266,8 @@ private:
     {
         const std::vector<glm::dvec3>& goal = out_.reference.frames.back();
         const bool displaced = out_.metric == "e_disp";
-        const cost::RestRule rule{
-            weights_, &goal, options_.rest_seconds, displaced, {}, options_.rest_tolerance};
+        const cost::RestRule rule{weights_,  &goal, options_.rest_seconds,
+                                  displaced, {},    options_.rest_tolerance};
         const Motion motion = out_.contact ? run_traced(trial, rule)
                               : at_rest()  ? trial.settle(rule)
                                            : trial.trajectory(out_.frames);

@@ -160,8 +160,8 @@ struct CostStudy
     std::vector<CostMethod> methods; ///< in the order of points
     bool interrupted = false;
 
-    /// What surfaces do to each other in the reference: of what moves on the way, at rest in a second more. None
-    /// where none push each other, and under R2 and R3, which know no contact.
+    /// What surfaces do to each other in the reference: of what moves on the way, at rest in a second more.
+    /// None where none push each other, and under R2 and R3, which know no contact.
     std::optional<cost::ContactTrace> contact;
 
     /// At least one point has an error.

@@ -159,8 +159,8 @@ std::string csv_row(const CostStudy& study, const CostPoint& point)
     if (study.has_continuum()) // files of studies without one keep their columns
         row += "," + value(point.error_continuum);
     if (study.contact)
-        row += point.contact ? "," + shown(point.contact->impulse, 6) + "," + shown(point.contact->friction, 6) +
-                                   "," + shown(point.contact->depth, 6)
+        row += point.contact ? "," + shown(point.contact->impulse, 6) + "," +
+                                   shown(point.contact->friction, 6) + "," + shown(point.contact->depth, 6)
                              : ",,,";
     return row + "\n";
 }

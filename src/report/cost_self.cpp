@@ -4,6 +4,7 @@
 //   one, and what the next one differs from it counts as its error (docs/cost.md).
 #include "taut/report/cost_self.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/report/method_settings.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -209,7 +210,9 @@ public:
                 const auto first = motion_[l].frames.begin();
                 return Frames(first, first + static_cast<std::ptrdiff_t>(least) + 1);
             };
-            const Refinement found = refine(input_.weights, level(0), level(1), level(2));
+            RefineRule rule;
+            rule.rejoins = wants_contact(input_.scene); // surfaces land in other substeps of each level
+            const Refinement found = refine(input_.weights, level(0), level(1), level(2), rule);
             if (found.frames < window || window == frames || enough(input_))
                 return found;
         }

@@ -82,6 +82,25 @@ TEST_CASE("a study at rest knows that a plate carries the weight of what lies on
     CHECK_THAT(cost_json(study), Contains("\"impulse_error\": "));
 }
 
+TEST_CASE("a study of what slides over another surface knows its friction")
+{
+    Scene scene = sheet_on_plate();
+    scene.bodies[0].velocity = {2, 0, 0};
+    scene.bodies[0].transform.translate = {-0.3, 0.004, 0.007}; // where it lies
+    scene.bodies[1].shape.size = {1, 0.3};
+    scene.duration = 0.25;
+    const CostStudy study = run_cost(scene, test_device("cpu:serial"), three_settings(CostKind::moving));
+    for (const std::string& passed : study.reference.passed)
+        UNSCOPED_INFO(passed);
+    REQUIRE(study.contact);
+    CHECK(study.contact->friction == Approx(0.3 * study.contact->impulse).epsilon(0.02)); // Coulomb's
+    for (const CostPoint& point : study.points)
+    {
+        REQUIRE(point.contact);
+        CHECK(point.contact->friction == Approx(0.3 * point.contact->impulse).margin(0.01));
+    }
+}
+
 TEST_CASE("a study without surfaces that meet has no column for them")
 {
     Scene scene = sheet_on_plate();
@@ -89,8 +108,7 @@ TEST_CASE("a study without surfaces that meet has no column for them")
     scene.damping = 5;
     scene.contact = SceneContact();
     scene.bodies[0].pins.emplace_back().edges = {"top"};
-    const CostStudy study =
-        run_cost(scene, test_device("cpu:serial"), three_settings(CostKind::at_rest));
+    const CostStudy study = run_cost(scene, test_device("cpu:serial"), three_settings(CostKind::at_rest));
     CHECK_FALSE(study.contact);
     CHECK_THAT(cost_csv(study), !Contains("impulse_error"));
     CHECK_THAT(cost_json(study), Contains("\"contact\": null"));
