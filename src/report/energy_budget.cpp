@@ -249,8 +249,9 @@ EnergyMost EnergyBudget::most(std::span<const glm::dvec3> x, const WorldDrive& d
         const double all = root + std::sqrt(std::max(in + kHits * elastic, 0.0));
         return all * all;
     };
-    const bool exact = root == 0 && wind_force == 0 && depth_ <= 0 && put_right <= kRounded * in &&
-                       damped_ == 0 && reach.travel == 0 && drawn.held == 0 && drive.steady_gravity;
+    const bool exact = root == 0 && wind_force == 0 && shared_->gases.empty() && depth_ <= 0 &&
+                       put_right <= kRounded * in && damped_ == 0 && reach.travel == 0 && drawn.held == 0 &&
+                       drive.steady_gravity;
     return {with(drawn.freed), with(drawn.held), exact};
 }
 

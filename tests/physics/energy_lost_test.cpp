@@ -4,6 +4,7 @@
 #include "hard/cases.hpp"
 
 #include "taut/report/energy_lost.hpp"
+#include "taut/scene/kinds.hpp"
 
 using namespace taut;
 using namespace taut::hard;
@@ -98,6 +99,12 @@ TEST_CASE("energy that is lost is not told of what more than gravity drives")
     scene.bodies[0].material.drag = 1;
     CHECK_FALSE(told(scene));
     CHECK_FALSE(told(let_go(MethodKind::pbd)));
+    Scene gas;
+    gas.bodies.emplace_back().shape = shapes::Mesh{.file = TAUT_SOURCE_DIR "/examples/scenes/shapes/sphere.obj"};
+    gas.bodies[0].material.stretch_stiffness = 1000;
+    CHECK(told(gas));
+    gas.bodies[0].material.pressure = 20;
+    CHECK_FALSE(told(gas));
     World pushed(resolve(let_go(MethodKind::xpbd)), test_device("cpu:serial"));
     pushed.set_velocities(std::vector<glm::dvec3>(pushed.positions().size(), {0, 0, 1}));
     pushed.step();
