@@ -100,7 +100,8 @@ TEST_CASE("energy that is lost is not told of what more than gravity drives")
     CHECK_FALSE(told(scene));
     CHECK_FALSE(told(let_go(MethodKind::pbd)));
     Scene gas;
-    gas.bodies.emplace_back().shape = shapes::Mesh{.file = TAUT_SOURCE_DIR "/examples/scenes/shapes/sphere.obj"};
+    gas.bodies.emplace_back().shape =
+        shapes::Mesh{.file = TAUT_SOURCE_DIR "/examples/scenes/shapes/sphere.obj"};
     gas.bodies[0].material.stretch_stiffness = 1000;
     CHECK(told(gas));
     gas.bodies[0].material.pressure = 20;

@@ -47,6 +47,7 @@ private:
     glm::dvec3 touch(std::size_t k) const { return own(TAUT_VBD_DRIFT + k); }
     glm::dvec3 rubbed(std::size_t k) const { return own(TAUT_VBD_DRIFT + TAUT_VBD_TOUCH + k); }
     double size() const { return sums_[TAUT_VBD_DRIFT + TAUT_VBD_SIZE]; }
+    double raised() const { return sums_[TAUT_VBD_DRIFT + TAUT_VBD_TOUCH + TAUT_VBD_HEIGHT]; }
     double count() const { return sums_[TAUT_VBD_DRIFT + TAUT_VBD_COUNT]; }
     glm::dvec3 lack() const { return mean(TAUT_VBD_LACK); }
     glm::dvec3 lack_turn() const { return mean(TAUT_VBD_TURN); }
@@ -136,7 +137,7 @@ inline RigidShift Standing::on_its_feet() const
     // The feet stay on the surface: a turn t moves the centre of mass by -t . aside along n.
     const glm::dmat3 added = glm::dmat3(0.5 * glm::dot(aside, aside)) - glm::outerProduct(aside, aside);
     const Moments resting = own_moments() + added;
-    const double away = -glm::dot(lack(), n), height = rubbed(TAUT_VBD_HEIGHT).x / size();
+    const double away = -glm::dot(lack(), n), height = raised() / size();
     const double fall = std::clamp(away, 0.0, height), stopped = std::max(away - fall, 0.0);
     const glm::dvec3 about_feet = lack_turn() - glm::cross(foot(), lack());
     const glm::dvec3 tip = along(about_feet + glm::cross(arm, along(lack())));
