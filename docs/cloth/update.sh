@@ -52,7 +52,7 @@ figure pbd_iterations $scenes/pbd_iterations.json "1 iteration: device=cpu; meth
 figure pbd_sphere $scenes/pbd_sphere.json "4 x 5: device=cpu" "1 x 20: device=cpu; method.substeps=1; method.iterations=20" \
     "20 x 1: device=cpu; method.substeps=20; method.iterations=1"
 figure methods $scenes/methods.json "xpbd: device=cpu" "pbd: device=cpu; method.type=pbd" "mass_spring: device=cpu; method.type=mass_spring; method.stability=substep" \
-    "implicit_euler: device=cpu; method.type=implicit_euler; method.substeps=2" \
+    "implicit_euler: device=cpu; method.type=implicit_euler; method.substeps=2; method.iterations=1" \
     "implicit_constraints: device=cpu; method.type=implicit_constraints; method.substeps=5" \
     "acad: device=cpu; method.type=acad; method.stability=substep" \
     "vbd: device=cpu; method.type=vbd; method.substeps=5; method.iterations=2"

@@ -30,7 +30,7 @@ rows()
     shift 2
     for method in implicit_euler mass_spring vbd xpbd; do
         case $method in
-            implicit_euler) own="method.substeps=4 method.linear_iterations=300" ;;
+            implicit_euler) own="method.substeps=4 method.iterations=1 method.linear_iterations=300" ;;
             mass_spring) own="method.substeps=20 method.stability=substep" ;;
             vbd) own="method.substeps=20 method.iterations=10" ;;
             xpbd) own="method.substeps=400" ;;
@@ -79,7 +79,7 @@ overhang()
     model=$1
     shift
     case $model in
-        hinge) own="method.type=implicit_euler method.substeps=4 method.linear_iterations=1000" ;;
+        hinge) own="method.type=implicit_euler method.substeps=4 method.iterations=1 method.linear_iterations=1000" ;;
         plate) own="method.type=xpbd method.substeps=1000" ;;
     esac
     "$program" run examples/scenes/fabric/overhang.json --device cpu --no-picture --every 180 --out "$scratch/run" \
