@@ -13,12 +13,12 @@ constexpr double kNothing = 1e-6; ///< of all that there can be: rounding
 
 } // namespace
 
-std::optional<double> energy_lost(const World& world, const PhysicalModel& model, const Soundness& found,
+std::optional<double> energy_lost(const World& world, const PhysicalModel& model,
+                                  std::span<const glm::dvec3> x, const Soundness& found,
                                   const StepReport& report)
 {
     if (!found.energy_exact || world.torn() > 0 || world.scene().method.type == MethodKind::pbd)
         return std::nullopt;
-    const std::vector<glm::dvec3> x = world.positions();
     const double elastic = report.potential_energy - gravity_energy(model, x) - gas_energy(model, x);
     return found.energy_most - report.kinetic_energy - elastic;
 }

@@ -155,7 +155,7 @@ void judge_all(const View& view, StepReport& out)
     const Soundness found = taut::judge(SceneBudget(view.world.scene(), model), view.world);
     out.judged_energy = found.energy;
     out.energy_most = found.energy_most;
-    out.energy_lost = energy_lost(view.world, view.model, found, out);
+    out.energy_lost = energy_lost(view.world, view.model, view.x, found, out);
     set_status(found, out);
 }
 

@@ -12,27 +12,22 @@
 
 namespace taut::methods {
 
-/// The members that every method reads.
-struct Steps
-{
-    std::uint32_t substeps = MethodSettings().substeps;     ///< 0: automatic
-    std::uint32_t iterations = MethodSettings().iterations; ///< 0: automatic
-    Precision precision = MethodSettings().precision;
-};
+// substeps, iterations and precision stand in each type, since members of a base could not be named beside
+// the type's own: Vbd{.substeps = 40, .relaxation = 0.9}.
 
 /// Extended position-based dynamics (docs/theory/xpbd-solids.md says how solids are written in it).
 struct Xpbd
 {
-    std::uint32_t substeps = Steps().substeps, iterations = Steps().iterations;
-    Precision precision = Steps().precision;
+    std::uint32_t substeps = MethodSettings().substeps, iterations = MethodSettings().iterations;
+    Precision precision = MethodSettings().precision;
     operator MethodSettings() const;
 };
 
 /// Vertex block descent (docs/methods/vbd.md).
 struct Vbd
 {
-    std::uint32_t substeps = Steps().substeps, iterations = Steps().iterations;
-    Precision precision = Steps().precision;
+    std::uint32_t substeps = MethodSettings().substeps, iterations = MethodSettings().iterations;
+    Precision precision = MethodSettings().precision;
     double relaxation = MethodSettings().relaxation;
     SweepStart start = MethodSettings().start;
     double spectral_radius = MethodSettings().spectral_radius;
@@ -42,8 +37,8 @@ struct Vbd
 /// Position-based dynamics (docs/methods/pbd.md).
 struct Pbd
 {
-    std::uint32_t substeps = Steps().substeps, iterations = Steps().iterations;
-    Precision precision = Steps().precision;
+    std::uint32_t substeps = MethodSettings().substeps, iterations = MethodSettings().iterations;
+    Precision precision = MethodSettings().precision;
     ElementScheme scheme = MethodSettings().scheme;
     double stretch = MethodSettings().stretch, bend = MethodSettings().bend, volume = MethodSettings().volume;
     double relaxation = MethodSettings().relaxation;
@@ -54,8 +49,8 @@ struct Pbd
 /// Springs as forces (docs/methods/mass_spring.md).
 struct MassSpring
 {
-    std::uint32_t substeps = Steps().substeps, iterations = Steps().iterations;
-    Precision precision = Steps().precision;
+    std::uint32_t substeps = MethodSettings().substeps, iterations = MethodSettings().iterations;
+    Precision precision = MethodSettings().precision;
     Integrator integrator = MethodSettings().integrator;
     StabilityRule stability = MethodSettings().stability;
     ElementScheme scheme = MethodSettings().scheme;
@@ -65,8 +60,8 @@ struct MassSpring
 /// Newton's method on the incremental potential (docs/methods/implicit_euler.md).
 struct ImplicitEuler
 {
-    std::uint32_t substeps = Steps().substeps, iterations = Steps().iterations;
-    Precision precision = Steps().precision;
+    std::uint32_t substeps = MethodSettings().substeps, iterations = MethodSettings().iterations;
+    Precision precision = MethodSettings().precision;
     std::uint32_t linear_iterations = MethodSettings().linear_iterations;
     double linear_tolerance = MethodSettings().linear_tolerance;
     LinearOperator linear_operator = MethodSettings().linear_operator;
@@ -78,8 +73,8 @@ struct ImplicitEuler
 /// Implicit constraint enforcement (docs/methods/implicit_constraints.md).
 struct ImplicitConstraints
 {
-    std::uint32_t substeps = Steps().substeps, iterations = Steps().iterations;
-    Precision precision = Steps().precision;
+    std::uint32_t substeps = MethodSettings().substeps, iterations = MethodSettings().iterations;
+    Precision precision = MethodSettings().precision;
     Integrator integrator = MethodSettings().integrator;
     StabilityRule stability = MethodSettings().stability;
     std::uint32_t linear_iterations = MethodSettings().linear_iterations;
@@ -93,8 +88,8 @@ struct ImplicitConstraints
 /// Adaptive constraint activation (docs/methods/acad.md).
 struct Acad
 {
-    std::uint32_t substeps = Steps().substeps, iterations = Steps().iterations;
-    Precision precision = Steps().precision;
+    std::uint32_t substeps = MethodSettings().substeps, iterations = MethodSettings().iterations;
+    Precision precision = MethodSettings().precision;
     Integrator integrator = MethodSettings().integrator;
     StabilityRule stability = MethodSettings().stability;
     std::uint32_t linear_iterations = MethodSettings().linear_iterations;

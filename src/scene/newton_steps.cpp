@@ -1,8 +1,7 @@
 // How many iterations a substep takes where a scene names none.
 //
 // Based on: Newton's method moves every vertex along a straight line in a step, so that what turns by an
-// angle
-//   a in a substep ends off its circle by a^2/2 of its length; the second step corrects that.
+//   angle a in a substep ends off its circle by a^2/2 of its length; the second step corrects that.
 // Departures: two steps are taken only where springs are stiff enough to take that length back within a
 //   substep: as motion along themselves, which is lost to the turn. Measured in docs/methods.md.
 
@@ -32,7 +31,8 @@ std::uint32_t automatic_iterations(const Scene& scene)
 {
     if (scene.method.type != MethodKind::implicit_euler)
         return 1;
-    const double h = scene.timestep / scene.method.substeps;
+    const std::uint32_t substeps = scene.method.substeps;
+    const double h = scene.timestep / (substeps > 0 ? substeps : automatic_substeps(scene));
     return std::ranges::any_of(scene.bodies, [&](const Body& b) { return turns_under_tension(b, h); }) ? 2
                                                                                                        : 1;
 }
