@@ -139,5 +139,9 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     COUNT_EVENT_IF(asks, asked, p.b);
     COUNT_EVENT_IF(asks, asked, p.c);
     COUNT_EVENT_IF(asks, asked, p.d);
-    COUNT_EVENT_IF(asks && held_second + keep > held_first - keep, lost, TAUT_CONTACT_PINCHED);
+    // Nothing keeps out of the way of a held corner where no direction parts the pair.
+    real led = max(max(SELECT(free0, real(0), greatest_of(d0)), SELECT(free1, real(0), greatest_of(d1))),
+                   max(SELECT(free2, real(0), greatest_of(d2)), SELECT(free3, real(0), greatest_of(d3))));
+    rbool pinched = held_second + keep > held_first - keep || (!apart && led > real(0));
+    COUNT_EVENT_IF(asks && pinched, lost, TAUT_CONTACT_PINCHED);
 }

@@ -62,7 +62,8 @@ Json contacts_json(const StepReport& report)
                  {"capacity", c.capacity}, {"depth", report.contact_depth},
                  {"forces", forces}};
     if (c.guarded)
-        json.update(Json{{"filtered", c.filtered}, {"pinched", c.pinched}, {"held", c.held}});
+        json.update(
+            Json{{"filtered", c.filtered}, {"pinched", c.pinched}, {"held", c.held}, {"refined", c.refined}});
     return json;
 }
 
@@ -243,7 +244,8 @@ std::string summary(const RunResult& result)
                 number(1000 * report.contact_depth, 3) + " mm\n";
     if (const ContactCounts& c = report.contacts; c.guarded)
         text += "guarded " + std::to_string(c.filtered) + " ways cut, " + std::to_string(c.pinched) +
-                " pinched, " + std::to_string(c.held) + " held\n";
+                " pinched, " + std::to_string(c.held) + " held, " + std::to_string(c.refined) +
+                " steps in parts\n";
     if (report.torn > 0)
         text += "torn    at " + std::to_string(report.torn) + " vertices\n";
     for (const auto& [word, count] : report.warnings)

@@ -120,6 +120,8 @@ std::vector<InputWrite> World::Impl::before_step() const
                                           plan.coasting,    plan.owed, plan.events,   plan.contact.control,
                                           plan.contact.lost};
     changed.insert(changed.end(), plan.kept.begin(), plan.kept.end());
+    for (const PlanSolver& solver : plan.solvers)
+        changed.push_back(solver.log);
     std::vector<InputWrite> out;
     for (const std::uint32_t buffer : changed)
         if (buffer != kNoBuffer)
@@ -127,25 +129,36 @@ std::vector<InputWrite> World::Impl::before_step() const
     return out;
 }
 
-/// A step of which a search has found more than its list holds stood still in part. It is done again with
-/// longer lists, from what was before it.
+/// Plans longer lists where a search has found more than they hold since the host looked last.
+bool World::Impl::lengthen_lists()
+{
+    const auto words = device->read<std::uint32_t>(buffers[plan.contact.control], TAUT_CONTACT_WORDS);
+    const std::uint32_t missing = words[TAUT_CONTACT_MISSING] - contacts_missing;
+    if (missing == 0 || plan.contact.capacity >= kMostContactPairs)
+        return false;
+    hold_contacts(roomy(std::max(words[TAUT_CONTACT_FOUND], plan.contact.capacity + missing)));
+    return true;
+}
+
+/// With the guarantee a step of which a search has found more than its list holds stood still in part. It is
+/// done again with longer lists, from what was before it.
 void World::Impl::repeat_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs)
 {
-    while (plan.contact.guarded && plan.contact.capacity < kMostContactPairs)
+    if (!plan.contact.guarded)
+        return;
+    while (lengthen_lists())
     {
-        const auto words = device->read<std::uint32_t>(buffers[plan.contact.control], TAUT_CONTACT_WORDS);
-        const std::uint32_t missing = words[TAUT_CONTACT_MISSING] - contacts_missing;
-        if (missing == 0)
-            return;
-        hold_contacts(roomy(std::max(words[TAUT_CONTACT_FOUND], plan.contact.capacity + missing)));
-        for (const InputWrite& was : before)
-            device->write(buffers[was.buffer], was.offset, was.bytes);
-        // The new buffers have not seen the step's inputs, which may not all have been written for it.
-        std::vector<InputWrite> again =
-            step_inputs(scene, plan, {clock.at(steps), clock.at(steps + 1)}, program.values());
-        again.insert(again.end(), inputs.begin(), inputs.end());
-        device->replay(*recording, writes_of(buffers, again));
+        write_now(before);
+        do_again({clock.at(steps), clock.at(steps + 1)}, program.values(), inputs);
     }
+    refine_step(before, inputs);
+}
+
+std::vector<std::uint32_t> World::Impl::lost_words() const
+{
+    return device->read<std::uint32_t>(buffers[plan.contact.lost], plan.contact.guarded
+                                                                       ? TAUT_CONTACT_GUARDED_LOST_WORDS
+                                                                       : TAUT_CONTACT_LOST_WORDS);
 }
 
 ContactCounts World::contacts() const
@@ -155,9 +168,7 @@ ContactCounts World::contacts() const
         return {};
     const auto words =
         impl_->device->read<std::uint32_t>(impl_->buffers[contact.control], TAUT_CONTACT_WORDS);
-    const auto lost = impl_->device->read<std::uint32_t>(impl_->buffers[contact.lost],
-                                                         contact.guarded ? TAUT_CONTACT_GUARDED_LOST_WORDS
-                                                                         : TAUT_CONTACT_LOST_WORDS);
+    const std::vector<std::uint32_t> lost = impl_->lost_words();
     ContactCounts out{true,
                       words[TAUT_CONTACT_FOUND],
                       words[TAUT_CONTACT_COMPARED],
@@ -170,8 +181,9 @@ ContactCounts World::contacts() const
     if (!contact.guarded)
         return out;
     out.filtered = lost[TAUT_CONTACT_FILTERED];
-    out.pinched = lost[TAUT_CONTACT_PINCHED];
+    out.pinched = impl_->pinches(lost);
     out.held = lost[TAUT_CONTACT_HELD];
+    out.refined = impl_->refined;
     return out;
 }
 

@@ -34,6 +34,15 @@ struct Clock
     double at(std::uint64_t now) const { return time + static_cast<double>(now - step) * timestep; }
 };
 
+/// Steps in which something stays pinched however short their parts are (ContactCounts::refined): after the
+/// first the next one is not done in parts, after the second the next three, then seven, then fifteen. One in
+/// which nothing is pinched, or no longer, ends that.
+struct GivenUp
+{
+    std::uint32_t times = 0; ///< on end
+    std::uint64_t until = 0; ///< step before which none is tried
+};
+
 /// Everything that a continuation needs, as values: bitwise equal states continue bitwise equally (G09).
 /// Vertices are in the plan's order; `hi + lo` is the position.
 struct WorldState
@@ -48,6 +57,7 @@ struct WorldState
     std::uint32_t contact_capacity = 0; ///< pairs that lists of contact hold; 0: as the world has them
     double push = 0, kick = 0;          ///< as WorldDrive has them
     std::uint64_t placed = 0;           ///< as WorldDrive::placed
+    GivenUp given_up = {};
 };
 
 /// What kernels counted since the world was made.
@@ -89,10 +99,14 @@ struct ContactCounts
     // With SceneContact::guarantee "no_crossing", over the whole run, a vertex and substep each:
     bool guarded = false;
     std::uint64_t filtered = 0; ///< ways of vertices that were cut
-    /// Of these and of pairs: where held vertices that move leave no place. What is not held has given way,
-    /// or stands still and may be crossed.
+    /// Of these and of pairs: where held vertices that move leave no place; and, where any are led, `cut` and
+    /// `crowded`, since what stands still may be run over. What is not held has given way, or stands still
+    /// and may be crossed.
     std::uint64_t pinched = 0;
     std::uint64_t held = 0; ///< stood still, because no plane told a pair apart or a list was too short
+    /// Steps that World::step() did again in 4, 16 or 64 parts, because something was pinched in them; what
+    /// is counted above is of the parts then.
+    std::uint64_t refined = 0;
 };
 
 /// One pair of the list: a vertex and a triangle, or two edges.

@@ -51,6 +51,8 @@ struct World::Impl
     bool forces_changed = false;        ///< since they were last handed over
     double force_sum = 0;               ///< N, of their lengths
     std::uint32_t contacts_missing = 0; ///< of TAUT_CONTACT_MISSING, when the host looked last
+    std::uint64_t refined = 0;          ///< steps that were done again in parts
+    GivenUp given_up;
     double push = 0;                    ///< N s, as WorldDrive::push
     double kick = 0;                    ///< sqrt(J), as WorldDrive::kick
     std::uint64_t placings = 0;
@@ -80,6 +82,14 @@ struct World::Impl
     void hold_contacts(std::uint32_t capacity);
     std::vector<InputWrite> before_step() const;
     void repeat_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs);
+    void write_now(const std::vector<InputWrite>& writes);
+    bool lengthen_lists();
+    std::vector<std::uint32_t> lost_words() const;
+    std::uint64_t pinches(const std::vector<std::uint32_t>& lost) const;
+    void refine_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs);
+    void step_in_parts(std::uint32_t parts, const std::vector<InputWrite>& inputs);
+    void take_timestep(double seconds);
+    void do_again(const Stretch& stretch, const ProgramMotion& motion, const std::vector<InputWrite>& inputs);
     Vertices all() const { return {0, plan.vertex_count}; }
     Vertices of_body(std::size_t body, const char* who) const;
     void put_at(const Vertices& where, std::span<const glm::dvec3> x, const char* who);

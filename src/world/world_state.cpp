@@ -113,6 +113,7 @@ WorldState World::state() const
     out.push = impl_->push;
     out.kick = impl_->kick;
     out.placed = impl_->placings;
+    out.given_up = impl_->given_up;
     return out;
 }
 
@@ -204,6 +205,7 @@ void World::restore(const WorldState& state)
     impl_->push = state.push;
     impl_->kick = state.kick;
     impl_->placings = state.placed;
+    impl_->given_up = state.given_up;
     const bool clocked = state.clock.timestep > 0;
     impl_->clock = clocked ? state.clock : Clock{0, 0, impl_->scene.timestep, impl_->scene.gravity};
     const Pace before = impl_->pace(impl_->clock);

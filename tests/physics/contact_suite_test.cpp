@@ -3,6 +3,7 @@
 
 #include "support/catch.hpp"
 #include "support/judged_run.hpp"
+#include "support/methods.hpp"
 
 #include "taut/runtime/base/error.hpp"
 
@@ -153,6 +154,25 @@ TEST_CASE("suite 52: a ball that hits a curtain is not passed through")
     for (const glm::dvec3& x : run.body(1))
         front = std::max(front, x.z);
     CHECK(front > 0.34); // the ball's front is at 0.35
+}
+
+TEST_CASE("suite 52: with the guarantee a ball may hit a curtain as fast as it likes")
+{
+    const double speed = GENERATE(1.0, 10.0, 50.0);
+    const std::string method = GENERATE("xpbd", "vbd", "implicit_euler");
+    CAPTURE(speed, method);
+    Scene scene = test::under(suite("52_hit"), method);
+    scene.contact.guarantee = Guarantee::no_crossing;
+    scene.bodies[0].kinematic.motion = {{0.1}, {0.1 + 0.5 / speed, {0, 0, 0.5}}};
+    JudgedRun run(scene);
+    double front = -1;
+    run.run(0.1 + 0.5 / speed + 0.1, [&] {
+        for (const glm::dvec3& x : run.body(1))
+            front = std::max(front, x.z);
+    });
+    CHECK(run.intersected == 0);
+    CHECK(run.world.contacts().pinched == 0);
+    CHECK(front > 0.34); // where the ball's front stops is 0.35
 }
 
 TEST_CASE("suite 54: the corner of a box lifts a sheet whose edges are longer than the box")

@@ -1,9 +1,9 @@
 #!/bin/sh
-# Writes docs/results/contact/*.csv and the tables of docs/results/contact.md anew: about twenty minutes on one core.
+# Writes docs/results/contact/*.csv and the tables of docs/results/contact.md anew: about twenty-five minutes on one core.
 #
-#   docs/results/contact/update.sh build/release/taut [NAME...]     stack, stages; both without
+#   docs/results/contact/update.sh build/release/taut [NAME...]     stack, stages, led; all without
 set -eu
-[ $# -ge 1 ] || { echo "usage: $0 PROGRAM (the built taut) [stack] [stages]" >&2; exit 2; }
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM (the built taut) [stack] [stages] [led]" >&2; exit 2; }
 program=$(realpath "$1")
 shift
 cd "$(dirname "$0")/../../.."
@@ -11,7 +11,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 . docs/put.sh
 page=docs/results/contact.md tables=docs/results/contact
-[ $# -gt 0 ] || set -- stack stages
+[ $# -gt 0 ] || set -- stack stages led
 
 # stack_scene LAYERS: sheets of 15 cm, 5 cells a side and 4.5 g each, that begin on each other on a plate.
 stack_scene()
@@ -102,10 +102,55 @@ stages()
     done
 }
 
+# led_scene MESH SPEED: a mesh that is led by 1.5 m into a sheet of 0.5 m, held by its upper edge.
+led_scene()
+{
+    case $1 in
+        plate) shape='"grid": {"cells": [6, 6], "size": [0.2, 0.2]}, "material": {"thickness": 0.004}' from=-0.05 ;;
+        ball) shape='"ball": {"cells": 4, "radius": 0.08}' from=-0.13 ;;
+    esac
+    end=$(awk -v v="$2" 'BEGIN { printf "%.5f", 1.5 / v }')
+    duration=$(awk -v end="$end" 'BEGIN { printf "%.4f", (end < 0.5 ? end : 0.5) + 0.1 }')
+    cat << END
+{"taut": 1, "duration": $duration,
+"contact": {"friction": 0.3, "guarantee": "no_crossing"}, "bodies": [
+{$shape, "transform": {"translate": [0, 0, $from]},
+ "kinematic": {"motion": [{"time": 0}, {"time": $end, "translate": [0, 0, 1.5]}]}},
+{"grid": {"cells": [12, 12], "size": [0.5, 0.5]}, "material": {"density": 0.2, "stretch_stiffness": 3000,
+ "bending_stiffness": 0.00001, "thickness": 0.004}, "contact": {"self": true}, "pins": [{"edge": "top"}]}]}
+END
+}
+
+# field NAME: a number or word of the report.
+field()
+{
+    awk -v name="\"$1\":" '$1 == name { value = $2; gsub(/[",]/, "", value); print value; exit }' "$scratch/report.json"
+}
+
+# led: what the guarantee does where meshes are led into cloth fast; "without": what the run says without it.
+led()
+{
+    echo "mesh,m/s,method,status,pinched,steps in parts,of steps,stretch %,median step ms,95th percentile ms,without"
+    for mesh in plate ball; do
+        for speed in 1 10 50 100; do
+            led_scene $mesh $speed > "$scratch/led.json"
+            for method in xpbd vbd implicit_euler; do
+                run "$scratch/led.json" method.type=$method
+                row=$(field status),$(field pinched),$(field refined),$(field frames)
+                row=$row,$(field max_stretch | awk '{ printf "%.2g", 100 * $1 }'),$(field median | awk '{ printf "%.3g", $1 }')
+                row=$row,$(field p95 | awk '{ printf "%.3g", $1 }')
+                run "$scratch/led.json" method.type=$method contact.guarantee=none
+                echo "$mesh,$speed,$method,$row,$(field status)"
+            done
+        done
+    done
+}
+
 for name in "$@"; do
     case $name in
         stack) stack > "$scratch/$name.csv" ;;
         stages) stages > "$scratch/$name.csv" ;;
+        led) led > "$scratch/$name.csv" ;;
         *) echo "$0: no table is called $name" >&2; exit 2 ;;
     esac
     cp "$scratch/$name.csv" "$tables/$name.csv"

@@ -1,0 +1,132 @@
+// With the guarantee: a step in which what is held left others no place, though it may only have moved too
+// far for one push to follow, is done again in parts, from what was before it.
+//
+// Based on: Bridson, Fedkiw, Anderson. Robust Treatment of Collisions, Contact and Friction for Cloth
+//   Animation. SIGGRAPH 2002, section 7 (a step that cannot be resolved is done again with shorter ones).
+// Departures: the parts have all substeps and searches of a step, so that forecasts are shorter, too; what
+//   really has no place left is pinched in the finest parts as well, and goes on so.
+
+#include "taut/kernels/shared/contact_rows.h"
+#include "taut/world/world_impl.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace taut {
+namespace {
+
+/// Parts of a step, one after the other, until nothing is pinched.
+constexpr std::uint32_t kParts[] = {4, 16, 64};
+/// As often on end steps are given up before no more are passed over each time.
+constexpr std::uint32_t kMostTimes = 4;
+
+/// Of a way from 0 to 1, the places that `share` of it leads to; the ends are met to the bit.
+std::vector<glm::dvec3> on_the_way(const PinMove& move, double share)
+{
+    if (!(share > 0) || !(share < 1))
+        return share > 0 ? move.to : move.from;
+    std::vector<glm::dvec3> out;
+    for (std::size_t k = 0; k < move.from.size(); ++k)
+        out.push_back(move.from[k] + share * (move.to[k] - move.from[k]));
+    return out;
+}
+
+/// What a program moves between two shares of a step. Colliders and wind have their keys in the scene.
+ProgramMotion between(const ProgramMotion& whole, double from, double to)
+{
+    ProgramMotion out = whole;
+    for (std::size_t p = 0; p < out.pins.size(); ++p)
+    {
+        out.pins[p].from = on_the_way(whole.pins[p], from);
+        out.pins[p].to = on_the_way(whole.pins[p], to);
+    }
+    return out;
+}
+
+/// What a snapshot has of a buffer.
+std::vector<std::uint32_t> words_of(const std::vector<InputWrite>& snapshot, std::uint32_t buffer)
+{
+    const auto found = std::find_if(snapshot.begin(), snapshot.end(),
+                                    [&](const InputWrite& write) { return write.buffer == buffer; });
+    std::vector<std::uint32_t> out(found->bytes.size() / sizeof(std::uint32_t));
+    std::memcpy(out.data(), found->bytes.data(), found->bytes.size());
+    return out;
+}
+
+} // namespace
+
+void World::Impl::write_now(const std::vector<InputWrite>& writes)
+{
+    for (const InputWrite& write : writes)
+        device->write(buffers[write.buffer], write.offset, write.bytes);
+}
+
+/// Steps through a stretch of time whose inputs may not all have been written for it.
+void World::Impl::do_again(const Stretch& stretch, const ProgramMotion& motion,
+                           const std::vector<InputWrite>& inputs)
+{
+    std::vector<InputWrite> again = inputs;
+    for (InputWrite& write : step_inputs(scene, plan, stretch, motion))
+        again.push_back(std::move(write));
+    device->replay(*recording, writes_of(buffers, again));
+}
+
+/// Of the counters of what was left out: what has been pinched, and with something led what may have been run
+/// over, since it stood still for want of its pairs.
+std::uint64_t World::Impl::pinches(const std::vector<std::uint32_t>& lost) const
+{
+    const std::uint64_t stood = std::uint64_t(lost[TAUT_CONTACT_CUT]) + lost[TAUT_CONTACT_CROWDED];
+    return lost[TAUT_CONTACT_PINCHED] + (plan.moving_pins.empty() ? 0 : stood);
+}
+
+/// For some steps, of which the clock is told nothing.
+void World::Impl::take_timestep(double seconds)
+{
+    const Pace before = pace();
+    scene.timestep = plan.timestep = seconds;
+    move_velocities(before);
+    stale = true;
+}
+
+void World::Impl::step_in_parts(std::uint32_t parts, const std::vector<InputWrite>& inputs)
+{
+    const double whole = scene.timestep, begin = clock.at(steps), end = clock.at(steps + 1);
+    const auto at = [&](std::uint32_t part) {
+        return part == parts ? end : begin + (end - begin) * part / parts;
+    };
+    take_timestep(whole / parts);
+    std::vector<InputWrite> first = inputs;
+    first.push_back(lists_forgotten()); // those of the step that is given up
+    for (std::uint32_t p = 0; p < parts; ++p)
+        do_again({at(p), at(p + 1)}, between(program.values(), double(p) / parts, double(p + 1) / parts),
+                 p == 0 ? first : std::vector<InputWrite>());
+    take_timestep(whole);
+}
+
+void World::Impl::refine_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs)
+{
+    const std::uint64_t earlier = pinches(words_of(before, plan.contact.lost));
+    const auto pinched = [&] { return pinches(lost_words()) != earlier; };
+    if (!pinched())
+        given_up = {};
+    if (!pinched() || steps < given_up.until)
+        return;
+    ++refined;
+    for (const std::uint32_t parts : kParts)
+    {
+        do
+        {
+            write_now(before);
+            step_in_parts(parts, inputs);
+        } while (lengthen_lists());
+        if (!pinched())
+        {
+            given_up = {};
+            return;
+        }
+    }
+    given_up.times = std::min(given_up.times + 1, kMostTimes);
+    given_up.until = steps + (std::uint64_t(1) << given_up.times);
+}
+
+} // namespace taut
