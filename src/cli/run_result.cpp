@@ -62,8 +62,11 @@ Json contacts_json(const StepReport& report)
                  {"capacity", c.capacity}, {"depth", report.contact_depth},
                  {"forces", forces}};
     if (c.guarded)
-        json.update(
-            Json{{"filtered", c.filtered}, {"pinched", c.pinched}, {"held", c.held}, {"refined", c.refined}});
+        json.update(Json{{"filtered", c.filtered},
+                         {"pinched", c.pinched},
+                         {"held", c.held},
+                         {"refined", c.refined},
+                         {"untangled", c.untangled}});
     return json;
 }
 
@@ -245,7 +248,7 @@ std::string summary(const RunResult& result)
     if (const ContactCounts& c = report.contacts; c.guarded)
         text += "guarded " + std::to_string(c.filtered) + " ways cut, " + std::to_string(c.pinched) +
                 " pinched, " + std::to_string(c.held) + " held, " + std::to_string(c.refined) +
-                " steps in parts\n";
+                " steps in parts, " + std::to_string(c.untangled) + " times taken apart\n";
     if (report.torn > 0)
         text += "torn    at " + std::to_string(report.torn) + " vertices\n";
     for (const auto& [word, count] : report.warnings)

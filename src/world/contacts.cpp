@@ -151,7 +151,8 @@ void World::Impl::repeat_step(const std::vector<InputWrite>& before, const std::
         write_now(before);
         do_again({clock.at(steps), clock.at(steps + 1)}, program.values(), inputs);
     }
-    refine_step(before, inputs);
+    pinched_last = refine_step(before, inputs);
+    given_up.tangled |= pinched_last;
 }
 
 std::vector<std::uint32_t> World::Impl::lost_words() const
@@ -184,6 +185,7 @@ ContactCounts World::contacts() const
     out.pinched = impl_->pinches(lost);
     out.held = lost[TAUT_CONTACT_HELD];
     out.refined = impl_->refined;
+    out.untangled = impl_->untangled;
     return out;
 }
 

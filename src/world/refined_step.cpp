@@ -7,6 +7,7 @@
 //   really has no place left is pinched in the finest parts as well, and goes on so.
 
 #include "taut/kernels/shared/contact_rows.h"
+#include "taut/world/separate_start.hpp"
 #include "taut/world/world_impl.hpp"
 
 #include <algorithm>
@@ -19,6 +20,8 @@ namespace {
 constexpr std::uint32_t kParts[] = {4, 16, 64};
 /// As often on end steps are given up before no more are passed over each time.
 constexpr std::uint32_t kMostTimes = 4;
+/// Steps between two trials to take apart what crosses.
+constexpr std::uint64_t kTriedEvery = 8;
 
 /// Of a way from 0 to 1, the places that `share` of it leads to; the ends are met to the bit.
 std::vector<glm::dvec3> on_the_way(const PinMove& move, double share)
@@ -103,14 +106,20 @@ void World::Impl::step_in_parts(std::uint32_t parts, const std::vector<InputWrit
     take_timestep(whole);
 }
 
-void World::Impl::refine_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs)
+/// Returns whether anything is pinched still.
+bool World::Impl::refine_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs)
 {
     const std::uint64_t earlier = pinches(words_of(before, plan.contact.lost));
     const auto pinched = [&] { return pinches(lost_words()) != earlier; };
+    const auto over = [&] {
+        given_up.times = 0;
+        given_up.until = 0;
+        return false;
+    };
     if (!pinched())
-        given_up = {};
-    if (!pinched() || steps < given_up.until)
-        return;
+        return over();
+    if (steps < given_up.until)
+        return true;
     ++refined;
     for (const std::uint32_t parts : kParts)
     {
@@ -120,13 +129,34 @@ void World::Impl::refine_step(const std::vector<InputWrite>& before, const std::
             step_in_parts(parts, inputs);
         } while (lengthen_lists());
         if (!pinched())
-        {
-            given_up = {};
-            return;
-        }
+            return over();
     }
     given_up.times = std::min(given_up.times + 1, kMostTimes);
     given_up.until = steps + (std::uint64_t(1) << given_up.times);
+    return true;
+}
+
+/// Vertices keep their velocities. On the host, in double: the same places on every executor.
+void World::Impl::untangle()
+{
+    Scene now = scene;
+    const std::vector<glm::dvec3> before = positions(all());
+    auto next = before.begin();
+    for (Body& body : now.bodies)
+    {
+        const auto end = next + static_cast<std::ptrdiff_t>(body.mesh.positions.size());
+        body.start_positions.assign(next, end);
+        next = end;
+    }
+    const std::vector<glm::dvec3> after = untangled_places(now);
+    given_up.tangled = after.empty();
+    given_up.tried_until = after.empty() ? steps + kTriedEvery : 0;
+    if (after.empty() || after == before)
+        return;
+    const std::uint64_t placed_before = placings; // no order of the program
+    put_at(all(), after, "untangle");
+    placings = placed_before;
+    ++untangled;
 }
 
 } // namespace taut

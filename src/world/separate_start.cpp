@@ -13,6 +13,9 @@
 namespace taut {
 namespace {
 
+/// While a scene runs: what a pinch has left is shallow, and the next step may do what this one does not.
+constexpr StartRounds kInRun{.most = 200, .patience = 50, .finish = 10};
+
 /// Throws Error{bad_input} where a tetrahedron that had a volume would have none.
 void check_solids_kept(const Scene& scene, const std::vector<glm::dvec3>& before,
                        const std::vector<glm::dvec3>& after)
@@ -84,6 +87,16 @@ SeparatedStart separate_start(const Scene& resolved)
         out.farthest = std::max(out.farthest, glm::distance(x[v], surfaces.places()[v]));
     put_starts(out.scene, surfaces.places(), x);
     return out;
+}
+
+std::vector<glm::dvec3> untangled_places(const Scene& now)
+{
+    const StartSurfaces surfaces(now);
+    std::vector<glm::dvec3> x = surfaces.places();
+    if (surfaces.crossings(x).empty())
+        return x;
+    const bool done = part_vertices(surfaces, inverse_masses(now), start_lengths(now, surfaces), x, kInRun);
+    return done ? x : std::vector<glm::dvec3>();
 }
 
 Scene with_start(Scene resolved)

@@ -13,9 +13,6 @@ namespace taut {
 namespace {
 
 constexpr std::uint32_t kWholeRounds = 500;  ///< in which wholes part, each in its own shape
-constexpr std::uint32_t kMostRounds = 2000;  ///< for what crosses still
-constexpr std::uint32_t kPatience = 400;     ///< rounds without fewer crossings than ever before
-constexpr std::uint32_t kFinishRounds = 300; ///< after that, for what is only too near, and for lengths
 constexpr double kStrain = 1e-5;             ///< of lengths: less is good enough
 constexpr std::uint32_t kShapeSweeps = 10;   ///< a round, over all lengths
 constexpr double kStep = 0.1;                ///< a round, of the length of the edge that crosses
@@ -36,16 +33,19 @@ double missing(const NearPair& pair) { return kBeyond * pair.gap - pair.distance
 class Patience
 {
 public:
+    explicit Patience(std::uint32_t rounds) : rounds_(rounds) {}
+
     /// Records the number of crossings at the begin of a round. Returns false once it has not fallen for
-    /// kPatience rounds.
+    /// so many rounds.
     bool after(std::size_t crossings)
     {
         if (crossings < least_)
             least_ = crossings, since_ = 0;
-        return since_++ < kPatience;
+        return since_++ < rounds_;
     }
 
 private:
+    std::uint32_t rounds_;
     std::size_t least_ = std::numeric_limits<std::size_t>::max();
     std::uint32_t since_ = 0;
 };
@@ -120,7 +120,7 @@ void RigidWholes::move(std::vector<glm::dvec3>& x)
 bool RigidWholes::part(std::vector<glm::dvec3>& x)
 {
     const std::vector<glm::dvec3> before = x;
-    Patience patience;
+    Patience patience(StartRounds().patience);
     for (std::uint32_t round = 0; round < kWholeRounds; ++round)
     {
         bool pushed = false;
@@ -158,7 +158,7 @@ public:
     }
 
     /// False where something crosses still.
-    bool part(std::vector<glm::dvec3>& x);
+    bool part(std::vector<glm::dvec3>& x, const StartRounds& rounds);
 
 private:
     struct Pushed
@@ -281,11 +281,11 @@ double SingleVertices::largest_strain(const std::vector<glm::dvec3>& x) const
     return out;
 }
 
-bool SingleVertices::part(std::vector<glm::dvec3>& x)
+bool SingleVertices::part(std::vector<glm::dvec3>& x, const StartRounds& rounds)
 {
     std::uint32_t crossing = 0, finishing = 0;
-    Patience patience;
-    while (crossing < kMostRounds && finishing < kFinishRounds)
+    Patience patience(rounds.patience);
+    while (crossing < rounds.most && finishing < rounds.finish)
     {
         const auto crossed = surfaces_.crossings(x);
         const auto near = surfaces_.near(x);
@@ -314,9 +314,9 @@ bool part_whole(const StartSurfaces& surfaces, std::span<const double> inverse_m
 }
 
 bool part_vertices(const StartSurfaces& surfaces, std::vector<double> inverse_mass,
-                   std::vector<StartLength> lengths, std::vector<glm::dvec3>& x)
+                   std::vector<StartLength> lengths, std::vector<glm::dvec3>& x, const StartRounds& rounds)
 {
-    return SingleVertices(surfaces, std::move(inverse_mass), std::move(lengths)).part(x);
+    return SingleVertices(surfaces, std::move(inverse_mass), std::move(lengths)).part(x, rounds);
 }
 
 } // namespace taut

@@ -15,9 +15,18 @@ namespace taut {
 bool part_whole(const StartSurfaces& surfaces, std::span<const double> inverse_mass,
                 std::span<const StartLength> lengths, std::vector<glm::dvec3>& x);
 
+/// How long single vertices go on.
+struct StartRounds
+{
+    std::uint32_t most = 2000;    ///< for what crosses still
+    std::uint32_t patience = 400; ///< without fewer crossings than ever before
+    std::uint32_t finish = 300;   ///< after that, for what is only too near, and for lengths
+};
+
 /// Every vertex that is not held goes, and lengths are kept as well as they can be. Returns false where
 /// something crosses still; what is too near may be left.
 bool part_vertices(const StartSurfaces& surfaces, std::vector<double> inverse_mass,
-                   std::vector<StartLength> lengths, std::vector<glm::dvec3>& x);
+                   std::vector<StartLength> lengths, std::vector<glm::dvec3>& x,
+                   const StartRounds& rounds = {});
 
 } // namespace taut

@@ -206,6 +206,8 @@ void World::Impl::after_step()
     const bool longer = tears && count != overlong; // asked before lists grow, which begins that count anew
     overlong = count;
     grow_contacts();
+    if (given_up.tangled && !pinched_last && steps >= given_up.tried_until)
+        untangle();
     if (!longer)
         return;
     const TornScene next = tear(scene, positions(all()));

@@ -34,13 +34,16 @@ struct Clock
     double at(std::uint64_t now) const { return time + static_cast<double>(now - step) * timestep; }
 };
 
-/// Steps in which something stays pinched however short their parts are (ContactCounts::refined): after the
-/// first the next one is not done in parts, after the second the next three, then seven, then fifteen. One in
-/// which nothing is pinched, or no longer, ends that.
+/// What the guarantee goes on from after steps in which something stays pinched however short their parts are
+/// (ContactCounts::refined): after the first the next one is not done in parts, after the second the next
+/// three, then seven, then fifteen. One in which nothing is pinched, or no longer, ends that, and what then
+/// crosses is taken apart (ContactCounts::untangled).
 struct GivenUp
 {
-    std::uint32_t times = 0; ///< on end
-    std::uint64_t until = 0; ///< step before which none is tried
+    std::uint32_t times = 0;       ///< on end
+    std::uint64_t until = 0;       ///< step before which none is tried
+    bool tangled = false;          ///< something may cross since
+    std::uint64_t tried_until = 0; ///< step before which it is not tried again to take it apart
 };
 
 /// Everything that a continuation needs, as values: bitwise equal states continue bitwise equally (G09).
@@ -107,6 +110,7 @@ struct ContactCounts
     /// Steps that World::step() did again in 4, 16 or 64 parts, because something was pinched in them; what
     /// is counted above is of the parts then.
     std::uint64_t refined = 0;
+    std::uint64_t untangled = 0; ///< times that what a pinch had left crossed was taken apart after a step
 };
 
 /// One pair of the list: a vertex and a triangle, or two edges.

@@ -52,6 +52,8 @@ struct World::Impl
     double force_sum = 0;               ///< N, of their lengths
     std::uint32_t contacts_missing = 0; ///< of TAUT_CONTACT_MISSING, when the host looked last
     std::uint64_t refined = 0;          ///< steps that were done again in parts
+    std::uint64_t untangled = 0;        ///< steps after which something was taken apart
+    bool pinched_last = false;          ///< something, in the last step
     GivenUp given_up;
     double push = 0;                    ///< N s, as WorldDrive::push
     double kick = 0;                    ///< sqrt(J), as WorldDrive::kick
@@ -86,7 +88,8 @@ struct World::Impl
     bool lengthen_lists();
     std::vector<std::uint32_t> lost_words() const;
     std::uint64_t pinches(const std::vector<std::uint32_t>& lost) const;
-    void refine_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs);
+    bool refine_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs);
+    void untangle();
     void step_in_parts(std::uint32_t parts, const std::vector<InputWrite>& inputs);
     void take_timestep(double seconds);
     void do_again(const Stretch& stretch, const ProgramMotion& motion, const std::vector<InputWrite>& inputs);

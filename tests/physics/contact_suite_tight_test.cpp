@@ -4,6 +4,7 @@
 
 #include "support/catch.hpp"
 #include "support/judged_run.hpp"
+#include "support/methods.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,6 +99,29 @@ TEST_CASE("suite 36: cloth between walls that close is clean until it is pinched
     CHECK(run.world.contacts().pinched > 0);
     for (const glm::dvec3& x : run.body(3))
         CHECK(glm::length(x) < 1); // nothing was thrown out
+}
+
+TEST_CASE("suite 38: a sleeve that limbs pinch again and again crosses nothing a second after they open")
+{
+    const std::string method = GENERATE("xpbd", "implicit_euler");
+    CAPTURE(method);
+    JudgedRun run(test::under(suite("38_elbow"), method));
+    for (int cycle = 0; cycle < 3; ++cycle)
+    {
+        CAPTURE(cycle);
+        const std::size_t before = run.intersected;
+        run.run(1.8 * cycle + 0.8);
+        CHECK(run.intersected > before); // the limbs overlap, and the sleeve is between them
+        const std::size_t pinched = run.intersected;
+        run.run(1.8 * cycle + 1.0);
+        CHECK(run.intersected < pinched + 8);
+        const std::size_t open = run.intersected;
+        run.run(1.8 * (cycle + 1));
+        CHECK(run.intersected == open);
+        CHECK(run.verdict.intersecting == 0);
+    }
+    CHECK(run.world.contacts().untangled > 0);
+    CHECK(run.world.events().non_finite == 0);
 }
 
 TEST_CASE("suite 50: a flat sheet much thicker than its edges are long stays as it is")
