@@ -129,11 +129,12 @@ std::vector<InputWrite> World::Impl::before_step() const
     return out;
 }
 
-/// Plans longer lists where a search has found more than they hold since the host looked last.
-bool World::Impl::lengthen_lists()
+/// Plans longer lists where a search of a step has found more than they hold; `missed_before`:
+/// TAUT_CONTACT_MISSING when the step began.
+bool World::Impl::lengthen_lists(std::uint32_t missed_before)
 {
     const auto words = device->read<std::uint32_t>(buffers[plan.contact.control], TAUT_CONTACT_WORDS);
-    const std::uint32_t missing = words[TAUT_CONTACT_MISSING] - contacts_missing;
+    const std::uint32_t missing = words[TAUT_CONTACT_MISSING] - missed_before;
     if (missing == 0 || plan.contact.capacity >= kMostContactPairs)
         return false;
     hold_contacts(roomy(std::max(words[TAUT_CONTACT_FOUND], plan.contact.capacity + missing)));
@@ -146,10 +147,11 @@ void World::Impl::repeat_step(const std::vector<InputWrite>& before, const std::
 {
     if (!plan.contact.guarded)
         return;
-    while (lengthen_lists())
+    while (lengthen_lists(words_of(before, plan.contact.control)[TAUT_CONTACT_MISSING]))
     {
         write_now(before);
-        do_again({clock.at(steps), clock.at(steps + 1)}, program.values(), inputs);
+        write_now(inputs);
+        do_again({clock.at(steps), clock.at(steps + 1)}, program.values());
     }
     pinched_last = refine_step(before, inputs);
     given_up.tangled |= pinched_last;
@@ -207,7 +209,7 @@ std::vector<SurfacePair> World::contact_pairs() const
     }
     const BufferPtr& side = impl_->buffers[plan.contact.side];
     const BufferPtr& taken = impl_->buffers[plan.contact.taken];
-    const double substep = impl_->scene.timestep / plan.substeps;
+    const double substep = impl_->scene.timestep / impl_->parts / plan.substeps;
     if (plan.precision == Precision::float64)
         add_sides<double>(device, side, taken, substep, out);
     else

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <span>
 
 namespace taut {
@@ -105,6 +106,15 @@ std::vector<InputWrite> inputs(const Scene& scene, const Plan& plan, const Stret
 }
 
 } // namespace
+
+std::vector<std::uint32_t> words_of(const std::vector<InputWrite>& snapshot, std::uint32_t buffer)
+{
+    const auto found = std::find_if(snapshot.begin(), snapshot.end(),
+                                    [&](const InputWrite& write) { return write.buffer == buffer; });
+    std::vector<std::uint32_t> out(found->bytes.size() / sizeof(std::uint32_t));
+    std::memcpy(out.data(), found->bytes.data(), found->bytes.size());
+    return out;
+}
 
 bool inputs_move(const Scene& scene, const Plan& plan)
 {

@@ -18,6 +18,9 @@ struct InputWrite
     std::uint64_t offset = 0;
 };
 
+/// What a snapshot has of a buffer that it has.
+std::vector<std::uint32_t> words_of(const std::vector<InputWrite>& snapshot, std::uint32_t buffer);
+
 /// The time of a step, s.
 struct Stretch
 {

@@ -127,11 +127,7 @@ InputWrite World::Impl::lists_forgotten() const
 }
 
 /// Now, for who looks before the next step.
-void World::Impl::hand_over_places()
-{
-    for (const InputWrite& write : take_places())
-        device->write(buffers[write.buffer], write.offset, write.bytes);
-}
+void World::Impl::hand_over_places() { write_now(take_places()); }
 
 std::vector<glm::dvec3> World::Impl::positions(const Vertices& of)
 {

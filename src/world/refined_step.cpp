@@ -10,15 +10,17 @@
 #include "taut/world/separate_start.hpp"
 #include "taut/world/world_impl.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 
 namespace taut {
 namespace {
 
 /// Parts of a step, one after the other, until nothing is pinched.
 constexpr std::uint32_t kParts[] = {4, 16, 64};
-/// As often on end steps are given up before no more are passed over each time.
+/// Steps given up in a row after which the pause grows no longer.
 constexpr std::uint32_t kMostTimes = 4;
 /// Steps between two trials to take apart what crosses.
 constexpr std::uint64_t kTriedEvery = 8;
@@ -46,16 +48,6 @@ ProgramMotion between(const ProgramMotion& whole, double from, double to)
     return out;
 }
 
-/// What a snapshot has of a buffer.
-std::vector<std::uint32_t> words_of(const std::vector<InputWrite>& snapshot, std::uint32_t buffer)
-{
-    const auto found = std::find_if(snapshot.begin(), snapshot.end(),
-                                    [&](const InputWrite& write) { return write.buffer == buffer; });
-    std::vector<std::uint32_t> out(found->bytes.size() / sizeof(std::uint32_t));
-    std::memcpy(out.data(), found->bytes.data(), found->bytes.size());
-    return out;
-}
-
 } // namespace
 
 void World::Impl::write_now(const std::vector<InputWrite>& writes)
@@ -64,14 +56,10 @@ void World::Impl::write_now(const std::vector<InputWrite>& writes)
         device->write(buffers[write.buffer], write.offset, write.bytes);
 }
 
-/// Steps through a stretch of time whose inputs may not all have been written for it.
-void World::Impl::do_again(const Stretch& stretch, const ProgramMotion& motion,
-                           const std::vector<InputWrite>& inputs)
+/// Steps through a stretch of time; whatever else is new has been written.
+void World::Impl::do_again(const Stretch& stretch, const ProgramMotion& motion)
 {
-    std::vector<InputWrite> again = inputs;
-    for (InputWrite& write : step_inputs(scene, plan, stretch, motion))
-        again.push_back(std::move(write));
-    device->replay(*recording, writes_of(buffers, again));
+    device->replay(*recording, writes_of(buffers, step_inputs(scene, plan, stretch, motion)));
 }
 
 /// Of the counters of what was left out: what has been pinched, and with something led what may have been run
@@ -82,7 +70,7 @@ std::uint64_t World::Impl::pinches(const std::vector<std::uint32_t>& lost) const
     return lost[TAUT_CONTACT_PINCHED] + (plan.moving_pins.empty() ? 0 : stood);
 }
 
-/// For some steps, of which the clock is told nothing.
+/// For parts of a step: the clock keeps the whole one.
 void World::Impl::take_timestep(double seconds)
 {
     const Pace before = pace();
@@ -91,19 +79,27 @@ void World::Impl::take_timestep(double seconds)
     stale = true;
 }
 
-void World::Impl::step_in_parts(std::uint32_t parts, const std::vector<InputWrite>& inputs)
+void World::Impl::step_in_parts(std::uint32_t count, const std::vector<InputWrite>& inputs)
 {
     const double whole = scene.timestep, begin = clock.at(steps), end = clock.at(steps + 1);
     const auto at = [&](std::uint32_t part) {
-        return part == parts ? end : begin + (end - begin) * part / parts;
+        return part == count ? end : begin + (end - begin) * part / count;
     };
-    take_timestep(whole / parts);
-    std::vector<InputWrite> first = inputs;
-    first.push_back(lists_forgotten()); // those of the step that is given up
-    for (std::uint32_t p = 0; p < parts; ++p)
-        do_again({at(p), at(p + 1)}, between(program.values(), double(p) / parts, double(p + 1) / parts),
-                 p == 0 ? first : std::vector<InputWrite>());
-    take_timestep(whole);
+    parts = count;
+    write_now(inputs);
+    write_now({lists_forgotten()}); // those of the step that is given up
+    try
+    {
+        take_timestep(whole / count);
+        for (std::uint32_t p = 0; p < count; ++p)
+            do_again({at(p), at(p + 1)}, between(program.values(), double(p) / count, double(p + 1) / count));
+        take_timestep(whole);
+    }
+    catch (...)
+    {
+        scene.timestep = plan.timestep = whole;
+        throw;
+    }
 }
 
 /// Returns whether anything is pinched still.
@@ -121,13 +117,14 @@ bool World::Impl::refine_step(const std::vector<InputWrite>& before, const std::
     if (steps < given_up.until)
         return true;
     ++refined;
-    for (const std::uint32_t parts : kParts)
+    const std::uint32_t missed = words_of(before, plan.contact.control)[TAUT_CONTACT_MISSING];
+    for (const std::uint32_t count : kParts)
     {
         do
         {
             write_now(before);
-            step_in_parts(parts, inputs);
-        } while (lengthen_lists());
+            step_in_parts(count, inputs);
+        } while (lengthen_lists(missed));
         if (!pinched())
             return over();
     }
@@ -141,6 +138,9 @@ void World::Impl::untangle()
 {
     Scene now = scene;
     const std::vector<glm::dvec3> before = positions(all());
+    if (!std::all_of(before.begin(), before.end(),
+                     [](const glm::dvec3& x) { return glm::length(x) < kFarthest; }))
+        return;
     auto next = before.begin();
     for (Body& body : now.bodies)
     {
@@ -155,6 +155,8 @@ void World::Impl::untangle()
         return;
     const std::uint64_t placed_before = placings; // no order of the program
     put_at(all(), after, "untangle");
+    for (std::uint32_t v = 0; v < plan.vertex_count; ++v) // what stays keeps all its digits
+        placed.waits[v] = after[plan.original[v]] != before[plan.original[v]];
     placings = placed_before;
     ++untangled;
 }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,9 +17,9 @@ namespace {
 /// While a scene runs: what a pinch has left is shallow, and the next step may do what this one does not.
 constexpr StartRounds kInRun{.most = 200, .patience = 50, .finish = 10};
 
-/// Throws Error{bad_input} where a tetrahedron that had a volume would have none.
-void check_solids_kept(const Scene& scene, const std::vector<glm::dvec3>& before,
-                       const std::vector<glm::dvec3>& after)
+/// The body of a tetrahedron that had a volume and would have none.
+std::optional<std::size_t> turned_inside_out(const Scene& scene, const std::vector<glm::dvec3>& before,
+                                             const std::vector<glm::dvec3>& after)
 {
     std::uint32_t first = 0;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
@@ -29,12 +30,11 @@ void check_solids_kept(const Scene& scene, const std::vector<glm::dvec3>& before
             for (std::uint32_t& v : t)
                 v += first;
             if (six_volumes(before, t) > 0 && !(six_volumes(after, t) > 0))
-                throw Error(ErrorCode::bad_input,
-                            "contact.start is \"separate\", but that would turn tetrahedra of bodies[" +
-                                std::to_string(b) + "] inside out; move the bodies apart");
+                return b;
         }
         first += static_cast<std::uint32_t>(mesh.positions.size());
     }
+    return {};
 }
 
 /// Bodies of which a vertex is elsewhere than `before` start where `x` says.
@@ -81,7 +81,10 @@ SeparatedStart separate_start(const Scene& resolved)
             "contact.start is \"separate\", but what goes through each other at the start could not be "
             "taken apart: " +
                 surfaces.crossed(x) + "; move the bodies apart");
-    check_solids_kept(resolved, surfaces.places(), x);
+    if (const auto body = turned_inside_out(resolved, surfaces.places(), x))
+        throw Error(ErrorCode::bad_input,
+                    "contact.start is \"separate\", but that would turn tetrahedra of bodies[" +
+                        std::to_string(*body) + "] inside out; move the bodies apart");
     out.left = surfaces.near(x).size();
     for (std::size_t v = 0; v < x.size(); ++v)
         out.farthest = std::max(out.farthest, glm::distance(x[v], surfaces.places()[v]));
@@ -96,7 +99,7 @@ std::vector<glm::dvec3> untangled_places(const Scene& now)
     if (surfaces.crossings(x).empty())
         return x;
     const bool done = part_vertices(surfaces, inverse_masses(now), start_lengths(now, surfaces), x, kInRun);
-    return done ? x : std::vector<glm::dvec3>();
+    return done && !turned_inside_out(now, surfaces.places(), x) ? x : std::vector<glm::dvec3>();
 }
 
 Scene with_start(Scene resolved)

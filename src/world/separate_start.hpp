@@ -31,9 +31,9 @@ struct SeparatedStart
 /// start_ways.hpp.
 SeparatedStart separate_start(const Scene& resolved);
 
-/// m, scene-wide: where vertices go so that nothing crosses any longer that did while a scene runs, and which
-/// were held together by more than it has room for; the places as they are where nothing crosses. Single
-/// vertices go, in few rounds: empty where those do not do. `now`: resolved, its bodies where they are.
+/// m, scene-wide: where vertices go so that nothing crosses any longer, of a scene that runs; where they are
+/// if nothing does. Single vertices go, in few rounds: empty where those do not do, or would turn tetrahedra
+/// inside out. `now`: resolved, its bodies start where they are.
 std::vector<glm::dvec3> untangled_places(const Scene& now);
 
 /// The scene as contact.start has it begin. Throws Error{bad_input} where surfaces cross and that refuses

@@ -58,6 +58,7 @@ Pace World::Impl::pace(const Clock& of) const
 std::vector<InputWrite> World::Impl::take_inputs()
 {
     std::vector<InputWrite> inputs;
+    parts = 1;
     const Stretch step{clock.at(steps), clock.at(steps + 1)};
     const bool ordered = program.begin_step(scene, step.from, step.to);
     if (moves || stale || ordered)
@@ -193,7 +194,7 @@ void World::Impl::count_step()
 {
     program.end_step(scene.timestep);
     ++steps;
-    guessed = true;
+    guessed = parts == 1; // else it is of a shorter substep than reports take it for
     push += force_sum * scene.timestep;
 }
 
@@ -275,8 +276,7 @@ void World::step()
 std::vector<EffectTime> World::step_timed()
 {
     const std::vector<InputWrite> before = impl_->before_step(), inputs = impl_->take_inputs();
-    for (const InputWrite& write : inputs)
-        impl_->device->write(impl_->buffers[write.buffer], write.offset, write.bytes);
+    impl_->write_now(inputs);
     std::vector<EffectTime> times;
     for (const EffectCost& effect : impl_->plan.effects)
         times.push_back({effect.name, 0, 0});
@@ -376,11 +376,8 @@ void World::record_into(VkCommandBuffer_T* commands)
 void World::set_timestep(double seconds)
 {
     check_timestep(seconds, impl_->plan.substeps, impl_->plan.largest_substep);
-    const Pace before = impl_->pace();
-    impl_->scene.timestep = impl_->plan.timestep = seconds;
-    impl_->move_velocities(before);
+    impl_->take_timestep(seconds);
     impl_->restart_clock(Clock(impl_->clock));
-    impl_->stale = true;
 }
 
 void World::set_gravity(const glm::dvec3& gravity)

@@ -102,15 +102,17 @@ struct ContactCounts
     // With SceneContact::guarantee "no_crossing", over the whole run, a vertex and substep each:
     bool guarded = false;
     std::uint64_t filtered = 0; ///< ways of vertices that were cut
-    /// Of these and of pairs: where held vertices that move leave no place; and, where any are led, `cut` and
+    /// Where held vertices that move leave vertices and pairs no place; and, where any are led, `cut` and
     /// `crowded`, since what stands still may be run over. What is not held has given way, or stands still
     /// and may be crossed.
     std::uint64_t pinched = 0;
     std::uint64_t held = 0; ///< stood still, because no plane told a pair apart or a list was too short
     /// Steps that World::step() did again in 4, 16 or 64 parts, because something was pinched in them; what
-    /// is counted above is of the parts then.
+    /// is counted above is of the parts then, and so are displacements() and multipliers(). There are no
+    /// predictions() of such a step.
     std::uint64_t refined = 0;
-    std::uint64_t untangled = 0; ///< times that what a pinch had left crossed was taken apart after a step
+    /// Times that what crossed after a pinch was taken apart between two steps.
+    std::uint64_t untangled = 0;
 };
 
 /// One pair of the list: a vertex and a triangle, or two edges.
@@ -186,9 +188,10 @@ public:
     World& operator=(World&&) noexcept;
 
     /// Advances by one time step: one submission. Returns without waiting, but for cloth that can tear and
-    /// scenes with contact: there it waits for a word that says whether the plan must change.
+    /// scenes with contact: there it waits for a word that says whether the plan must change, or, with the
+    /// guarantee, the step must be done again (ContactCounts::refined).
     void step();
-    /// The same with a timestamp around every dispatch; waits.
+    /// The same with a timestamp around every dispatch; waits. What is done again is not timed.
     std::vector<EffectTime> step_timed();
 
     std::uint64_t steps() const;

@@ -54,6 +54,7 @@ struct World::Impl
     std::uint64_t refined = 0;          ///< steps that were done again in parts
     std::uint64_t untangled = 0;        ///< steps after which something was taken apart
     bool pinched_last = false;          ///< something, in the last step
+    std::uint32_t parts = 1;            ///< of the last step
     GivenUp given_up;
     double push = 0;                    ///< N s, as WorldDrive::push
     double kick = 0;                    ///< sqrt(J), as WorldDrive::kick
@@ -85,14 +86,14 @@ struct World::Impl
     std::vector<InputWrite> before_step() const;
     void repeat_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs);
     void write_now(const std::vector<InputWrite>& writes);
-    bool lengthen_lists();
+    bool lengthen_lists(std::uint32_t missed_before);
     std::vector<std::uint32_t> lost_words() const;
     std::uint64_t pinches(const std::vector<std::uint32_t>& lost) const;
     bool refine_step(const std::vector<InputWrite>& before, const std::vector<InputWrite>& inputs);
     void untangle();
-    void step_in_parts(std::uint32_t parts, const std::vector<InputWrite>& inputs);
+    void step_in_parts(std::uint32_t count, const std::vector<InputWrite>& inputs);
     void take_timestep(double seconds);
-    void do_again(const Stretch& stretch, const ProgramMotion& motion, const std::vector<InputWrite>& inputs);
+    void do_again(const Stretch& stretch, const ProgramMotion& motion);
     Vertices all() const { return {0, plan.vertex_count}; }
     Vertices of_body(std::size_t body, const char* who) const;
     void put_at(const Vertices& where, std::span<const glm::dvec3> x, const char* who);

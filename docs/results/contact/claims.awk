@@ -8,7 +8,7 @@ function share(scene, stage) { return v("stages", scene, stage " %") }
 function led(row, column) { return v("led", row, column) }
 
 # Whether all rows of some speeds have a status in a column, or no step in parts.
-function led_all(speeds, column, word,    i, m, n, p, q, k, s, good, speed, mesh, method)
+function led_all(speeds, column, word,    i, m, n, k, good, speed, mesh, method)
 {
     n = split(speeds, speed, " "); split("plate ball", mesh, " "); split("xpbd vbd implicit_euler", method, " ")
     good = 1
