@@ -79,6 +79,26 @@ lying()
 }
 table lying "|---|---:|---:|" lying
 
+# pressed_share [SETTING...]: elastic energy at the end, of the weight times the height; a cube of 0.1 m lies 1 mm above the floor.
+pressed_share()
+{
+    runs "$scratch/scene.json" "$@"
+    report potential_energy |
+        awk '{ x = ($1 - 1.1 * 9.81 * 0.051) / (1.1 * 9.81 * 0.1); printf x < 10 ? "%.2g\n" : "%.0f\n", x }'
+}
+pressed()
+{
+    duration=1
+    row "method, E, ν" substeps "energy / (weight × height)" "with ten"
+    for method in xpbd implicit_euler; do for modulus in 1e6 1e8 1e10; do for nu in 0.3 0.45 0.499; do
+        on_floor 0.001 0.05 "$(cube 4)" $modulus $nu
+        own=$(pressed_share method.type=$method)
+        ten=$(pressed_share method.type=$method method.substeps=10)
+        row "\`$method\`, $modulus Pa, $nu" "$(substeps "$scratch/scene.json" method.type=$method)" "$own" "$ten"
+    done; done; done
+}
+table pressed "|---|---:|---:|---:|" pressed
+
 # fallen NU [SETTING...]: how many of the twelve cubes do not end as `completed`.
 fallen()
 {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the tables of docs/methods.md about substeps anew, but that of the test of cloth that pins draw: no number between
-# their marks is typed by hand. TABLE is held, stretch, grain, asked, drawn, chains, swing, named, balls, lying, falling, few or hanging; on one core
+# their marks is typed by hand. TABLE is held, stretch, grain, asked, drawn, chains, swing, named, pressed, balls, lying, falling, few or hanging; on one core
 # lying, falling and few take four, two and three minutes, the others some seconds to a minute.
 #
 #   docs/substeps/update.sh build/release/taut [TABLE...]

@@ -56,7 +56,8 @@ KERNEL(count)
         OF_COLLIDER(record) c = collider[j];
         Contact met = OF_COLLIDER(contact)(c, real(substep), real(substeps), x, d, gap_kept);
 #endif
-        real push = max(allowed_gap(met.before, step_values[0].depenetration) - met.gap, real(0));
+        real way = way_out(met.before, step_values[0].depenetration, step_values[0].braked);
+        real push = max(allowed_gap(met.before, way) - met.gap, real(0));
         if (report != 0u)
             COUNT_EVENT_IF(!moves && push > real(0), events, TAUT_EVENT_CONFLICT);
         push = SELECT(moves, push, real(0));

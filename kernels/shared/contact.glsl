@@ -20,7 +20,8 @@
 //   the accumulated normal push of the substep as the cone's height, so that the result does not depend
 //   on the iteration count.
 // Departures: the way out of a penetration that was there before the substep is limited to
-//   `depenetration` a substep, so that it never becomes exit speed.
+//   `depenetration` a substep, and to h sqrt(g depth): as a floor that rises by that depth and is braked by
+//   g / 2, so that what lies on it does not leave it.
 #ifndef TAUT_SHARED_CONTACT_GLSL
 #define TAUT_SHARED_CONTACT_GLSL
 
@@ -45,10 +46,16 @@ INLINE rvec3 along_surface(rvec3 normal, rvec3 v)
     return v - normal * dot(normal, v);
 }
 
-/// Where the gap may end: 0, or less deep than it began when it began below the surface.
-real allowed_gap(real gap_before, real depenetration)
+/// How far a substep lets out what began it below the surface, m.
+real way_out(real gap_before, real depenetration, real braked)
 {
-    return min(real(0), gap_before + depenetration);
+    return min(depenetration, braked * sqrt(max(-gap_before, real(0))));
+}
+
+/// Where the gap may end: 0, or less deep than it began when it began below the surface.
+real allowed_gap(real gap_before, real way)
+{
+    return min(real(0), gap_before + way);
 }
 
 /// Friction taken so far in the substep (xyz) and the normal push so far (w), brought up to date: all of the

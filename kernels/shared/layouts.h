@@ -206,6 +206,7 @@ LAYOUT_STRUCT(StepValues)
     real damping_factor;   // exp(-damping * substep), 1 = none
     real max_speed;        // m/s; velocities beyond it are clamped and counted
     real depenetration;    // m, largest way out of an initial penetration per substep
+    real braked;           // sqrt(m), and no further than this times the root of its depth
 };
 
 /// Where a conjugate-gradient solve stands (linear/cg.hpp). Two copies hand it round the iteration: one is

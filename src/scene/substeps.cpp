@@ -49,6 +49,8 @@ constexpr double kLimp = 2;       ///< of its length: cloth that a beam's formul
 constexpr double kFlowSweep = 3;  ///< of (c h / edge)^2 of the yield: what a sweep leaves, measured
 /// Of what pins draw apart: half of accept.stretch, within these, since it costs 1/h.
 constexpr double kLeastLeft = 0.005, kMostLeft = 0.05;
+/// Of a body's weight times its height: what a layer that a floor presses may keep.
+constexpr double kPressedEnergy = 0.08;
 constexpr double kHingeSweep = 8; ///< of B h^2 / (s edge^4): by how much softer one sweep bends
 
 glm::dvec3 centre_of_mass(const Body& body)
@@ -140,12 +142,30 @@ double longest_for_solid(const Body& body, const SweepLoad& load, double gravity
     return std::max(seen, longest_for_stiffness(body, load));
 }
 
-/// s: the longest substep in which a free solid stands on its lowest vertices and leaves no more strain above
-/// them than kSweepStrain, or acts as stiff as it is but for kSofter; no limit for others. Boxes stand on a
-/// face, balls on a point. Under vbd and implicit_euler, which soften nothing, the same limit was measured to
-/// do (docs/methods.md): there it is how far a push of the floor gets in a substep.
-double longest_for_standing(const Body& body, const SweepLoad& load, const glm::dvec3& gravity)
+/// The strain that a push of the floor may leave in the layer of a solid that it meets, of which the whole is
+/// `carried` times as much: kSweepStrain, or what keeps kPressedEnergy in it. Under vbd, which meets
+/// colliders in its sweeps, nothing stays.
+double pressed_strain(const Scene& scene, const Body& body, double carried)
 {
+    if (scene.method.type == MethodKind::vbd)
+        return kSweepStrain;
+    Extent size;
+    for (const glm::dvec3& p : body.mesh.positions)
+        size.take(p);
+    const double height = size.size() / std::sqrt(3.0); // of a cube in that box
+    const double weight = body.material.density * glm::length(scene.gravity) * height; // J/m^3
+    const double nu = body.material.poissons_ratio;
+    const double modulus = body.material.youngs_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+    return std::min(kSweepStrain, std::sqrt(2 * kPressedEnergy * weight * carried / modulus));
+}
+
+/// s: the longest substep in which a free solid stands on its lowest vertices and leaves no more strain above
+/// them than pressed_strain(), or acts as stiff as it is but for kSofter; no limit for others. Boxes stand on
+/// a face, balls on a point. Under vbd and implicit_euler, which soften nothing, the same limit was measured
+/// to do (docs/methods.md): there it is how far a push of the floor gets in a substep.
+double longest_for_standing(const Scene& scene, const Body& body, const SweepLoad& load)
+{
+    const glm::dvec3& gravity = scene.gravity;
     const double g = glm::length(gravity);
     if (!body.pins.empty() || body.mesh.tetrahedra.empty() || !(body.material.youngs_modulus > 0))
         return HUGE_VAL;
@@ -155,7 +175,7 @@ double longest_for_standing(const Body& body, const SweepLoad& load, const glm::
     for (const glm::dvec3& p : body.mesh.positions)
         lying += glm::dot(p, gravity) / g >= lowest - 0.1 * load.edge ? 1 : 0;
     const double carried = static_cast<double>(body.mesh.positions.size()) / lying;
-    return std::max(std::sqrt(kSweepStrain * load.edge / (2 * carried * g)),
+    return std::max(std::sqrt(pressed_strain(scene, body, carried) * load.edge / (2 * carried * g)),
                     longest_for_stiffness(body, load));
 }
 
@@ -289,7 +309,7 @@ double longest_substep(const Scene& scene, const Body& body, double g)
     if (!(g > 0))
         return std::min(carried, blown);
     const bool meets = !scene.colliders.empty() || scene.contact.between;
-    const double standing = meets ? longest_for_standing(body, load, scene.gravity) : HUGE_VAL;
+    const double standing = meets ? longest_for_standing(scene, body, load) : HUGE_VAL;
     if (method == MethodKind::implicit_euler)
         return standing;
     const double weight = sweeps * longest_for_push(scene, body, load, scene.gravity);

@@ -3,6 +3,7 @@
 #include "taut/plan/collider_shapes.hpp"
 #include "taut/scene/pose.hpp"
 
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #define TAUT_HOST
@@ -19,6 +20,8 @@ namespace {
 
 /// Speeds are squared in float: beyond this a clamp is not physics but a guard.
 constexpr double kOverflowSpeed = 1e15;
+/// sqrt(m): times the root of any depth it is further than `depenetration`. Nothing lies where nothing falls.
+constexpr double kUnbraked = 1e15;
 
 template <typename T>
 InputWrite write_of(std::uint32_t buffer, const std::vector<T>& values)
@@ -40,6 +43,8 @@ InputWrite step_values(const Scene& scene, const Plan& plan)
     v.damping_factor = static_cast<Real>(std::exp(-scene.damping * h));
     v.max_speed = static_cast<Real>(scene.max_speed > 0 ? scene.max_speed : kOverflowSpeed);
     v.depenetration = static_cast<Real>(std::min(scene.depenetration_speed * h, plan.way_out));
+    const double g = glm::length(scene.gravity);
+    v.braked = static_cast<Real>(g > 0 ? h * std::sqrt(g) : kUnbraked);
     return write_of(plan.step_values, std::vector{v});
 }
 

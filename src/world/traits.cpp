@@ -38,7 +38,7 @@ public:
             position.emplace_back(0.0f, 0.0f, 0.0f, 1.0f);
             position.emplace_back(1.1f, 0.0f, 0.0f, 1.0f);
         }
-        const std::vector<layout::StepValues<float>> step{{0.01f, 100.0f, 0, 0, 0, 1, 1e15f, 0}};
+        const std::vector<layout::StepValues<float>> step{{0.01f, 100.0f, 0, 0, 0, 1, 1e15f, 0, 0}};
         constraint_ = upload<layout::DistanceConstraint<float>>(springs);
         position_ = upload<glm::vec4>(position);
         delta_ = device.make_buffer(position.size() * sizeof(glm::vec4), "probe delta");

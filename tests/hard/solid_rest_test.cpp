@@ -143,7 +143,7 @@ double rounding_of(const Scene& scene, const Setting& s)
 
 struct Outcome
 {
-    double put_in = 0, most_kinetic = 0, most = 0, fastest = 0, volume = 0;
+    double put_in = 0, most_kinetic = 0, most = 0, at_end = 0, fastest = 0, volume = 0;
     std::uint64_t inverted = 0;
     bool reads = true, lasts = true;
     bool completed = true; ///< at the end
@@ -165,7 +165,8 @@ Outcome follow(const Scene& scene, int frames)
         const StepReport r = measure(world);
         const Soundness motion = taut::judge(budget, world, Judged::motion);
         out.most_kinetic = std::max(out.most_kinetic, r.kinetic_energy);
-        out.most = std::max(out.most, energy(r) - zero);
+        out.at_end = energy(r) - zero;
+        out.most = std::max(out.most, out.at_end);
         out.fastest = r.max_speed;
         out.volume = r.volume.ratio;
         out.inverted = r.volume.inverted;
@@ -193,10 +194,17 @@ void check_energy(const Setting& s, const Scene& scene, const Outcome& out)
     // It sinks in by its own weight, and by what one substep falls before the floor holds it, a hundredth.
     const double sinks = std::min(1.0, 0.01 + 1100 * 9.81 * kEdge / s.modulus);
     CHECK(out.most_kinetic <= out.put_in + sinks * kWeight);
-    // Where a body is stiff, the floor, which comes after the elements, leaves its lowest layer pressed by
-    // micrometres of a great modulus: energy on record that no motion comes of, under every method.
-    if (stiffness_of(scene, s) <= 1 && s.modulus >= 1e4 && s.mesh != "slivers")
+    // The floor comes after the elements, and leaves the lowest layer pressed by what a substep falls: of a
+    // stiff body that is micrometres of a great modulus, of which the substeps are to leave a tenth or so
+    // (docs/methods.md, "Substeps that nobody named"), and more for some frames, while it lands or is lifted
+    // out of the gap in which it starts. Cells of slivers have no such layer.
+    if (s.modulus < 1e4 || s.mesh == "slivers")
+        return;
+    CHECK(out.at_end <= 0.2 * kWeight);
+    if (stiffness_of(scene, s) <= 1)
         CHECK(out.most <= out.put_in + 0.01 * kWeight);
+    else if (s.start == "floor" && s.method != MethodKind::vbd)
+        CHECK(out.most <= 4 * kWeight);
 }
 
 /// Bodies of 100 Pa need more than a second, and lie flat under their own weight.
@@ -294,8 +302,8 @@ TEST_CASE("neo-Hookean bodies make no energy, at rest and far from it, soft and 
 TEST_CASE("neo-Hookean bodies near their shape make no energy under vbd and implicit_euler [hard]", "[solid]")
 {
     Setting s;
-    const char* near[] = {"rest", "free", "perturbed", "squeezed"};
-    const char* furthest[] = {"squeezed"};
+    const char* near[] = {"rest", "free", "perturbed", "squeezed", "floor", "falling"};
+    const char* furthest[] = {"squeezed", "floor"};
     for (const MethodKind method : {MethodKind::vbd, MethodKind::implicit_euler})
     {
         s.method = method;

@@ -51,8 +51,14 @@ struct Walker
 struct Rules
 {
     bool friction = false, kept = false, first_iteration = true;
-    double depenetration = 0;
+    double depenetration = 0, braked = 0;
 };
+
+/// m, how far a substep lets out what began it below a surface.
+inline double let_out(double gap_before, double depenetration, double braked)
+{
+    return gap_before < 0 ? std::min(depenetration, braked * std::sqrt(-gap_before)) : 0;
+}
 
 /// Pushes a vertex out along the normal to where the gap is 0, or no less deep than it began less the allowed
 /// way out. Friction takes away sliding against the collider, at most friction * the push of the substep so
@@ -61,7 +67,8 @@ struct Rules
 inline bool resolve_contact(Walker& v, const Touch& t, const Rules& rules, glm::dvec4& store,
                             double& store_scale)
 {
-    const double target = t.gap_before + rules.depenetration < 0 ? t.gap_before + rules.depenetration : 0;
+    const double way = let_out(t.gap_before, rules.depenetration, rules.braked);
+    const double target = std::min(0.0, t.gap_before + way);
     const double wanted = t.gap < target ? target - t.gap : 0;
     const double push = v.moves ? wanted : 0;
     v.d += t.normal * push;
@@ -96,6 +103,7 @@ Contacts<Real> random_contacts(Random& random, std::uint32_t count, std::uint32_
     in.delta = random.vec4s<Real>(count + 7, speed, 0, 0.02); // w = gap kept
     in.contact = random.vec4s<Real>(std::size_t{colliders} * count + 3, 0.01, 0, 0.05);
     in.step.depenetration = Real(0.05);
+    in.step.braked = Real(0.2); // brakes what is less than 0.0625 deep
     return in;
 }
 
@@ -110,6 +118,7 @@ void check_contacts(const Contacts<Real>& in, const KernelInfo& kernel, Bytes pa
     c.in = buffers;
     c.launches = {{&kernel, std::move(params), in.count}};
     rules.depenetration = static_cast<double>(in.step.depenetration);
+    rules.braked = static_cast<double>(in.step.braked);
     std::vector<glm::dvec4> store(in.contact.begin(), in.contact.end());
     std::vector<double> store_scale(store.size(), 0);
     Field& delta = c.expected["delta"];
