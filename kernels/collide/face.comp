@@ -134,7 +134,6 @@ APART void push_triangle(uint i)
     f.share = rvec3(real(0));
     f.gap_kept = delta[v0].w;
     f.depenetration = step_values[0].depenetration;
-    f.braked = step_values[0].braked;
     uint slots = 3u + listed;
     for (uint k = 0u; k < listed; ++k)
     {

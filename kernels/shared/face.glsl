@@ -27,18 +27,17 @@ struct Face
     rvec4 taken;         // in the substep so far: impulses of friction, w = the sum of mu times pushes, kg m
     real gap_kept;       // m
     real depenetration;  // m a substep
-    real braked;         // sqrt(m), as StepValues has it
     real friction;       // Coulomb coefficient
 };
 
 /// Pushes the point b from the height `gap` above the surface out along `normal`, and holds it back by
 /// friction:
 ///
-///   push = min(0, before + max(way_out, before - gap)) - gap,  p = push / W,
+///   push = min(0, before + max(depenetration, before - gap)) - gap,  p = push / W,
 ///   e_k += (n p - f) w_k b_k,  W = max(sum_k w_k b_k^2, max_k w_k b_k / 2),  |sum f| <= sum mu p.
 INLINE Face press(Face f, rvec3 normal, real before, real gap, rvec3 b)
 {
-    real back = max(way_out(before, f.depenetration, f.braked), before - gap);
+    real back = max(f.depenetration, before - gap);
     real push = max(allowed_gap(before, back) - gap, real(0));
     rvec3 wb = rvec3(f.w0 * b.x, f.w1 * b.y, f.w2 * b.z);
     real weight = max(dot(wb, b), real(0.5) * max(wb.x, max(wb.y, wb.z)));

@@ -48,7 +48,7 @@ struct RefFace
     std::array<double, 3> w;
     glm::dvec3 share{0};
     glm::dvec4 taken{0}; ///< impulses of friction in the substep so far, w = sum of mu times pushes, kg m
-    double gap_kept = 0, depenetration = 0, braked = 0, friction = 0;
+    double gap_kept = 0, depenetration = 0, friction = 0;
     double size = 0;    ///< of the numbers that were rounded, times what angles make of it, m
     double impulse = 0; ///< of those in `taken`, kg m
     bool open = false;  ///< a rounding could decide otherwise
@@ -61,7 +61,7 @@ struct RefFace
 /// The point b, `gap` above the surface, goes out along the normal to where it may, and is held by friction.
 inline void ref_press(RefFace& f, const glm::dvec3& normal, double before, double gap, const glm::dvec3& b)
 {
-    const double back = std::max(let_out(before, f.depenetration, f.braked), before - gap);
+    const double back = std::max(f.depenetration, before - gap);
     const double push = std::min(0.0, before + back) - gap;
     f.doubt(push);
     double weight = 0, most = 0;
@@ -220,7 +220,6 @@ Faces<Real> random_faces(Random& random, std::uint32_t count, std::uint32_t coll
     in.which[in.listed + words + (in.listed - 1) / 32] |= 1u << ((in.listed - 1) % 32);
     in.slot = random.vec4s<Real>(in.slots() * std::size_t(count) + 4, 0.01, 0, 0.05);
     in.step.depenetration = Real(0.05);
-    in.step.braked = Real(0.2);
     in.step.substep = Real(0.01);
     in.step.gravity_y = Real(-9.81);
     return in;
@@ -266,7 +265,6 @@ RefFace expect_slots(Field& slot, const Faces<Real>& in, std::uint32_t t, FaceOf
         f.w[k] = static_cast<double>(in.position[in.corner[4 * t + k]].w);
     f.gap_kept = static_cast<double>(in.delta[in.corner[4 * t]].w);
     f.depenetration = static_cast<double>(in.step.depenetration);
-    f.braked = static_cast<double>(in.step.braked);
     const auto* was = &in.slot[in.slots() * t];
     std::vector<glm::dvec4> taken(was + 3, was + in.slots());
     for (std::uint32_t k = 0; k < in.listed && is_asked(in, t); ++k)
