@@ -22,6 +22,7 @@
 // Departures: the way out of a penetration that was there before the substep is limited to
 //   `depenetration` a substep, and to h sqrt(g depth): as a floor that rises by that depth and is braked by
 //   g / 2, so that what lies on it does not leave it.
+//   Triangles (shared/face.glsl) have the first bound alone.
 #ifndef TAUT_SHARED_CONTACT_GLSL
 #define TAUT_SHARED_CONTACT_GLSL
 
