@@ -24,7 +24,8 @@ std::vector<Row> recording_rows()
             continue;
         }
         const taut::BufferPtr velocity = device->make_buffer(1024, "velocity"),
-                              step = device->make_buffer(32, "step");
+                              step = device->make_buffer(taut::kernels::damping::info().bindings[1].stride,
+                                                         "step");
         std::unique_ptr<taut::Recording> recording;
         const auto record = [&] {
             taut::Recorder recorder(device);

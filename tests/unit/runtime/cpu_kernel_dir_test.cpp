@@ -51,7 +51,8 @@ TEST_CASE("the native executor refuses a kernel for which TAUT_KERNEL_DIR holds 
 {
     const KernelDir folder;
     const auto device = open_cpu(CpuMode::serial, {});
-    const BufferPtr velocity = device->make_buffer(1024, "velocity"), step = device->make_buffer(32, "step");
+    const BufferPtr velocity = device->make_buffer(1024, "velocity"),
+                    step = device->make_buffer(kernels::damping::info().bindings[1].stride, "step");
     const auto compile = [&] {
         Recorder recorder(device);
         recorder.dispatch(
