@@ -46,7 +46,7 @@ for page in "$@"; do
             awk -f claims.awk -f hybrid/claims.awk hybrid.md $results/split.csv $results/hybrid.csv ;;
         gpu) awk -f results/gpu/claims.awk -f claims.awk results/gpu.md ../tests/hardware/radv.csv || bad=1 ;;
         tune) check_tables tune.md tune || bad=1
-            awk -f claims.awk -f tune/claims.awk tune.md tune/tune.csv ;;
+            awk -f claims.awk -f tune/claims.awk tune.md tune/*.csv ;;
         linear) for part in crossover condition residuals; do
                 check_bench linear.md $part linear_$part.csv || bad=1
             done

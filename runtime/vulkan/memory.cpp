@@ -41,8 +41,7 @@ Memory::Memory(const VolkDeviceTable& vk, VkDevice device, const VkPhysicalDevic
     : vk_(vk),
       device_(device),
       properties_(properties),
-      health_(health),
-      next_bytes_(kFirstBlock)
+      health_(health)
 {}
 
 Memory::~Memory()
@@ -73,11 +72,14 @@ Memory::Block& Memory::add_block(std::uint32_t type, VkDeviceSize bytes)
 
 Memory::Block& Memory::add_shared_block(std::uint32_t type, VkDeviceSize needed)
 {
+    // By what is held, not by what once was: what a world is given does not depend on those before it.
+    VkDeviceSize bytes = kFirstBlock;
+    for (const auto& block : blocks_)
+        if (block->type == type && !block->mapped && block->bytes <= kLargestBlock)
+            bytes = std::min(kLargestBlock, bytes * 2);
     try
     {
-        Block& block = add_block(type, std::max(next_bytes_, align_up(needed, kFirstBlock)));
-        next_bytes_ = std::min(kLargestBlock, next_bytes_ * 2);
-        return block;
+        return add_block(type, std::max(bytes, align_up(needed, kFirstBlock)));
     }
     catch (const Error& error)
     {

@@ -66,7 +66,6 @@ private:
     Health& health_;
     mutable std::mutex mutex_;
     std::vector<std::unique_ptr<Block>> blocks_;
-    VkDeviceSize next_bytes_;
 };
 
 } // namespace taut::vulkan

@@ -264,6 +264,7 @@ void describe_counts(const Simulation& simulation, RunResult& result)
 {
     if (simulation.is_whole())
         return;
+    simulation.take_contacts(result.report);
     const Events events = simulation.events();
     add_warnings(events, result.report.warnings);
     result.report.solver = simulation.solver_report();

@@ -1,6 +1,7 @@
 #include "taut/cli/simulation.hpp"
 
 #include "taut/cli/device_option.hpp"
+#include "taut/report/contact_depth.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/world/sleep.hpp"
 #include "taut/world/split.hpp"
@@ -109,6 +110,12 @@ public:
         return whole_;
     }
     bool is_whole() const override { return false; }
+    void take_contacts(StepReport& report) const override
+    {
+        report.contacts = sleep_.contacts();
+        report.contact_forces = sleep_.contact_forces();
+        report.contact_depth = contact_depth(sleep_.awake(), sleep_.awake().positions());
+    }
 
 private:
     World whole_;

@@ -1,6 +1,7 @@
 #pragma once
 // What `taut run` steps: a world on one device, or one scene on two.
 
+#include "taut/report/report.hpp"
 #include "taut/world/hybrid.hpp"
 
 #include <memory>
@@ -34,6 +35,8 @@ public:
     /// not the one that runs, it counts nothing: events() and solver_report() are those of the run.
     virtual World& whole() = 0;
     virtual bool is_whole() const { return true; } ///< whether whole() is the world that runs
+    /// Where whole() is not the world that runs, and surfaces meet: puts what they did into a report of it.
+    virtual void take_contacts(StepReport&) const {}
     virtual std::vector<HybridPart> parts() const { return {}; } ///< empty on one device
     virtual std::optional<std::size_t> asleep() const { return {}; } ///< bodies, where they may sleep
 };

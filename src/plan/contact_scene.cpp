@@ -26,9 +26,9 @@ bool bodies_meet(const Scene& scene, const Body& a, const Body& b)
 
 bool meets_another(const Scene& scene, const Body& body)
 {
-    return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& other) {
-        return &other != &body && bodies_meet(scene, body, other);
-    });
+    return body.contact.meets_absent ||
+           std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [&](const Body& other) { return &other != &body && bodies_meet(scene, body, other); });
 }
 
 std::string at_body(std::size_t k) { return "bodies[" + std::to_string(k) + "]"; }

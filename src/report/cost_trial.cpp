@@ -1,5 +1,6 @@
 #include "taut/report/cost_trial.hpp"
 
+#include "taut/report/median.hpp"
 #include "taut/report/report.hpp"
 #include "taut/report/residuals.hpp"
 
@@ -41,14 +42,6 @@ double process_ms()
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-/// The value that this share of them does not pass.
-double quantile(std::vector<double> values, double share)
-{
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
 }
 
 } // namespace

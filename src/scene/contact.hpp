@@ -36,6 +36,7 @@ struct BodyContact
     std::vector<std::string> passes;
     /// m, >= 0: its radius, and its Coulomb coefficient, >= 0; without them as the scene says.
     std::optional<double> thickness = std::nullopt, friction = std::nullopt;
+    bool meets_absent = false; ///< filled by SleepWorld: it meets bodies that are left out of the scene now
 };
 
 /// Names of groups that the bodies of a scene may have between them.

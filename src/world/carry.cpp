@@ -86,6 +86,15 @@ void add(Events& sum, const Events& more)
     sum.conflicts += more.conflicts;
 }
 
+void add(ContactCounts& sum, const ContactCounts& more)
+{
+    sum.any |= more.any;
+    sum.searches += more.searches;
+    sum.missing += more.missing;
+    sum.cut += more.cut;
+    sum.crowded += more.crowded;
+}
+
 void add(SolverReport& sum, const SolverReport& more)
 {
     sum.last = more.solves > 0 || sum.solves == 0 ? more.last : sum.last;

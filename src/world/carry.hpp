@@ -40,6 +40,8 @@ void place(std::vector<glm::dvec3>& out, const std::vector<glm::dvec3>& own, con
 Scene with_bodies(const Scene& scene, const std::vector<std::uint32_t>& bodies);
 
 void add(Events& sum, const Events& more);
+/// What is counted over a run.
+void add(ContactCounts& sum, const ContactCounts& more);
 /// `more` comes after what `sum` holds; `most` and `last` follow from that.
 void add(SolverReport& sum, const SolverReport& more);
 

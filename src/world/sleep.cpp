@@ -1,98 +1,16 @@
-#include "taut/world/sleep.hpp"
-
 #include "taut/plan/contact_scene.hpp"
 #include "taut/runtime/base/error.hpp"
-#include "taut/scene/collider.hpp"
-#include "taut/scene/extent.hpp"
 #include "taut/scene/pose.hpp"
-#include "taut/world/carry.hpp"
-#include "taut/world/moved.hpp"
+#include "taut/world/islands.hpp"
+#include "taut/world/sleep_impl.hpp"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace taut {
-namespace {
-
-/// Of a ball round a collider's own point that it lies within; 0 of one without bounds.
-double reach(const Collider& c)
-{
-    const ColliderSolid solid = solid_of(c);
-    const double off = glm::distance(c.point, rest_frame(c).centre);
-    return solid.bounded ? off + glm::length(solid.half) + solid.radius : 0;
-}
-
-/// Whether a collider that moves between two times can come within `margin` of a box.
-bool comes_near(const Collider& c, double from, double to, const Extent& box, double margin)
-{
-    const glm::dvec3 before = pose(c.motion, from, c.point), after = pose(c.motion, to, c.point);
-    // A turn moves the far ends of three arms as long as the collider; no turn leaves all of them.
-    double moved = glm::distance(before, after);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        glm::dvec3 arm = c.point;
-        arm[axis] += reach(c);
-        moved = std::max(moved, glm::distance(pose(c.motion, from, arm), pose(c.motion, to, arm)));
-    }
-    if (!(moved > 0))
-        return false;
-    if (c.kind == ColliderKind::plane)
-    {
-        const glm::dvec3 n = glm::normalize(c.normal);
-        const glm::dvec3 nearest(n.x > 0 ? box.low.x : box.high.x, n.y > 0 ? box.low.y : box.high.y,
-                                 n.z > 0 ? box.low.z : box.high.z);
-        return std::min(glm::dot(n, nearest - before), glm::dot(n, nearest - after)) < margin;
-    }
-    const glm::dvec3 inside = glm::clamp(before, box.low, box.high);
-    return glm::distance(inside, before) < reach(c) + moved + margin;
-}
-
-bool pins_move(const Body& body, double from, double to)
-{
-    const auto& x = held_rest_of(body);
-    return std::any_of(body.pins.begin(), body.pins.end(), [&](const Pin& pin) {
-        for (std::size_t k = 0; k < pin.vertices.size(); ++k)
-            if (const glm::dvec3& rest = x[pin.vertices[k]];
-                held_at(pin, from, k, rest) != held_at(pin, to, k, rest))
-                return true;
-        return false;
-    });
-}
-
-} // namespace
-
-struct SleepWorld::Impl
-{
-    Scene scene;
-    SleepOptions options;
-    std::shared_ptr<Device> device;
-    std::vector<std::uint32_t> first; ///< scene-wide vertex of each body, and the total
-    std::vector<std::uint32_t> awake; ///< bodies
-    std::vector<bool> sleeping;
-    std::vector<std::uint32_t> quiet; ///< looks in a row, by body
-    std::vector<double> threshold;    ///< m/s, by body; 0 = never sleeps
-    CarriedState carried;             ///< of those that sleep, as they fell asleep
-    std::vector<glm::dvec3> resting;  ///< m, where they lie; scene-wide
-    std::vector<glm::dvec3> seen;     ///< m, at the last look
-    std::vector<Extent> box;          ///< of those that sleep
-    std::vector<std::uint32_t> led;   ///< bodies with a pin that has a motion
-    Moved program;
-    std::unique_ptr<World> world;
-    Events before;
-    std::uint64_t steps = 0, changes = 0;
-
-    std::vector<std::uint32_t> vertices() const { return scene_vertices(world->plan(), awake, first); }
-    void plan_anew(const std::vector<bool>& now);
-    void look();
-    void wake_the_disturbed();
-    std::size_t wake(std::size_t body, const char* who);
-    double margin(std::uint32_t body) const;
-};
 
 /// Keeps the state of all, then makes the world of those that do not sleep.
 void SleepWorld::Impl::plan_anew(const std::vector<bool>& now)
@@ -100,6 +18,7 @@ void SleepWorld::Impl::plan_anew(const std::vector<bool>& now)
     collect(*world, vertices(), first.back(), carried);
     place(resting, world->positions(), world->plan(), awake, first);
     add(before, world->events());
+    add(met_before, world->contacts());
     sleeping = now;
     awake.clear();
     for (std::uint32_t b = 0; b < sleeping.size(); ++b)
@@ -111,10 +30,52 @@ void SleepWorld::Impl::plan_anew(const std::vector<bool>& now)
         if (!sleeping[b])
             awake.push_back(b);
     }
+    // As long as they have become: lists that are too short miss pairs for a step.
+    options.world.plan.contact_capacity =
+        std::max(options.world.plan.contact_capacity, world->plan().contact.capacity);
     world = std::make_unique<World>(with_bodies(scene, awake), device, options.world);
     carried.moved = program.values();
     deliver(*world, vertices(), awake, carried);
     ++changes;
+}
+
+double SleepWorld::Impl::margin(std::uint32_t body, const Extent& at) const
+{
+    const Body& of = scene.bodies[body];
+    return std::max(of.material.thickness, meet ? radius_of(scene, of) : 0) + 0.05 * at.size();
+}
+
+/// By box of each body, as it is; those without places are left out.
+std::vector<std::uint32_t> SleepWorld::Impl::islands_of(std::vector<Extent> boxes) const
+{
+    for (std::uint32_t b = 0; b < boxes.size(); ++b)
+        boxes[b] = grown(boxes[b], margin(b, boxes[b]));
+    return islands(boxes, [&](std::uint32_t a, std::uint32_t b) { return surfaces_meet(scene, a, b); });
+}
+
+/// A body falls asleep with all that it may touch, or not at all. A mesh that stands still joins nothing; it
+/// is there for what moves, so it sleeps with the last of them.
+void SleepWorld::Impl::keep_islands_awake(std::vector<bool>& now, const std::vector<glm::dvec3>& x) const
+{
+    std::vector<Extent> boxes(now.size());
+    for (std::size_t own = 0; own < awake.size(); ++own)
+        for (std::uint32_t k = world->plan().body_start[own];
+             k < world->plan().body_start[own + 1] && !stands(awake[own]); ++k)
+            boxes[awake[own]].take(x[k]);
+    const std::vector<std::uint32_t> island = islands_of(boxes);
+    std::vector<bool> moves(now.size(), false);
+    for (const std::uint32_t b : awake)
+        if (!now[b] && !stands(b))
+            moves[island[b]] = true;
+    bool any = false;
+    for (const std::uint32_t b : awake)
+        if (!stands(b))
+        {
+            now[b] = now[b] && !moves[island[b]];
+            any = any || !now[b];
+        }
+    for (const std::uint32_t b : awake)
+        now[b] = now[b] && !(any && stands(b));
 }
 
 /// Counts quiet looks, and lets those sleep that have had enough of them.
@@ -138,55 +99,10 @@ void SleepWorld::Impl::look()
         quiet[b] = rests ? quiet[b] + 1 : 0;
         now[b] = quiet[b] >= options.quiet_looks;
     }
+    if (meet)
+        keep_islands_awake(now, x);
     if (now != sleeping)
         plan_anew(now);
-}
-
-/// Its number among those that are awake.
-std::size_t SleepWorld::Impl::wake(std::size_t body, const char* who)
-{
-    if (body >= sleeping.size())
-        throw Error(ErrorCode::bad_input, std::string(who) + ": body " + std::to_string(body) + " of " +
-                                              std::to_string(sleeping.size()) + ", numbered from 0");
-    if (sleeping[body])
-    {
-        std::vector<bool> now = sleeping;
-        now[body] = false;
-        plan_anew(now);
-    }
-    quiet[body] = 0;
-    return static_cast<std::size_t>(std::find(awake.begin(), awake.end(), static_cast<std::uint32_t>(body)) -
-                                    awake.begin());
-}
-
-double SleepWorld::Impl::margin(std::uint32_t body) const
-{
-    return scene.bodies[body].material.thickness + 0.05 * box[body].size();
-}
-
-void SleepWorld::Impl::wake_the_disturbed()
-{
-    const double from = world->time(), to = from + scene.timestep;
-    program.begin_step(scene, from, to);
-    if (awake.size() == sleeping.size())
-        return;
-    std::vector<std::uint32_t> disturbed;
-    for (const std::uint32_t b : led)
-        if (sleeping[b] && pins_move(scene.bodies[b], from, to))
-            disturbed.push_back(b);
-    for (std::uint32_t b = 0; b < sleeping.size(); ++b)
-        if (sleeping[b] && program.pins_move(b))
-            disturbed.push_back(b);
-    for (const Collider& c : scene.colliders)
-        for (std::uint32_t b = 0; b < sleeping.size() && !c.motion.empty(); ++b)
-            if (sleeping[b] && comes_near(c, from, to, box[b], margin(b)))
-                disturbed.push_back(b);
-    if (disturbed.empty())
-        return;
-    std::vector<bool> now = sleeping;
-    for (const std::uint32_t b : disturbed)
-        now[b] = false;
-    plan_anew(now);
 }
 
 SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const SleepOptions& options)
@@ -207,10 +123,15 @@ SleepWorld::SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const
                     "method " + quoted(my.scene.method.type) +
                         " solves for all bodies as one system, so one that is not "
                         "there would change the others; bodies under it cannot sleep");
-    if (wants_contact(my.scene))
-        throw Error(ErrorCode::unsupported,
-                    "bodies that meet each other or themselves cannot sleep yet; leave "
-                    "contact out, or let all stay awake");
+    if (wants_guarantee(my.scene))
+        throw Error(
+            ErrorCode::unsupported,
+            "contact.guarantee is " + quoted(my.scene.contact.guarantee) +
+                ", but what sleeps is looked for between steps, not within them; leave contact.guarantee "
+                "out, or let all stay awake");
+    my.meet = wants_contact(my.scene) && my.scene.contact.between;
+    for (Body& body : my.scene.bodies)
+        body.contact.meets_absent = takes_part(my.scene, body) && my.meet;
     // The stiffest body may be the one that sleeps; the others keep its substeps.
     my.scene.method.substeps = my.world->plan().substeps;
     const double gravity = glm::length(my.scene.gravity) > 0 ? glm::length(my.scene.gravity) : 9.81;
@@ -291,6 +212,24 @@ Events SleepWorld::events() const
     Events sum = impl_->before;
     add(sum, impl_->world->events());
     return sum;
+}
+
+ContactCounts SleepWorld::contacts() const
+{
+    ContactCounts out = impl_->world->contacts();
+    add(out, impl_->met_before);
+    return out;
+}
+
+std::vector<BodyContactForce> SleepWorld::contact_forces() const
+{
+    std::vector<BodyContactForce> out = impl_->world->contact_forces();
+    for (BodyContactForce& force : out)
+    {
+        force.a = impl_->awake[force.a];
+        force.b = impl_->awake[force.b];
+    }
+    return out;
 }
 
 void SleepWorld::set_force(std::uint32_t vertex, const glm::dvec3& force)

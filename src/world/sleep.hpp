@@ -14,20 +14,23 @@ struct SleepOptions
     std::uint32_t quiet_looks = 2; ///< in a row, before a body falls asleep
 };
 
-/// Steps a scene without the bodies that rest. Bodies do not touch each other, so the others move bit for bit
-/// as they would beside them; one that wakes goes on, bit for bit, from the state in which it fell asleep. It
-/// wakes before a pin of its own moves, before a moving collider can reach it, and when a force, places or
-/// velocities are set on it: also where the program moves the pin or the collider.
-/// Bodies that the wind can move do not sleep.
+/// Steps a scene without the bodies that rest. Where bodies meet, those that may touch, by their boxes with a
+/// twentieth of their size more, form islands, which sleep and wake as one. A mesh that is led joins nothing
+/// while it stands still, and sleeps when all others do. The others move bit for bit as they would beside
+/// those that sleep (where bodies meet: if the greatest contact radius is awake, too); one that wakes goes
+/// on, bit for bit, from the state in which it fell asleep. It wakes before a pin of its own moves, before a
+/// moving collider or a body that is awake can reach it (by twice its speeds), and when a force, places or
+/// velocities are set on it: also where the program moves the pin, the collider or the mesh. Bodies that the
+/// wind can move do not sleep.
 ///
 /// Based on: Erin Catto. Box2D, islands and sleeping (the rule by speed and time).
-/// Departures: an island is a body; what sleeps has no plan, so it costs neither dispatches nor memory on the
-///   device. Falling asleep and waking make a new plan.
+/// Departures: islands follow from boxes, not from contacts; what sleeps has no plan, so it costs neither
+///   dispatches nor memory on the device. Falling asleep and waking make a new plan.
 class SleepWorld : public ProgramMoves
 {
 public:
     /// Throws as World does, and Error{unsupported} under methods that keep more than places and speeds
-    /// (Plan::kept), and for cloth that can tear.
+    /// (Plan::kept), for cloth that can tear, and with SceneContact::guarantee.
     SleepWorld(const Scene& scene, std::shared_ptr<Device> device, const SleepOptions& = {});
     ~SleepWorld();
     SleepWorld(SleepWorld&&) noexcept;
@@ -41,6 +44,10 @@ public:
     std::vector<glm::dvec3> positions() const;  ///< m, in the order of the scene
     std::vector<glm::dvec3> velocities() const; ///< m/s; 0 where asleep
     Events events() const;
+    /// What they count, over the whole run; pairs, candidates and capacity of those that are awake.
+    ContactCounts contacts() const;
+    /// Of those that are awake, with bodies as the scene has them.
+    std::vector<BodyContactForce> contact_forces() const;
     std::size_t asleep() const;         ///< bodies that sleep now
     bool asleep(std::size_t body) const;
     const World& awake() const;         ///< the bodies that do not: its plan is all that a step costs

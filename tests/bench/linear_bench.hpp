@@ -96,7 +96,4 @@ void run_inventory(const PrecisionOptions& options, const std::string& condition
 /// Empty, and a line on standard error, where there is none.
 std::filesystem::path matrix_folder();
 
-/// The upper one of two; at least one value.
-double median_of(std::vector<double> values);
-
 } // namespace bench

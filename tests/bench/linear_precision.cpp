@@ -4,6 +4,7 @@
 
 #include "taut/linear/matrix_market.hpp"
 #include "taut/linear/solve.hpp"
+#include "taut/report/median.hpp"
 #include "taut/report/svg_plot.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/shown.hpp"
@@ -17,8 +18,7 @@ using namespace taut::linear;
 
 namespace {
 
-constexpr int kTurns = 3;
-constexpr double kLong = 0.12;        // seconds of a solve with its set-up that is not repeated
+constexpr int kTurns = 10;
 constexpr std::uint32_t kMost = 2000; // iterations
 constexpr double kTolerances[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 constexpr Format kFormats[] = {Format::csr, Format::sell, Format::bcsr3};
@@ -34,6 +34,7 @@ struct Work
     SolveOptions options;
     SolveReport report;
     double milliseconds = 0; ///< iterations only, median
+    double low = 0, high = 0; ///< first and third quartile
     double error = 0;        ///< forward
     std::string refused;
     std::vector<double> times = {};
@@ -74,8 +75,7 @@ Study measure(System system, const std::shared_ptr<taut::Device>& device)
     for (int turn = 0; turn < kTurns; ++turn)
         for (Work& work : study.all)
         {
-            if (!work.refused.empty() ||
-                (turn > 0 && work.report.seconds + work.report.setup_seconds > kLong))
+            if (!work.refused.empty())
                 continue;
             try
             {
@@ -91,7 +91,11 @@ Study measure(System system, const std::shared_ptr<taut::Device>& device)
         }
     for (Work& work : study.all)
         if (work.refused.empty())
-            work.milliseconds = median_of(work.times);
+        {
+            work.milliseconds = taut::median(work.times);
+            work.low = taut::quantile(work.times, 0.25);
+            work.high = taut::quantile(work.times, 0.75);
+        }
     return study;
 }
 
@@ -179,7 +183,7 @@ std::string csv(const std::vector<Study>& studies, const std::string& conditions
 {
     std::string text = "# " + conditions +
                        "\nsystem,n,nonzeros,format,precision,preconditioner,tolerance,iterations,ms,setup_ms,"
-                       "true_residual,forward_error,status,refused\n";
+                       "true_residual,forward_error,status,ms_quartile_1,ms_quartile_3,refused\n";
     for (const Study& study : studies)
         for (const Work& w : study.all)
         {
@@ -193,9 +197,10 @@ std::string csv(const std::vector<Study>& studies, const std::string& conditions
                 text += std::to_string(w.report.iterations) + ',' + taut::shown(w.milliseconds, 5) + ',' +
                         taut::shown(w.report.setup_seconds * 1e3, 3) + ',' +
                         taut::shown(w.report.relative_residual, 4) + ',' + taut::shown(w.error, 4) + ',' +
-                        std::string(to_string(w.report.status)) + ",\n";
+                        std::string(to_string(w.report.status)) + ',' + taut::shown(w.low, 5) + ',' +
+                        taut::shown(w.high, 5) + ",\n";
             else
-                text += ",,,,,," + taut::csv_cell(w.refused) + '\n';
+                text += ",,,,,,,," + taut::csv_cell(w.refused) + '\n';
         }
     return text;
 }
@@ -213,6 +218,8 @@ taut::PlotPoint point_of(const Work& work, Height height)
     point.x = there ? work.milliseconds : std::numeric_limits<double>::quiet_NaN();
     point.y = height == Height::residual ? work.report.relative_residual : work.error;
     point.label = taut::shown(work.options.tolerance);
+    point.x_low = work.low;
+    point.x_high = work.high;
     if (height == Height::residual && work.reached(work.options.tolerance))
         point.floor = work.options.tolerance; // what was asked for is reached: less is chance
     return point;
@@ -226,9 +233,11 @@ taut::Plot plot_of(const Study& study, Height height, const std::string& what, c
     plot.y_label =
         height == Height::residual ? "true residual |b - A x| / |b|" : "forward error |x - x*| / |x*|";
     plot.caption = {std::to_string(study.system.a.rows) + " unknowns, " +
-                    std::to_string(study.system.a.nonzeros()) + " entries, on " + device +
-                    "; a point for each tolerance, 1e-2 to 1e-12; median of " + std::to_string(kTurns) +
-                    " (long ones: one run); at most " + std::to_string(kMost) + " iterations"};
+                        std::to_string(study.system.a.nonzeros()) + " entries, on " + device +
+                        "; a point for each tolerance, 1e-2 to 1e-12; at most " + std::to_string(kMost) +
+                        " iterations",
+                    "Median of " + std::to_string(kTurns) +
+                        " runs in turns with all others; bars go from the first to the third quartile."};
     return plot;
 }
 

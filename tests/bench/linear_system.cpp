@@ -38,11 +38,4 @@ std::filesystem::path matrix_folder()
     return {};
 }
 
-double median_of(std::vector<double> values)
-{
-    const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 } // namespace bench

@@ -5,6 +5,7 @@
 
 #include "taut/linear/matrix_market.hpp"
 #include "taut/linear/solve.hpp"
+#include "taut/report/median.hpp"
 #include "taut/runtime/base/atomic_file.hpp"
 #include "taut/runtime/base/shown.hpp"
 
@@ -63,7 +64,7 @@ public:
     {
         Entry out = entry_;
         if (!times_.empty())
-            out.milliseconds = median_of(times_);
+            out.milliseconds = taut::median(times_);
         return out;
     }
 

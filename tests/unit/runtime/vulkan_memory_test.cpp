@@ -178,3 +178,27 @@ TEST_CASE("an almost full Vulkan device still gives a small buffer its own small
     CHECK(memory.block_count() == 0);
     CHECK_NOTHING_SAID(device);
 }
+
+TEST_CASE("what the driver is asked for does not depend on what was given back before")
+{
+    TAUT_VULKAN_DEVICE(device);
+    vulkan::Context& context = *vulkan::context_of(*device);
+    const VkPhysicalDeviceMemoryProperties& properties = context.physical.memory;
+    vulkan::Memory memory(context.vk, context.device, properties, context.health);
+    const std::uint32_t any = (1u << properties.memoryTypeCount) - 1;
+    const auto held_by = [&](std::size_t count) { // buffers of 10 MiB, all at once
+        std::vector<vulkan::Allocation> parts;
+        for (std::size_t i = 0; i < count; ++i)
+            parts.push_back(memory.allocate({VkDeviceSize{10} << 20, 64, any}));
+        const std::uint64_t bytes = memory.block_bytes();
+        for (const vulkan::Allocation& part : parts)
+            memory.release(part);
+        return bytes;
+    };
+    const std::uint64_t one = held_by(1);
+    CHECK(one < std::uint64_t{20} << 20);
+    CHECK(held_by(6) > 3 * one);
+    CHECK(held_by(1) == one);
+    CHECK(memory.block_count() == 0);
+    CHECK_NOTHING_SAID(device);
+}
