@@ -75,6 +75,12 @@ Scene with_bodies(const Scene& scene, const std::vector<std::uint32_t>& bodies)
     part.bodies.clear();
     for (const std::uint32_t b : bodies)
         part.bodies.push_back(scene.bodies[b]);
+    // Groups of which no body is left cannot be passed through.
+    const std::vector<std::string> groups = contact_groups(part);
+    for (Body& body : part.bodies)
+        std::erase_if(body.contact.passes, [&](const std::string& name) {
+            return std::find(groups.begin(), groups.end(), name) == groups.end();
+        });
     return part;
 }
 

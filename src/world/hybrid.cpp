@@ -234,6 +234,8 @@ HybridWorld::HybridWorld(const Scene& scene, std::shared_ptr<Device> one, std::s
     my.scene = meshes ? scene : resolve(scene);
     if (my.scene.bodies.empty())
         throw Error(ErrorCode::bad_input, "a hybrid world has nothing to divide: the scene has no bodies");
+    // Those that meet themselves alone, too: any of them calls for a search of all on its device, so results
+    // would depend on the division, which follows from time.
     if (wants_contact(my.scene))
         throw Error(ErrorCode::unsupported, "a hybrid world cannot divide bodies that meet each other or "
                                             "themselves; use one device, or leave contact out");

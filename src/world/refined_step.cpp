@@ -7,6 +7,7 @@
 //   really has no place left is pinched in the finest parts as well, and goes on so.
 
 #include "taut/kernels/shared/contact_rows.h"
+#include "taut/world/planned.hpp"
 #include "taut/world/separate_start.hpp"
 #include "taut/world/world_impl.hpp"
 

@@ -17,7 +17,8 @@ struct SleepOptions
 /// Steps a scene without the bodies that rest. Where bodies meet, those that may touch, by their boxes with a
 /// twentieth of their size more, form islands, which sleep and wake as one. A mesh that is led joins nothing
 /// while it stands still, and sleeps when all others do. The others move bit for bit as they would beside
-/// those that sleep (where bodies meet: if the greatest contact radius is awake, too); one that wakes goes
+/// those that sleep (where bodies meet: if the greatest contact
+/// radius is awake, too, and what sleeps would not have called for a search); one that wakes goes
 /// on, bit for bit, from the state in which it fell asleep. It wakes before a pin of its own moves, before a
 /// moving collider or a body that is awake can reach it (by twice its speeds), and when a force, places or
 /// velocities are set on it: also where the program moves the pin, the collider or the mesh. Bodies that the
