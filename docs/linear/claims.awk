@@ -2,7 +2,7 @@
 
 # linear_precision has a line for every setting. fastest: milliseconds of the fastest setting of a system and a
 # precision that reached a tolerance in truth; quickest and iterations: of a preconditioner in double to 1e-8.
-table == "linear_precision" && cell[14] == "" {
+table == "linear_precision" && cell[16] == "" {
     key = cell[1] " " cell[5]
     if (!(key in least) || cell[11] + 0 < least[key]) least[key] = cell[11] + 0
     if (cell[11] + 0 <= cell[7] + 0) faster(fastest, key " " (cell[7] + 0), cell[9] + 0)
@@ -84,29 +84,32 @@ function claims_of_residuals(    i, precision, ok, at_first)
           told("mixed", "10", "solve_iterations") == 1033 && told("double", "10", "solve_iterations") == 883)
 }
 
-function claims_of_precision(    i, k, ok, last, low, high, cheapest, n, s, r, dearest)
+function claims_of_precision(    i, k, ok, first, firsts, last, low, high, cheapest, n, s, r, dearest)
 {
     ok = 1
     for (i in systems) {
         dearest = 0
+        first = 1
         for (k = 4; k <= 12; k += 2) {
-            ok = ok && digit(systems[i], 2) < digit(systems[i], k)
+            first = first && digit(systems[i], 2) < digit(systems[i], k)
             if (digit(systems[i], k) > dearest) dearest = digit(systems[i], k)
         }
+        firsts += first
         ok = ok && digit(systems[i], 12) < dearest
         n += reached(systems[i], "float", 6) < reached(systems[i], "double", 6) \
             && reached(systems[i], "float", 6) < reached(systems[i], "mixed", 6)
     }
-    claim("The first two are the cheapest on all four systems, and the last two cost less than the dearest", ok)
+    claim("The first two are the cheapest on three of the four systems, and the last two cost less than the dearest on all",
+          ok && firsts == 3)
     s = systems[4]
-    claim("on `poisson3d_30` 0.5, 1.4, 2.9, 1.7, 1.2 and 0.7 ms a digit in double.",
-          about(digit(s, 2), "0.5") && about(digit(s, 4), "1.4") && about(digit(s, 6), "2.9") \
-          && about(digit(s, 8), "1.7") && about(digit(s, 10), "1.2") && about(digit(s, 12), "0.7"))
+    claim("on `poisson3d_30` 0.9, 2.6, 2.7, 1.9, 1.1 and 1.9 ms a digit in double.",
+          about(digit(s, 2), "0.9") && about(digit(s, 4), "2.6") && about(digit(s, 6), "2.7") \
+          && about(digit(s, 8), "1.9") && about(digit(s, 10), "1.1") && about(digit(s, 12), "1.9"))
     name("float ends near 10⁻⁷")
     range_of(least, "float", 1)
     claim("Its least true residual is 6.5·10⁻⁸ to 1.4·10⁻⁷ on the four systems",
           about(1e8 * lowest, "6.5") && about(1e7 * highest, "1.4"))
-    claim("Down to 10⁻⁶ it is the cheapest on three of the four.", n == 3)
+    claim("Down to 10⁻⁶ it is the cheapest on all four.", n == 4)
     low = 9; high = 0; ok = 1
     for (i in systems)
         for (k = 8; k <= 12; k += 2) {
@@ -115,8 +118,8 @@ function claims_of_precision(    i, k, ok, last, low, high, cheapest, n, s, r, d
             if (r < low) low = r
             if (r > high) high = r
         }
-    claim("mixed goes on to the last tolerance asked, 10⁻¹², as double does**, for 0.78 to 1.28 of double's time from 10⁻⁸ on:",
-          ok && about(low, "0.78") && about(high, "1.28"))
+    claim("mixed goes on to the last tolerance asked, 10⁻¹², as double does**, for 0.90 to 1.17 of double's time from 10⁻⁸ on:",
+          ok && about(low, "0.90") && about(high, "1.17"))
     name("devices without 64-bit floats")
     low = 1; high = 0
     for (i in systems) {
@@ -125,18 +128,19 @@ function claims_of_precision(    i, k, ok, last, low, high, cheapest, n, s, r, d
     }
     claim("At a true residual of 10⁻⁸ the forward error with Jacobi is 8·10⁻⁸ to 7·10⁻⁷.",
           about(1e8 * low, "8") && about(1e7 * high, "7"))
-    claim("**multigrid pays on `fv3`, once it is set up**: 9 iterations where Jacobi takes 184, and 3.5 ms where the next takes 8.6; its set-up takes 14.8 ms",
+    claim("**multigrid pays on `fv3`, once it is set up**: 9 iterations where Jacobi takes 184, and 5.3 ms where the next takes 13.7; its set-up takes 11.1 ms",
           iterations["fv3 multigrid"] == 9 && iterations["fv3 jacobi"] == 184 \
-          && about(quickest["fv3 multigrid"], "3.5") && about(next_to("fv3", "multigrid"), "8.6") \
-          && about(setup["fv3 multigrid"], "14.8"))
-    claim("On `poisson3d_30` its 8 iterations cost as much as 100 of Jacobi.",
+          && about(quickest["fv3 multigrid"], "5.3") && about(next_to("fv3", "multigrid"), "13.7") \
+          && about(setup["fv3 multigrid"], "11.1"))
+    claim("On `poisson3d_30` its 8 iterations cost 0.70 of what 100 of Jacobi do",
           iterations[s " multigrid"] == 8 && iterations[s " jacobi"] == 100 \
-          && among(quickest[s " multigrid"] / quickest[s " jacobi"], 0.95, 1.05))
+          && about(quickest[s " multigrid"] / quickest[s " jacobi"], "0.70"))
     name("On `bcsstk16`, elasticity")
     claim("`spai0` and `jacobi` win.", next_to("bcsstk16", "spai0") == quickest["bcsstk16 jacobi"] \
           && quickest["bcsstk16 spai0"] < quickest["bcsstk16 jacobi"])
-    claim("On `nos3` `chebyshev` wins by an eighth.",
-          among(quickest["nos3 chebyshev"] / next_to("nos3", "chebyshev"), 0.86, 0.89))
+    claim("On `nos3` `spai0`, `chebyshev`, `block_jacobi` and `jacobi` are within 6 % of each other.",
+          quickest["nos3 spai0"] <= next_to("nos3", "spai0") && quickest["nos3 jacobi"] < 1.06 * quickest["nos3 spai0"] \
+          && quickest["nos3 chebyshev"] < quickest["nos3 jacobi"] && quickest["nos3 block_jacobi"] < quickest["nos3 jacobi"])
     name("3 × 3 blocks of unknowns")
     claim("`block_jacobi` is the slowest on `fv3` and on `poisson3d_30`.",
           slowest("fv3", "block_jacobi") && slowest("poisson3d_30", "block_jacobi"))

@@ -29,9 +29,10 @@ double led_speed(const std::vector<Keyframe>& motion, const glm::dvec3& point, d
         const Keyframe &a = motion[k], &b = motion[k + 1];
         const glm::dvec3 turn =
             glm::radians(b.rotate_degrees) * b.rotate_axis - glm::radians(a.rotate_degrees) * a.rotate_axis;
-        const double arm = glm::length(point - b.rotate_centre) + reach;
-        const double way = glm::length(b.translate - a.translate) + 2 * glm::length(turn) * arm +
-                           glm::length(b.rotate_centre - a.rotate_centre);
+        const auto [from, to] = centres_between(a, b);
+        const double arm = glm::length(point - to) + reach;
+        const double way =
+            glm::length(b.translate - a.translate) + 2 * glm::length(turn) * arm + glm::length(to - from);
         if (b.time > a.time)
             most = std::max(most, way / (b.time - a.time));
     }

@@ -59,6 +59,12 @@ glm::dvec3 rotation_of(const Keyframe& key)
     return axis * glm::radians(key.rotate_degrees);
 }
 
+std::pair<glm::dvec3, glm::dvec3> centres_between(const Keyframe& a, const Keyframe& b)
+{
+    return {a.rotate_degrees != 0 ? a.rotate_centre : b.rotate_centre,
+            b.rotate_degrees != 0 ? b.rotate_centre : a.rotate_centre};
+}
+
 double turn_between(const Keyframe& a, const Keyframe& b)
 {
     return glm::distance(rotation_of(a), rotation_of(b));
@@ -127,11 +133,12 @@ glm::dvec3 pose(const std::vector<Keyframe>& motion, double time, const glm::dve
     if (after == motion.end())
         return posed(pose_of(motion.back()), rest);
     const Pose a = pose_of(*(after - 1)), b = pose_of(*after);
+    const auto [from, to] = centres_between(*(after - 1), *after);
     const double s = (time - (after - 1)->time) / (after->time - (after - 1)->time);
     // Axis times angle is linear: with one axis the angle is, also beyond a full turn; a key without
     // rotation takes the axis of its neighbour.
     return posed({a.translate + s * (b.translate - a.translate), a.rotation + s * (b.rotation - a.rotation),
-                  a.centre + s * (b.centre - a.centre)},
+                  from + s * (to - from)},
                  rest);
 }
 

@@ -3,6 +3,8 @@
 
 #include "taut/scene/scene.hpp"
 
+#include <utility>
+
 namespace taut {
 
 /// Takes places of a rest shape into world space.
@@ -30,6 +32,10 @@ glm::dvec3 held_at(const Pin& pin, double time, std::size_t own, const glm::dvec
 
 /// rad: the axis times the angle of a key, which pose() takes to be linear between keys; 0 without an axis.
 glm::dvec3 rotation_of(const Keyframe& key);
+
+/// m: the centres of turning at two keys, of what goes on between them: a key without a turn has that of the
+/// other.
+std::pair<glm::dvec3, glm::dvec3> centres_between(const Keyframe& a, const Keyframe& b);
 
 /// rad: the turn between two keys, as pose() makes it.
 double turn_between(const Keyframe& a, const Keyframe& b);

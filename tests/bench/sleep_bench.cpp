@@ -91,7 +91,7 @@ std::vector<Row> compare(const std::string& alone, const Scene& few, const std::
     const auto device = Device::open("cpu:serial");
     SleepWorld many(all, device);
     World one(few, device);
-    for (int k = 0; k < 600; ++k)
+    for (int k = 0; k < 600 && many.asleep() < sleepers; ++k)
     {
         many.step();
         one.step();

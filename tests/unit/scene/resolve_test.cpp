@@ -297,3 +297,15 @@ TEST_CASE("a key without rotation takes the axis of its neighbour")
     const std::vector<Keyframe> motion = {key(0, {}, {0, 1, 0}, 0, {}), key(1, {}, {0, 0, 1}, 90, {})};
     check_close(pose(motion, 0.5, {1, 0, 0}), {std::sqrt(0.5), std::sqrt(0.5), 0});
 }
+
+TEST_CASE("what turns about a point from or to a key without a turn stays there")
+{
+    const glm::dvec3 centre(3, -1, 2), rest = centre + glm::dvec3(1, 0, 0);
+    const std::vector<Keyframe> motion = {key(0, {}, {0, 1, 0}, 0, {}), key(1, {}, {0, 0, 1}, 180, centre),
+                                          key(2, {}, {0, 1, 0}, 0, {}),
+                                          key(3, {0, 5, 0}, {0, 0, 1}, 90, {7, 0, 0})};
+    check_close(pose(motion, 0.5, rest), centre + glm::dvec3(0, 1, 0));
+    check_close(pose(motion, 1.5, rest), centre + glm::dvec3(0, 1, 0));
+    check_close(pose(motion, 0.25, centre), centre);
+    check_close(pose(motion, 2.5, {7, 0, 4}), {7, 2.5, 4});
+}
