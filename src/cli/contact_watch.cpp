@@ -7,7 +7,9 @@
 #include "taut/report/soundness.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace taut::cli {
 namespace {
@@ -21,6 +23,24 @@ std::string name_of(const Scene& scene, std::uint32_t body)
 {
     const std::string& name = scene.bodies[body].name;
     return "bodies[" + std::to_string(body) + "]" + (name.empty() ? "" : " (\"" + name + "\")");
+}
+
+/// Of each vertex of a scene the first one of its body that rests in the same place, where the body can tear:
+/// what has come apart begins in one place. Of others itself.
+std::vector<std::uint32_t> untorn_vertices(const Scene& scene)
+{
+    std::vector<std::uint32_t> out;
+    for (const Body& body : scene.bodies)
+    {
+        std::map<std::array<double, 3>, std::uint32_t> at;
+        for (const glm::dvec3& x : body.mesh.positions)
+        {
+            const auto v = static_cast<std::uint32_t>(out.size());
+            const bool tears = body.material.tear_strain > 0;
+            out.push_back(tears ? at.emplace(std::array{x.x, x.y, x.z}, v).first->second : v);
+        }
+    }
+    return out;
 }
 
 /// The guarantee is lost only where something is pinched.
@@ -69,6 +89,17 @@ void ContactWatch::learn_surfaces()
     judging::SceneTriangles all = judging::scene_triangles(simulation_.scene());
     body_ = std::move(all.body);
     surface_ = judging::make_surface(body_.size(), std::move(all.triangles), std::move(all.led));
+    untorn_ = untorn_vertices(simulation_.scene());
+}
+
+/// Two features that had a common vertex, which has come apart: they touch there until they move.
+bool ContactWatch::torn_apart(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) const
+{
+    for (const std::uint32_t v : a)
+        for (const std::uint32_t w : b)
+            if (v != w && untorn_[v] == untorn_[w])
+                return true;
+    return false;
 }
 
 bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const
@@ -78,9 +109,10 @@ bool ContactWatch::meets(std::uint32_t a, std::uint32_t b) const
 
 bool ContactWatch::meets_passing(const judging::Passing& p) const
 {
-    const std::uint32_t a = p.edges ? surface_.edges[p.a][0] : p.a;
-    const std::uint32_t b = p.edges ? surface_.edges[p.b][0] : surface_.triangles[p.b][0];
-    return surface_.part[a] != surface_.part[b] && meets(body_[a], body_[b]);
+    using Feature = std::span<const std::uint32_t>;
+    const Feature a = p.edges ? Feature(surface_.edges[p.a]) : Feature(&p.a, 1);
+    const Feature b = p.edges ? Feature(surface_.edges[p.b]) : Feature(surface_.triangles[p.b]);
+    return surface_.part[a[0]] != surface_.part[b[0]] && meets(body_[a[0]], body_[b[0]]) && !torn_apart(a, b);
 }
 
 /// A sheet that falls flat and fast through another one crosses it in no frame.
@@ -100,7 +132,7 @@ void ContactWatch::look(std::uint64_t frame, const std::vector<glm::dvec3>& posi
     for (const auto& [s, t] : judging::intersecting_triangles(surface_, positions))
     {
         const std::uint32_t a = body_[surface_.triangles[s][0]], b = body_[surface_.triangles[t][0]];
-        if (!meets(a, b))
+        if (!meets(a, b) || torn_apart(surface_.triangles[s], surface_.triangles[t]))
             continue;
         ++count;
         if (bodies.empty())

@@ -7,6 +7,7 @@
 #include "taut/report/report.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ public:
     /// After so many frames: looks at the last one and fifteen before it, at all of few triangles, at those
     /// in which the guarantee was pinched, and each time at which surfaces passed through others since the
     /// frame before. One that hangs together cannot pass through itself without a triangle in another one
-    /// that stays, so that is left to the looks.
+    /// that stays, so that is left to the looks. Triangles that had a common vertex before cloth came apart
+    /// there are not looked at: they go on touching.
     void after(std::uint64_t frame);
 
     /// Adds what was seen: crossings make a run `unconverged`, pairs that no list held are a message.
@@ -33,12 +35,14 @@ private:
     bool meets_passing(const judging::Passing& passing) const;
     void learn_surfaces();
     bool meets(std::uint32_t a, std::uint32_t b) const;
+    bool torn_apart(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) const;
 
     const Simulation& simulation_;
     std::uint64_t frames_;
     bool wanted_, guarded_;
     judging::Surface surface_;
     std::vector<std::uint32_t> body_;     ///< per vertex
+    std::vector<std::uint32_t> untorn_;   ///< per vertex: the first one that rests in the same place
     std::size_t at_start_ = 0, most_ = 0; ///< pairs of triangles
     std::uint64_t most_frame_ = 0;
     std::uint64_t pinched_ = 0; ///< as the simulation counted before

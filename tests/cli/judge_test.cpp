@@ -116,6 +116,36 @@ TEST_CASE("a run whose surfaces were to meet and cross is unconverged, and says 
                    Contains("did you mean \"default\""));
 }
 
+TEST_CASE("cloth that comes apart touches itself there and is sound; what goes through it is seen")
+{
+    const Folder folder;
+    const auto end = [&](double height, double speed) {
+        nlohmann::json scene = nlohmann::json::parse(R"({"taut": 1, "duration": 0.8,
+            "method": {"type": "xpbd", "substeps": 40}, "contact": {"friction": 0.3, "sweeps": 6}, "bodies": [
+            {"grid": {"cells": [12, 12], "size": [0.4, 0.4]}, "contact": {"self": true},
+             "material": {"density": 0.2, "stretch_stiffness": 300, "bending_stiffness": 1e-5,
+                          "thickness": 0.003, "tear_strain": 0.2},
+             "transform": {"rotate": {"axis": [1, 0, 0], "degrees": -90}}, "pins": [
+             {"edges": ["left"], "motion": [{"time": 0}, {"time": 1, "translate": [-0.08, -0.02, 0]}]},
+             {"edges": ["right"], "motion": [{"time": 0}, {"time": 1, "translate": [0.08, -0.02, 0]}]}]},
+            {"grid": {"cells": [6, 6], "size": [0.15, 0.15]},
+             "material": {"density": 0.2, "thickness": 0.003, "bending_stiffness": 1e-5},
+             "transform": {"rotate": {"axis": [1, 0, 0], "degrees": -90}}}]})");
+        scene["bodies"][1]["transform"]["translate"] = {0, height, 0};
+        scene["bodies"][1]["velocity"] = {0, -speed, 0};
+        folder.file("torn.json", scene.dump());
+        return program::parse(
+            folder.taut({"run", "torn.json", "--device", "cpu:serial", "--no-picture", "--json"}).out);
+    };
+    const auto lies = end(0.02, 0);
+    CHECK(lies["torn"].get<int>() > 10);
+    CHECK(lies["status"] == "completed");
+    const auto shot = end(33, 60); // arrives when it has been torn
+    CHECK(shot["torn"].get<int>() > 10);
+    CHECK(shot["status"] == "unconverged");
+    CHECK_THAT(shot["reason"].get<std::string>(), Contains("through each other"));
+}
+
 TEST_CASE("a sheet that is through another one within a frame is seen, though no frame shows it")
 {
     const Folder folder;

@@ -73,3 +73,14 @@ TEST_CASE("suite 35: rollers draw a soft ball through a gap of half its width")
     CHECK(lowest_of_ball(still) > 0);
     CHECK(lowest_of_ball(smooth) > 0);
 }
+
+TEST_CASE("suite 33: a cloth is pushed through a funnel and crosses nothing")
+{
+    JudgedRun run(suite("33_funnel"));
+    run.run(0.5);
+    CHECK(lowest(run.body(1)) > -0.15); // the funnel holds what the ball has not pushed down yet
+    run.run(1.1);
+    CHECK(highest(run.body(1)) < -0.21);
+    CHECK(run.intersected == 0);
+    CHECK(run.world.contacts().pinched == 0);
+}
