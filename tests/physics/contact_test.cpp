@@ -305,9 +305,9 @@ TEST_CASE("a state with contact goes on bit for bit")
     CHECK(measure(one).position_hash == measure(other).position_hash);
 }
 
-TEST_CASE("worlds that divide bodies, or let them sleep, refuse those that meet")
+TEST_CASE("worlds that divide bodies refuse those that meet, and those that let them sleep the guarantee")
 {
-    const Scene scene = two_sheets(0.01);
+    Scene scene = two_sheets(0.01);
     const auto device = test_device("cpu:serial");
     const auto refusal = [](auto make) -> std::string {
         try
@@ -322,9 +322,11 @@ TEST_CASE("worlds that divide bodies, or let them sleep, refuse those that meet"
     };
     CHECK_THAT(refusal([&] { HybridWorld(resolve(scene), device, test_device("cpu")); }),
                Contains("hybrid") && Contains("leave contact out"));
-    CHECK_THAT(refusal([&] { SleepWorld(resolve(scene), device); }), Contains("cannot sleep"));
     CHECK_THAT(refusal([&] { SplitWorld(resolve(scene), device, test_device("cpu")); }),
                Contains("cannot be cut") && Contains("leave contact out"));
+    CHECK(refusal([&] { SleepWorld(resolve(scene), device); }).empty());
+    scene.contact.guarantee = Guarantee::no_crossing;
+    CHECK_THAT(refusal([&] { SleepWorld(resolve(scene), device); }), Contains("contact.guarantee"));
 }
 
 TEST_CASE("the napkin of the example lands on the hammock without a triangle in another")
