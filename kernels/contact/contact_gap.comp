@@ -2,9 +2,10 @@
 //
 //   gap = n . sum b_k (x_k + d_k), n from the second to the first,   C = gap - allowed;
 //
-// a pair with C < 0 is active, and counts at each corner that its weights b touch. The side is kept: where
-// the way between the two turns round while the nearest points lie within, they have passed through each
-// other, and the gap is negative. At the first sweep of a substep the allowed gap is set:
+// a pair with C < 0, or one that pushes already, is active, and counts at each corner that its weights b
+// touch. The side is kept: where the way between the two turns round while the nearest points lie within,
+// they have passed through each other, and the gap is negative. At the first sweep of a substep the allowed
+// gap is set:
 //
 //   allowed = min(rest gap, gap at the start of the substep + depenetration).
 //
@@ -12,7 +13,7 @@
 // Departures: nearest points and normal are found anew in every sweep; the gap at the start is taken along
 //   the normal of the first sweep, with its weights. Edges only count while neither end is nearest: there a
 //   vertex and a triangle are as near.
-// Bytes per pair: 20 + 32 + 32 a corner read, 16 + 32 written (float).
+// Bytes per pair: 20 + 32 + 32 a corner read, 16 + 32 written, 16 read anew (float).
 //! lanes
 #include "shared/portable.glsl"
 #include "shared/layouts.h"
@@ -31,7 +32,9 @@ READ(2, rvec4, delta);    // m, since the start of the substep
 READ_ONE(3, StepValues, step_values);
 READ(4, uint, control);
 UPDATE(5, rvec4, side); // both rows of a ContactSide
-WRITE(6, rvec4, row); // two a pair: the weights of its corners, 0 if it is not active; slip m, w = C m
+// Two a pair: the weights of its corners, 0 if it is not active; slip m, w = C m. Before: w = y, as
+// contact_push left it.
+UPDATE(6, rvec4, row);
 COUNTERS(7, acting); // pairs at each vertex
 
 KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
@@ -61,11 +64,16 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
         allowed = min(real(rest.x), (gap - dot(normal, slip)) + step_values[0].depenetration);
     }
     real value = gap - allowed;
+    rvec4 left = row[2u * i + 1u];
+    real ahead = left.w;
+    if (first_sweep != 0u)
+        ahead = real(0);
     real m0 = x0.w * now.weight_a * now.weight_a;
     real m1 = x1.w * now.weight_b * now.weight_b;
     real m2 = x2.w * now.weight_c * now.weight_c;
     real m3 = x3.w * now.weight_d * now.weight_d;
-    rbool acts = value < real(0) && (m0 + m1) + (m2 + m3) > real(0) && (!edges || now.inside);
+    rbool wanted = value < real(0) || ahead > real(0);
+    rbool acts = wanted && (m0 + m1) + (m2 + m3) > real(0) && (!edges || now.inside);
     real wa = SELECT(acts, now.weight_a, real(0));
     real wb = SELECT(acts, now.weight_b, real(0));
     real wc = SELECT(acts, now.weight_c, real(0));

@@ -247,7 +247,4 @@ struct Effect
 /// The table, in the order of a step. An effect that a scene does not call for adds nothing.
 std::span<const Effect> effect_table();
 
-/// The passes of all colliders of the scene, as Stage::contact records them.
-void record_colliders(PlanBuilder&, const Moment&);
-
 } // namespace taut

@@ -2,7 +2,7 @@
 
 #include "taut/kernels/collide_distance_field.hpp"
 #include "taut/plan/collider_shapes.hpp"
-#include "taut/plan/faces.hpp"
+#include "taut/plan/contact_scene.hpp"
 
 #include <algorithm>
 #include <string>
@@ -16,6 +16,13 @@ bool wanted(const Scene& scene)
 {
     return has_bodies(scene) && std::any_of(scene.colliders.begin(), scene.colliders.end(),
                                             [](const Collider& c) { return c.kind == Kind; });
+}
+
+/// Whether colliders push between the sweeps of contact, too: what lies on cloth on a collider is carried
+/// through both.
+bool push_within_contact(const PlanBuilder& b)
+{
+    return wants_contact(b.scene) && b.scene.contact.sweeps > 1;
 }
 
 bool has_friction(const Scene& scene, ColliderKind kind)
@@ -45,7 +52,7 @@ void prepare(PlanBuilder& b)
 }
 
 /// Kernels of all shapes have one interface; that with values is the widest.
-void record(PlanBuilder& b, const Moment& moment, ColliderKind kind)
+void record(PlanBuilder& b, const Moment& moment, const ColliderPush& push, ColliderKind kind)
 {
     const auto row = static_cast<std::size_t>(kind);
     const std::uint32_t colliders = collider_count(b.scene, kind);
@@ -61,15 +68,16 @@ void record(PlanBuilder& b, const Moment& moment, ColliderKind kind)
     const std::string_view variant = !b.friction[row] ? "" : kept ? "friction_kept" : "friction";
     b.dispatch_by_name(
         collider_shape(kind).name, collider_shape(kind).kernel, variant, uses,
-        {b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, moment.iteration == 0, moment.last},
+        {b.plan.vertex_count, colliders, moment.substep, b.plan.substeps, push.first, push.report},
         b.plan.vertex_count);
-    record_faces(b, moment, kind);
+    record_faces(b, moment, push, kind);
 }
 
 template <ColliderKind Kind>
 void record_kind(PlanBuilder& b, const Moment& moment)
 {
-    record(b, moment, Kind);
+    const bool first = moment.iteration == 0 && !push_within_contact(b);
+    record(b, moment, {first, moment.last, kFaceSweeps}, Kind);
 }
 
 template <std::size_t... Kinds>
@@ -105,18 +113,20 @@ void prepare_friction(PlanBuilder& b)
     {
         const auto kind = static_cast<ColliderKind>(row);
         b.friction[row] = has_friction(b.scene, kind);
-        if (b.friction[row] && b.plan.iterations > 1 && b.method.contact_each_iteration)
+        const bool often =
+            (b.plan.iterations > 1 && b.method.contact_each_iteration) || push_within_contact(b);
+        if (b.friction[row] && often)
             b.friction_taken[row] = b.add_buffer(
                 "friction", std::string(collider_shape(kind).name) + " friction",
                 std::uint64_t(collider_count(b.scene, kind)) * b.plan.vertex_count * 4 * b.real_size());
     }
 }
 
-void record_colliders(PlanBuilder& b, const Moment& moment)
+void record_colliders(PlanBuilder& b, const Moment& moment, const ColliderPush& push)
 {
     for (std::size_t row = 0; row < kColliderKinds; ++row)
         if (b.plan.colliders[row] != kNoBuffer)
-            record(b, moment, static_cast<ColliderKind>(row));
+            record(b, moment, push, static_cast<ColliderKind>(row));
 }
 
 } // namespace taut

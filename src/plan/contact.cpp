@@ -21,6 +21,7 @@
 #include "taut/kernels/contact_stray.hpp"
 #include "taut/kernels/contact_wake.hpp"
 #include "taut/kernels/shared/contact_rows.h"
+#include "taut/plan/colliders.hpp"
 #include "taut/plan/contact_patch.hpp"
 #include "taut/plan/contact_scene.hpp"
 #include "taut/plan/contact_tree.hpp"
@@ -134,7 +135,7 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
                           (guarded ? TAUT_CONTACT_GUARDED_LOST_WORDS : TAUT_CONTACT_LOST_WORDS) * word);
     c.pair = b.add_buffer(kContactEffect, "pairs", pairs * sizeof(layout::ContactPair<float>));
     c.row = b.add_buffer(kContactEffect, "weights of pairs", pairs * 8 * real);
-    c.taken = b.add_buffer(kContactEffect, "multipliers of pairs", pairs * 4 * real);
+    c.taken = b.add_buffer(kContactEffect, "multipliers of pairs", pairs * 8 * real);
     c.impulse = b.add_buffer(kContactEffect, "impulses of pairs", pairs * 4 * real);
     c.corners = b.add_buffer(kContactEffect, "corners at vertices", vertices * word);
     c.placed = b.add_buffer(kContactEffect, "corners placed", vertices * word);
@@ -303,7 +304,8 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     gated(b, "keep", keep, {vertices, c.every, c.stray}, vertices, TAUT_CONTACT_GATE_VERTICES);
 }
 
-void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
+/// The `k`th sweep of an iteration, the first of its substep or not.
+void record_sweep(PlanBuilder& b, const ContactBuffers& c, std::uint32_t k, bool first)
 {
     const kernels::contact_gap::Bindings<Use> gap = {.pair = {c.pair},
                                                      .position = {b.plan.position, 4},
@@ -311,18 +313,20 @@ void record_sweep(PlanBuilder& b, const ContactBuffers& c, bool first)
                                                      .step_values = {b.plan.step_values, 0},
                                                      .control = {c.control, 0},
                                                      .side = {c.side},
-                                                     .row = {c.row, 2},
+                                                     .row = {c.row},
                                                      .acting = {c.active, 4}};
     gated(b, "", gap, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
     const kernels::contact_push::Bindings<Use> push = {.pair = {c.pair},
                                                        .position = {b.plan.position, 4},
                                                        .control = {c.control, 0},
                                                        .side = {c.side},
-                                                       .row = {c.row, 2},
+                                                       .row = {c.row},
                                                        .acting = {c.active, 4},
                                                        .taken = {c.taken},
                                                        .impulse = {c.impulse}};
-    gated(b, "", push, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
+    const float momentum =
+        k + 1 < b.scene.contact.sweeps ? static_cast<float>(k) / static_cast<float>(k + 3) : 0.0f;
+    gated(b, "", push, {c.capacity, first, momentum}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
     const kernels::contact_move::Bindings<Use> move = {.start = {c.corner_start, 2},
                                                        .corner = {c.corner},
                                                        .row = {c.row},
@@ -376,7 +380,12 @@ void record_contact_search(PlanBuilder& b, const Moment&)
 void record_contact(PlanBuilder& b, const Moment& moment)
 {
     for (std::uint32_t k = 0; k < b.scene.contact.sweeps; ++k)
-        record_sweep(b, *b.contact, moment.iteration == 0 && k == 0);
+    {
+        const bool first = moment.iteration == 0 && k == 0;
+        record_sweep(b, *b.contact, k, first);
+        if (k + 1 < b.scene.contact.sweeps) // the last push is that of Stage::contact
+            record_colliders(b, moment, {first, false, 1});
+    }
 }
 
 } // namespace taut

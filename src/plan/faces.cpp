@@ -13,10 +13,6 @@
 namespace taut {
 namespace {
 
-/// Means of pushes that were found at once are less than what each triangle needs. docs/contact.md,
-/// "Colliders and triangles", has what fewer and more of them leave.
-constexpr std::uint32_t kFaceSweeps = 4;
-
 /// The triangles that meet any collider of a kind, as kernels/collide/face.comp reads them.
 struct FaceLists
 {
@@ -107,7 +103,7 @@ void prepare_faces(PlanBuilder& b, ColliderKind kind)
     f.incident = b.add_buffer<std::uint32_t>(effect, "corners at a vertex", at.entries);
 }
 
-void record_faces(PlanBuilder& b, const Moment& moment, ColliderKind kind)
+void record_faces(PlanBuilder& b, const Moment& moment, const ColliderPush& way, ColliderKind kind)
 {
     const FaceBuffers& f = b.faces[static_cast<std::size_t>(kind)];
     if (f.triangles == 0)
@@ -128,9 +124,9 @@ void record_faces(PlanBuilder& b, const Moment& moment, ColliderKind kind)
                                                     .state = {f.state, 6},
                                                     .delta = {b.plan.delta},
                                                     .near = {f.near}};
-    for (std::uint32_t sweep = 0; sweep < kFaceSweeps; ++sweep)
+    for (std::uint32_t sweep = 0; sweep < way.face_sweeps; ++sweep)
     {
-        const bool first = moment.iteration == 0 && sweep == 0, look = first && moment.substep == 0;
+        const bool first = way.first && sweep == 0, look = first && moment.substep == 0;
         b.dispatch_by_name(name, "face_" + name, "", push,
                            {f.triangles, collider_count(b.scene, kind), f.listed, moment.substep,
                             b.plan.substeps, look, first, sweep > 0},

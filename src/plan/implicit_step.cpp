@@ -20,6 +20,7 @@
 #include "taut/kernels/implicit_trial.hpp"
 #include "taut/kernels/implicit_update.hpp"
 #include "taut/kernels/vbd_mark.hpp"
+#include "taut/plan/colliders.hpp"
 
 #define TAUT_HOST
 #include "taut/kernels/shared/layouts.h"
@@ -143,16 +144,14 @@ void record_hold(PlanBuilder& b, const ImplicitEuler& m, bool first)
 }
 
 /// Colliders push between two Newton steps, so that the next one knows what they carry.
-void record_push(PlanBuilder& b, const ImplicitEuler& m, Moment moment)
+void record_push(PlanBuilder& b, const ImplicitEuler& m, const Moment& moment)
 {
     if (m.before == kNoBuffer || moment.iteration + 1 == b.plan.iterations)
         return;
     const std::uint32_t n = b.plan.vertex_count;
     const kernels::vbd_mark::Bindings<Use> uses = {.delta = {b.plan.delta}, .solved = {m.before}};
     b.dispatch(kImplicitEuler, "", uses, {n}, n);
-    moment.iteration = 0; // friction knows of one push at a time
-    moment.last = false;
-    record_colliders(b, moment);
+    record_colliders(b, moment, {.first = true}); // friction knows of one push at a time
 }
 
 /// Where passes of trials begin and the last ends: a step that is taken whole pays for one trial, one that is

@@ -4,7 +4,10 @@
 #include "taut/scene/checker.hpp"
 #include "taut/scene/scene.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 namespace taut {
 namespace {
@@ -22,16 +25,39 @@ bool meets_another(const Scene& scene, const Body& body)
            });
 }
 
+/// m^3, of its tetrahedra.
+double rest_volume(const Body& body)
+{
+    double six = 0;
+    const auto& x = body.mesh.positions;
+    for (const auto& t : body.mesh.tetrahedra)
+        six += std::abs(glm::dot(x[t[1]] - x[t[0]], glm::cross(x[t[2]] - x[t[0]], x[t[3]] - x[t[0]])));
+    return six / 6;
+}
+
+bool is_cloth(const Body& body)
+{
+    return body.mesh.tetrahedra.empty() && !body.mesh.triangles.empty() && !body.kinematic.used;
+}
+
 } // namespace
 
 std::uint32_t automatic_sweeps(const Scene& scene)
 {
-    constexpr std::uint32_t kOfCloth = 2, kOfSolids = 8;
-    const bool solid = std::ranges::any_of(scene.bodies, [&](const Body& body) {
-        return !body.mesh.tetrahedra.empty() && !body.kinematic.used &&
-               (body.contact.self || meets_another(scene, body));
-    });
-    return solid ? kOfSolids : kOfCloth;
+    constexpr double kOfCloth = 2, kOfSolids = 8, kMost = 100;
+    double sweeps = kOfCloth;
+    for (const Body& body : scene.bodies)
+    {
+        if (body.mesh.tetrahedra.empty() || body.kinematic.used ||
+            !(body.contact.self || meets_another(scene, body)))
+            continue;
+        sweeps = std::max(sweeps, kOfSolids);
+        const double lies = body.material.density * std::cbrt(rest_volume(body));
+        for (const Body& cloth : scene.bodies)
+            if (is_cloth(cloth) && scene.contact.between && !pass_through(body.contact, cloth.contact))
+                sweeps = std::max(sweeps, std::ceil(2 * std::sqrt(lies / cloth.material.density)));
+    }
+    return static_cast<std::uint32_t>(std::min(sweeps, kMost));
 }
 
 bool pass_through(const BodyContact& a, const BodyContact& b)

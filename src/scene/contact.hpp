@@ -46,9 +46,10 @@ inline constexpr std::size_t kMostContactGroups = 32;
 bool pass_through(const BodyContact& a, const BodyContact& b);
 
 struct Scene;
-/// SceneContact::sweeps of a resolved scene that names none: 8 where a solid can meet something, else 2. The
-/// weight of a solid lies on few vertices, each in many pairs: with 2 sweeps and the least substeps cubes of
-/// 1 MPa that hit each other at 3 m/s went through each other (docs/contact.md).
+/// SceneContact::sweeps of a resolved scene that names none: 2; 8 where a solid can meet something; where it
+/// can meet cloth 2 sqrt(its mass by area / the cloth's), 8 to 100. The weight of a solid lies on few
+/// vertices, each in many pairs, and cloth under it carries that with next to no mass (docs/contact.md, "How
+/// many sweeps").
 std::uint32_t automatic_sweeps(const Scene& resolved);
 
 } // namespace taut

@@ -123,7 +123,9 @@ constexpr Key kContact[] = {
                                          "stacks of many layers")
         .range(1, 100)
         .or_word("automatic", 0)
-        .usually("\"automatic\": 8 where a solid that is not led can meet another body or itself, else 2"),
+        .usually("\"automatic\": 8 where a solid that is not led can meet another body or itself, up to 100 "
+                 "where it "
+                 "may meet light cloth ([rule](contact.md#what-it-does)), else 2"),
     key<&SceneContact::guarantee>("guarantee", "\"no_crossing\": surfaces that meet, and do not cross at the "
                                                "start, never do ([the guarantee](contact.md#the-guarantee))"),
 };

@@ -35,10 +35,10 @@ void add_sides(Device& device, const BufferPtr& side, const BufferPtr& taken, do
 {
     const auto count = static_cast<std::uint32_t>(pairs.size());
     const auto sides = device.read<layout::ContactSide<Real>>(side, count);
-    const auto multipliers = device.read<glm::vec<4, Real>>(taken, count);
+    const auto multipliers = device.read<glm::vec<4, Real>>(taken, 2 * count);
     for (std::uint32_t k = 0; k < count; ++k)
     {
-        const glm::dvec4 force = glm::dvec4(multipliers[k]) / (substep * substep);
+        const glm::dvec4 force = glm::dvec4(multipliers[2 * k]) / (substep * substep);
         pairs[k].rest_gap = static_cast<double>(sides[k].rest_gap);
         pairs[k].normal = {sides[k].normal_x, sides[k].normal_y, sides[k].normal_z};
         pairs[k].push = force.w;

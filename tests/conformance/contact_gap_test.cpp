@@ -42,7 +42,7 @@ layout::ContactPair<Real> near_pair(ContactNet<Real>& net, Random& random)
 
 template <typename Real>
 Gap gap_of(const ContactNet<Real>& net, const layout::ContactPair<Real>& p,
-           const layout::ContactSide<Real>& s, bool first)
+           const layout::ContactSide<Real>& s, bool first, double ahead)
 {
     const bool edges = p.kind == TAUT_CONTACT_EDGES;
     const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v) + net.d(v); });
@@ -63,8 +63,9 @@ Gap gap_of(const ContactNet<Real>& net, const layout::ContactPair<Real>& p,
     const double rest = static_cast<double>(s.rest_gap), before = gap - glm::dot(out.normal, out.slip);
     out.allowed = first ? std::min(rest, before + kWayOut) : static_cast<double>(s.allowed);
     out.value = gap - out.allowed;
-    out.clear = out.clear && std::abs(out.value) > 1e-4;
-    const bool acts = out.value < 0 && masses > 0 && (!edges || inside);
+    const bool pushes = !first && ahead > 0;
+    out.clear = out.clear && (pushes || std::abs(out.value) > 1e-4);
+    const bool acts = (out.value < 0 || pushes) && masses > 0 && (!edges || inside);
     if (acts)
         out.weight = now.weight;
     return out;
@@ -95,6 +96,9 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         sides.push_back({static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), gap, gap,
                          Real(0.4), Real(0), Real(0)});
     }
+    std::vector<Vec> left(2 * (count + 2), Vec(3)); // of the sweep before: w of the second, its push ahead
+    for (std::uint32_t k = 0; k < count; ++k)
+        left[2 * k + 1].w = random.chance(0.5) ? Real(0) : random.uniform<Real>(0, 1);
     layout::StepValues<Real> step{};
     step.depenetration = static_cast<Real>(kWayOut);
     Case c;
@@ -105,7 +109,7 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
             {"step_values", bytes_of(std::vector{step})},
             {"control", bytes_of(control_of(count))},
             {"side", bytes_of(sides)},
-            {"row", bytes_of(std::vector<Vec>(2 * (count + 2), Vec(3)))},
+            {"row", bytes_of(left)},
             {"acting", bytes_of(std::vector<std::uint32_t>(net.position.size(), 0))}};
     c.launches = {make_launch(kernels::contact_gap::info("", c.precision),
                               kernels::contact_gap::Params{count + 2, first}, count + 2)};
@@ -123,7 +127,7 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
                 row.add(3, 0);
             continue;
         }
-        const Gap want = gap_of(net, pairs[k], sides[k], first);
+        const Gap want = gap_of(net, pairs[k], sides[k], first, static_cast<double>(left[2 * k + 1].w));
         const double blur = want.clear ? 1 + 4 / std::abs(want.value + want.allowed) : kAnyFinite;
         for (int axis = 0; axis < 3; ++axis)
             side.add(want.normal[axis], blur);

@@ -169,7 +169,15 @@ TEST_CASE("cloth tears and constraints act where the golden scenes are about tha
         return world;
     };
     CHECK(after("tear").torn() > 0);
-    CHECK(after("contact").contacts().pairs > 0);
+    World folds(golden::scenes().at("contact"), device);
+    std::size_t steps_met = 0;
+    for (int i = 0; i < kSteps; ++i)
+    {
+        folds.step();
+        steps_met += folds.contacts().pairs > 0 ? 1 : 0;
+    }
+    CAPTURE(steps_met);
+    CHECK(steps_met > kSteps / 2);
     CHECK(after("guarded").contacts().filtered > 0);
     for (const std::string name : {"acad", "acad_compress"})
     {

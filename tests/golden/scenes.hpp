@@ -216,6 +216,28 @@ inline Scene solids_meet()
     return scene;
 }
 
+/// A block that slides on a cloth on a plane: as many sweeps as that takes by itself, with their momentum.
+inline Scene laden()
+{
+    Scene scene = solids_meet();
+    Body block = scene.bodies[1], below = scene.bodies[2];
+    below.material.density = 0.5;
+    below.transform.translate = {0.25, 0.015625, 0};
+    below.transform.rotate_axis = {1, 0, 0};
+    below.transform.rotate_degrees = 90;
+    block.transform.translate = {0.25, 0.1875, 0.0625};
+    block.velocity = {1, -0.5, 0};
+    scene.bodies = {block, below};
+    Collider plane;
+    plane.kind = ColliderKind::plane;
+    plane.friction = 0.0625;
+    scene.colliders = {plane};
+    scene.contact.friction = 0.0625;
+    scene.contact.sweeps = 16;
+    scene.method.substeps = 12;
+    return scene;
+}
+
 /// A weak cloth, held at its top, tears under a heavy row at its end.
 inline Scene tear()
 {
@@ -255,6 +277,7 @@ inline std::map<std::string, Scene> scenes()
                                      {"guarded_mass_spring", guarded_by("mass_spring")},
                                      {"guarded_implicit_constraints", guarded_by("implicit_constraints")},
                                      {"solids_meet", solids_meet()},
+                                     {"laden", laden()},
                                      {"jelly", jelly("xpbd", "tetrahedra")},
                                      {"hanging", hanging()},
                                      {"drape", drape()},

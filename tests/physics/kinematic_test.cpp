@@ -74,6 +74,10 @@ TEST_CASE("cloth turns with a kinematic body that turns, by friction alone")
 {
     Scene scene = cloth_on_box();
     scene.bodies[0].kinematic.motion = {{0.5}, {2.5, {0, 0, 0}, {0, 1, 0}, 90}};
+    // Normals that coarse steps leave slanted turn cloth, too: by 0.005 to 0.05 with 15 substeps, whatever
+    // the sweeps.
+    scene.method.substeps = 60;
+    scene.contact.sweeps = 16;
     const auto turned = [&](double friction) {
         scene.contact.friction = friction;
         World world(scene, test_device("cpu:serial"));

@@ -1,9 +1,9 @@
 #!/bin/sh
-# Writes docs/results/contact/*.csv and the tables of docs/results/contact.md anew: about twenty-five minutes on one core.
+# Writes docs/results/contact/*.csv and the tables of docs/results/contact.md anew: about half an hour on one core.
 #
-#   docs/results/contact/update.sh build/release/taut [NAME...]     stack, stages, led; all without
+#   docs/results/contact/update.sh build/release/taut [NAME...]     stack, laden, stages, led; all without
 set -eu
-[ $# -ge 1 ] || { echo "usage: $0 PROGRAM (the built taut) [stack] [stages] [led]" >&2; exit 2; }
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM (the built taut) [stack] [laden] [stages] [led]" >&2; exit 2; }
 program=$(realpath "$1")
 shift
 cd "$(dirname "$0")/../../.."
@@ -11,7 +11,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 . docs/put.sh
 page=docs/results/contact.md tables=docs/results/contact
-[ $# -gt 0 ] || set -- stack stages led
+[ $# -gt 0 ] || set -- stack laden stages led
 
 # stack_scene LAYERS: sheets of 15 cm, 5 cells a side and 4.5 g each, that begin on each other on a plate.
 stack_scene()
@@ -84,6 +84,46 @@ stack()
     done
 }
 
+# laden_scene FLOOR DENSITY HEIGHT: a box of 10 cm whose middle is so high above a cloth of 0.4 m, 0.2 kg/m^2 on a
+# mesh that is led or on a plane.
+laden_scene()
+{
+    case $1 in
+        mesh) under='{"grid": {"cells": [6, 6], "size": [2, 2]}, "material": {"thickness": 0.003}, "kinematic": {},
+ "transform": {"rotate": {"axis": [1, 0, 0], "degrees": -90}}},' collider= ;;
+        plane) under='' collider='"colliders": [{"plane": {}, "friction": 0.4}], ' ;;
+    esac
+    cat << END
+{"taut": 1, "duration": 0.8, "contact": {"friction": 0.4}, $collider"bodies": [$under
+{"grid": {"cells": [12, 12], "size": [0.4, 0.4]}, "contact": {"self": true},
+ "material": {"density": 0.2, "thickness": 0.003, "bending_stiffness": 0.0001},
+ "transform": {"translate": [0.02, 0.01, 0.01], "rotate": {"axis": [1, 0, 0], "degrees": -90}}},
+{"box": {"cells": [4, 4, 4], "size": [0.1, 0.1, 0.1]}, "transform": {"translate": [0, $3, 0]},
+ "material": {"density": $2, "youngs_modulus": 200000, "poissons_ratio": 0.3, "thickness": 0.003}}]}
+END
+}
+
+# laden: what a run with default settings says where solids fall onto cloth that lies on something; and with 8 sweeps.
+laden()
+{
+    echo "floor,kg/m3,fall cm,xpbd,vbd,implicit_euler,xpbd 8,vbd 8,implicit_euler 8"
+    for floor in mesh plane; do
+        for density in 50 500 2000 8000; do
+            for fall in 0.9 23; do
+                laden_scene $floor $density "$(awk -v fall=$fall 'BEGIN { print 0.066 + fall / 100 }')" > "$scratch/laden.json"
+                row=$floor,$density,$fall
+                for sweeps in automatic 8; do
+                    for method in xpbd vbd implicit_euler; do
+                        run "$scratch/laden.json" method.type=$method contact.sweeps=$sweeps
+                        row=$row,$(field status)
+                    done
+                done
+                echo "$row"
+            done
+        done
+    done
+}
+
 # stages: what of the time of a step goes into contact, into the guarantee and into all else, %.
 stages()
 {
@@ -149,6 +189,7 @@ led()
 for name in "$@"; do
     case $name in
         stack) stack > "$scratch/$name.csv" ;;
+        laden) laden > "$scratch/$name.csv" ;;
         stages) stages > "$scratch/$name.csv" ;;
         led) led > "$scratch/$name.csv" ;;
         *) echo "$0: no table is called $name" >&2; exit 2 ;;
