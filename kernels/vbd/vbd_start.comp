@@ -2,8 +2,8 @@
 //
 // Based on: Chen, Liu, Yang, Yuksel. Vertex Block Descent. SIGGRAPH 2024, section 3.7 (adaptive start:
 //   gravity by the share of it that the last acceleration showed).
-// Departures: the share is 1 at first, in a body that nothing holds or touches, and in a body that has just
-//   lost a contact: a few iterations could not make a stiff body fall that starts where it was.
+// Departures: the share is 1 at first, in a body that nothing holds and no collider touches, and in a body
+//   that has just lost a contact: a few iterations could not make a stiff body fall that starts where it was.
 // Bytes per element: 48 read, 32 written; adaptive 4 more, contact 16 more (float).
 //! variant adaptive ADAPTIVE=1
 //! variant contact ADAPTIVE=1 CONTACT=1

@@ -234,9 +234,11 @@ constexpr Effect kEffectsBefore[] = {
     {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_end, kVbd},
     {"strain_limit", Stage::contact, wants_strain_limit, prepare_strain_limit, record_strain_limit},
     {"attachment", Stage::contact, wants_attachment, prepare_attachment, record_attachment},
-    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_mark, kVbd},
     {"momentum", Stage::contact, wants_momentum, prepare_momentum, record_momentum_end, kDescents},
     {"contact", Stage::contact, wants_contact, nullptr, record_contact},
+    // After the pushes of surfaces: a body that only they carry starts as one that falls, and weighs all it
+    // does.
+    {"vbd_start", Stage::contact, any_blocks, nullptr, record_vbd_mark, kVbd},
     {"friction", Stage::contact, wants_friction, prepare_friction, nullptr}, // a variant of the passes below
 };
 

@@ -110,8 +110,7 @@ TEST_CASE("a block that drops onto cloth on a floor lies on it, and crosses neit
     CHECK(middle < bottom + kSize / 2 + 0.001);
     const std::size_t cloth = on_mesh ? 1 : 0;
     const double weight = mass_of(world.scene().bodies[cloth + 1]) * kGravity;
-    if (method != "vbd") // docs/contact.md, "Limits"
-        CHECK(pressed(world, cloth, cloth + 1) == Approx(weight).epsilon(0.05));
+    CHECK(pressed(world, cloth, cloth + 1) == Approx(weight).epsilon(0.02));
 }
 
 TEST_CASE("sweeps that nobody names follow from what a solid weighs on the lightest cloth that it may meet")

@@ -70,7 +70,7 @@ std::pair<glm::dvec3, glm::dvec3> momenta(const World& world)
 
 TEST_CASE("a stack of solids stands, and each carries what lies above it")
 {
-    const std::string method = GENERATE("xpbd", "implicit_euler");
+    const std::string method = GENERATE("xpbd", "vbd", "implicit_euler");
     const double modulus = GENERATE(2e5, 1e7);
     CAPTURE(method, modulus);
     World world(test::under(stack(3, modulus), method), test_device("cpu:serial"));
