@@ -48,6 +48,10 @@ function claims()
           about(lowest("16 80 2"), "0.89") && about(lowest("50 80 2"), "17") \
           && lowest("16 80 2") > 10 * lowest("16 20 8") \
           && among(v("stack", "16 80 2", "step ms") / v("stack", "16 20 8", "step ms"), 0.8, 1.2))
+    claim("creep by 3.6 to 9.1 mm in these 20 s with up to 16 sweeps", about(v("creep", "4", "creep mm"), "3.6") \
+          && about(v("creep", "8", "creep mm"), "9.1") && among(v("creep", "2", "creep mm"), 3.6, 9.1) \
+          && among(v("creep", "16", "creep mm"), 3.6, 9.1))
+    claim("by less than 0.001 mm with 24 and 32", v("creep", "24", "creep mm") < 0.001 && v("creep", "32", "creep mm") < 0.001)
     claim("With default settings 45 of 48 runs end as `completed`, all but that of 8,000 kg/m³ that fall 23 cm onto the mesh",
           laden("", "", "completed") == 45 && text_of("laden", "mesh 8000 23", "xpbd") == "unconverged" \
           && text_of("laden", "mesh 8000 23", "vbd") == "unconverged" \

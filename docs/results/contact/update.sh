@@ -1,9 +1,9 @@
 #!/bin/sh
 # Writes docs/results/contact/*.csv and the tables of docs/results/contact.md anew: about half an hour on one core.
 #
-#   docs/results/contact/update.sh build/release/taut [NAME...]     stack, laden, stages, led; all without
+#   docs/results/contact/update.sh build/release/taut [NAME...]     stack, creep, laden, stages, led; all without
 set -eu
-[ $# -ge 1 ] || { echo "usage: $0 PROGRAM (the built taut) [stack] [laden] [stages] [led]" >&2; exit 2; }
+[ $# -ge 1 ] || { echo "usage: $0 PROGRAM (the built taut) [stack] [creep] [laden] [stages] [led]" >&2; exit 2; }
 program=$(realpath "$1")
 shift
 cd "$(dirname "$0")/../../.."
@@ -11,7 +11,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 . docs/put.sh
 page=docs/results/contact.md tables=docs/results/contact
-[ $# -gt 0 ] || set -- stack laden stages led
+[ $# -gt 0 ] || set -- stack creep laden stages led
 
 # stack_scene LAYERS: sheets of 15 cm, 5 cells a side and 4.5 g each, that begin on each other on a plate.
 stack_scene()
@@ -81,6 +81,25 @@ stack()
             run "$scratch/stack.json" "method.substeps=$substeps" "contact.sweeps=$sweeps"
             echo "$layers,$substeps,$sweeps,$(pushed $layers)"
         done
+    done
+}
+
+# creep: how far any vertex of four layers at rest is after 30 s from where it was after 10 s.
+creep()
+{
+    echo "sweeps,creep mm"
+    stack_scene 4 | sed 's/"duration": 0.5/"duration": 30/' > "$scratch/creep.json"
+    for sweeps in 2 4 8 16 24 32; do
+        "$program" run "$scratch/creep.json" --device cpu:serial --no-picture --every 600 --out "$scratch/creep" \
+            --set contact.sweeps=$sweeps > /dev/null
+        awk -v sweeps=$sweeps '
+            $1 == "v" && FNR == NR { x[FNR] = $2; y[FNR] = $3; z[FNR] = $4 }
+            $1 == "v" && FNR != NR {
+                far = sqrt(($2 - x[FNR]) ^ 2 + ($3 - y[FNR]) ^ 2 + ($4 - z[FNR]) ^ 2)
+                if (far > most) most = far
+            }
+            END { printf "%d,%.2g\n", sweeps, 1000 * most }' "$scratch/creep/mesh_00001.obj" "$scratch/creep/mesh_00003.obj"
+        rm -rf "$scratch/creep"
     done
 }
 
@@ -189,6 +208,7 @@ led()
 for name in "$@"; do
     case $name in
         stack) stack > "$scratch/$name.csv" ;;
+        creep) creep > "$scratch/$name.csv" ;;
         laden) laden > "$scratch/$name.csv" ;;
         stages) stages > "$scratch/$name.csv" ;;
         led) led > "$scratch/$name.csv" ;;
