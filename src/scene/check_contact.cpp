@@ -1,10 +1,9 @@
 // What the bodies of a scene say of each other: which of them pass through which, and what contact takes by
 // itself where they meet.
 
+#include "taut/scene/body_measures.hpp"
 #include "taut/scene/checker.hpp"
 #include "taut/scene/scene.hpp"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,16 +24,6 @@ bool meets_another(const Scene& scene, const Body& body)
            });
 }
 
-/// m^3, of its tetrahedra.
-double rest_volume(const Body& body)
-{
-    double six = 0;
-    const auto& x = body.mesh.positions;
-    for (const auto& t : body.mesh.tetrahedra)
-        six += std::abs(glm::dot(x[t[1]] - x[t[0]], glm::cross(x[t[2]] - x[t[0]], x[t[3]] - x[t[0]])));
-    return six / 6;
-}
-
 bool is_cloth(const Body& body)
 {
     return body.mesh.tetrahedra.empty() && !body.mesh.triangles.empty() && !body.kinematic.used;
@@ -45,6 +34,7 @@ bool is_cloth(const Body& body)
 std::uint32_t automatic_sweeps(const Scene& scene)
 {
     constexpr double kOfCloth = 2, kOfSolids = 8, kMost = 100;
+    constexpr double kRounding = 1e-6; // of a sum over a mesh: no sweep more for it
     double sweeps = kOfCloth;
     for (const Body& body : scene.bodies)
     {
@@ -52,10 +42,11 @@ std::uint32_t automatic_sweeps(const Scene& scene)
             !(body.contact.self || meets_another(scene, body)))
             continue;
         sweeps = std::max(sweeps, kOfSolids);
-        const double lies = body.material.density * std::cbrt(rest_volume(body));
+        const double lies = mass_of(body) / std::pow(volume_of(body), 2.0 / 3); // kg/m^2
         for (const Body& cloth : scene.bodies)
             if (is_cloth(cloth) && scene.contact.between && !pass_through(body.contact, cloth.contact))
-                sweeps = std::max(sweeps, std::ceil(2 * std::sqrt(lies / cloth.material.density)));
+                sweeps = std::max(
+                    sweeps, std::ceil(2 * std::sqrt(lies * area_of(cloth) / mass_of(cloth)) - kRounding));
     }
     return static_cast<std::uint32_t>(std::min(sweeps, kMost));
 }

@@ -216,7 +216,7 @@ inline Scene solids_meet()
     return scene;
 }
 
-/// A block that slides on a cloth on a plane: as many sweeps as that takes by itself, with their momentum.
+/// A block that slides on a cloth on a plane, with enough sweeps for them to have momentum.
 inline Scene laden()
 {
     Scene scene = solids_meet();

@@ -129,6 +129,9 @@ TEST_CASE("sweeps that nobody names follow from what a solid weighs on the light
     Scene without = laden(2000, true);
     without.bodies.pop_back();
     CHECK(resolve(without).contact.sweeps == 2);
+    Scene heavier = laden(200, true); // four times the mass, by vertices
+    heavier.bodies[2].vertex_masses.assign(125, 4 * 0.2 / 125);
+    CHECK(resolve(heavier).contact.sweeps == 40);
     Scene named = laden(2000, true);
     named.contact.sweeps = 3;
     CHECK(resolve(named).contact.sweeps == 3);

@@ -103,8 +103,8 @@ creep()
     done
 }
 
-# laden_scene FLOOR DENSITY HEIGHT: a box of 10 cm whose middle is so high above a cloth of 0.4 m, 0.2 kg/m^2 on a
-# mesh that is led or on a plane.
+# laden_scene FLOOR DENSITY HEIGHT: a box of 10 cm whose middle starts at that height, over cloth of 0.4 m and
+# 0.2 kg/m^2 on a mesh that stands still or on a plane.
 laden_scene()
 {
     case $1 in
