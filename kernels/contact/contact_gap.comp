@@ -9,6 +9,14 @@
 //
 //   allowed = min(rest gap, gap at the start of the substep + depenetration).
 //
+// What slips is what it has slipped in this substep, and what friction had yet to take back of a pair that
+// stuck at the end of the last one:
+//
+//   slip = q + sum b_k d_k,   q = carried + sum b_k (x_k - y_k) of the last sweep before, along the surface,
+//
+// no longer than depenetration / 64 (what an impact leaves is not slip of something that lies),
+// y where its corners were when that substep began. Kept is carried - sum b_k x_k, so nobody needs to know y.
+//
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014, section 4.4.
 // Departures: nearest points and normal are found anew in every sweep; the gap at the start is taken along
 //   the normal of the first sweep, with its weights. Edges only count while neither end is nearest: there a
@@ -31,7 +39,7 @@ READ(1, rvec4, position); // w = inverse mass
 READ(2, rvec4, delta);    // m, since the start of the substep
 READ_ONE(3, StepValues, step_values);
 READ(4, uint, control);
-UPDATE(5, rvec4, side); // both rows of a ContactSide
+UPDATE(5, rvec4, side); // the four rows of a ContactSide
 // Two a pair: the weights of its corners, 0 if it is not active; slip m, w = C m. Before: w = y, as
 // contact_push left it.
 UPDATE(6, rvec4, row);
@@ -50,18 +58,29 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     rvec3 d3 = rvec3(delta[p.d] - d0);
     rbool edges = p.kind == TAUT_CONTACT_EDGES;
     Closest now = closest_of_pair(edges, rvec3(x1 - x0) + d1, rvec3(x2 - x0) + d2, rvec3(x3 - x0) + d3);
-    rvec4 kept = side[2u * i];
+    rvec4 kept = side[4u * i];
     rvec3 normal = rvec3(kept);
     real size = sqrt(now.squared);
     rbool through = now.inside && dot(now.way, normal) < real(0);
     real gap = SELECT(through, -size, size);
     normal = SELECT(size > real(0), now.way / gap, normal);
-    rvec3 slip = (d1 * now.weight_b + d2 * now.weight_c) + d3 * now.weight_d;
+    rvec3 moved = (d1 * now.weight_b + d2 * now.weight_c) + d3 * now.weight_d;
     real allowed = kept.w;
+    rvec3 e1 = rvec3(x1 - x0);
+    rvec3 e2 = rvec3(x2 - x0);
+    rvec3 e3 = rvec3(x3 - x0);
+    rvec4 slid = side[4u * i + 2u];
+    rvec4 was = side[4u * i + 3u];
+    rvec3 carried = rvec3(slid) + ((e1 * was.x + e2 * was.y) + e3 * was.z);
     if (first_sweep != 0u)
     {
-        rvec4 rest = side[2u * i + 1u];
-        allowed = min(real(rest.x), (gap - dot(normal, slip)) + step_values[0].depenetration);
+        rvec4 rest = side[4u * i + 1u];
+        allowed = min(real(rest.x), (gap - dot(normal, moved)) + step_values[0].depenetration);
+        rvec3 along = carried - normal * dot(normal, carried);
+        real most = real(step_values[0].depenetration) * REAL(0.015625);
+        real length = sqrt(dot(along, along));
+        along = SELECT(length > most, along * (most / length), along);
+        carried = SELECT(slid.w > real(0), along, rvec3(real(0)));
     }
     real value = gap - allowed;
     rvec4 left = row[2u * i + 1u];
@@ -78,9 +97,12 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     real wb = SELECT(acts, now.weight_b, real(0));
     real wc = SELECT(acts, now.weight_c, real(0));
     real wd = SELECT(acts, now.weight_d, real(0));
-    side[2u * i] = rvec4(normal, allowed);
+    rvec3 here = (e1 * now.weight_b + e2 * now.weight_c) + e3 * now.weight_d;
+    side[4u * i] = rvec4(normal, allowed);
+    side[4u * i + 2u] = rvec4(carried - here, slid.w);
+    side[4u * i + 3u] = rvec4(now.weight_b, now.weight_c, now.weight_d, real(0));
     row[2u * i] = rvec4(wa, wb, wc, wd);
-    row[2u * i + 1u] = rvec4(slip, value);
+    row[2u * i + 1u] = rvec4(carried + moved, value);
     COUNT_EVENT_IF(wa != real(0), acting, p.a);
     COUNT_EVENT_IF(wb != real(0), acting, p.b);
     COUNT_EVENT_IF(wc != real(0), acting, p.c);

@@ -83,6 +83,14 @@ KERNEL(capacity)
         result.friction = mixed(first.friction, second.friction);
         result.unused_x = real(0);
         result.unused_y = real(0);
+        result.slipped_x = real(0);
+        result.slipped_y = real(0);
+        result.slipped_z = real(0);
+        result.sticks = real(0);
+        result.weight_b = real(0);
+        result.weight_c = real(0);
+        result.weight_d = real(0);
+        result.unused_z = real(0);
         side[i] = result;
         COUNT_EVENT(corners, p.a);
         COUNT_EVENT(corners, p.b);

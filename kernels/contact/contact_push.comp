@@ -5,9 +5,9 @@
 //   y' = max(0, lambda' + beta (lambda' - lambda)),   upsilon' = tau' + beta (tau' - tau), 0 where y' is,
 //   impulse = n (y' - y) + upsilon' - upsilon,
 //
-// C the gap and q the slip along the surface since the start of the substep where (y, upsilon) has put the
-// corners, Pi the way into the cone |tau| <= mu lambda'. beta is 0 in the last sweep, which so leaves
-// (lambda, tau); it is 0, too, for a push or a friction that has turned round, and for friction that slides.
+// C the gap and q the slip along the surface (contact_gap) where (y, upsilon) has put the corners, Pi the way
+// into the cone |tau| <= mu lambda'. beta is 0 in the last sweep, which so leaves (lambda, tau); it is 0,
+// too, for a push or a friction that has turned round, and for friction that slides.
 // With c_k every vertex' mass is shared among its pairs, so a sweep without beta lowers the dual energy
 // whatever the pairs are, without a factor of relaxation. The second term of D has no pair send a corner
 // further than twice the violation: beside held or heavy corners a light one with a small weight b would have
@@ -36,7 +36,7 @@ PARAMS
 READ(0, ContactPair, pair);
 READ(1, rvec4, position); // w = inverse mass
 READ(2, uint, control);
-READ(3, ContactSide, side);
+UPDATE(3, rvec4, side); // the four rows of a ContactSide
 UPDATE(4, rvec4, row); // as contact_gap leaves it; after: w of the second = y, kg m
 READ(5, uint, acting);
 UPDATE(6, rvec4, taken); // two a pair, so far in the substep: tau, w = lambda; upsilon, w = y; kg m
@@ -47,8 +47,10 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     ContactPair p = pair[i];
     rvec4 b = row[2u * i];
     rvec4 met = row[2u * i + 1u];
-    ContactSide s = side[i];
-    rvec3 normal = rvec3(s.normal_x, s.normal_y, s.normal_z);
+    rvec4 away = side[4u * i];
+    rvec4 rubs = side[4u * i + 1u];
+    rvec4 slid = side[4u * i + 2u];
+    rvec3 normal = rvec3(away);
     rvec4 before = rvec4(real(0));
     rvec4 ahead = rvec4(real(0));
     if (first_sweep == 0u)
@@ -76,7 +78,7 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     rvec3 way = rvec3(met);
     rvec3 slip = way - normal * dot(normal, way);
     rvec3 tangent = rvec3(ahead) - slip / divisor;
-    real limit = s.friction * height;
+    real limit = rubs.y * height;
     real size = length(tangent);
     tangent = SELECT(size > limit, tangent * (limit / size), tangent);
     real rise = height - before.w;
@@ -91,6 +93,8 @@ KERNEL(min(capacity, control[TAUT_CONTACT_LISTED]))
     next = SELECT(acts, next, ahead);
     taken[2u * i] = SELECT(acts, rvec4(tangent, height), ahead); // what stays applied
     taken[2u * i + 1u] = next;
+    rbool sticks = acts && height > real(0) && size <= limit;
+    side[4u * i + 2u] = rvec4(rvec3(slid), SELECT(sticks, real(1), real(0)));
     row[2u * i + 1u] = rvec4(way, next.w);
     impulse[i] = SELECT(acts, rvec4(result, real(0)), rvec4(real(0)));
 }

@@ -178,15 +178,19 @@ LAYOUT_STRUCT(ContactPair)
     uint kind; // TAUT_CONTACT_*
 };
 
-/// On which side of each other a pair is, and how it is to stay. As two rvec4, contact_gap changes only the
-/// first.
+/// On which side of each other a pair is, and how it is to stay. As four rvec4, contact_make alone writes the
+/// second, contact_push only the last of the third.
 LAYOUT_STRUCT(ContactSide)
 {
-    real normal_x, normal_y, normal_z; // from the second of the pair to the first
-    real allowed;                      // where the gap may end in this substep, m
-    real rest_gap;                     // m
+    real normal_x, normal_y, normal_z;     // from the second of the pair to the first
+    real allowed;                          // where the gap may end in this substep, m
+    real rest_gap;                         // m
     real friction;
-    real unused_x, unused_y;           // 0
+    real unused_x, unused_y;               // 0
+    real slipped_x, slipped_y, slipped_z;  // m: what a pair that sticks slipped, less sum weight (x - x_a)
+    real sticks;                           // 1: friction holds it
+    real weight_b, weight_c, weight_d;     // of the last sweep
+    real unused_z;                         // 0
 };
 
 /// The air during a time step. One element, written by the host.

@@ -1,5 +1,5 @@
-// Surfaces that meet: pairs are found where vertices are not where they were expected, and pushed apart in
-// every sweep.
+// Surfaces that meet: pairs are found where vertices are not where they were expected. contact_sweep.cpp
+// pushes them apart.
 //
 // Based on: Macklin, Mueller, Chentanez, Kim. Unified Particle Physics. SIGGRAPH 2014 (contacts as
 //   constraints of positions); Tonge, Benevolenski, Voroshilov. SIGGRAPH 2012 (mass splitting). Each kernel
@@ -10,18 +10,16 @@
 #include "taut/plan/contact.hpp"
 
 #include "taut/kernels/contact_corners.hpp"
-#include "taut/kernels/contact_gap.hpp"
 #include "taut/kernels/contact_make.hpp"
-#include "taut/kernels/contact_move.hpp"
-#include "taut/kernels/contact_push.hpp"
+#include "taut/kernels/contact_recall.hpp"
 #include "taut/kernels/contact_refit.hpp"
+#include "taut/kernels/contact_remember.hpp"
 #include "taut/kernels/contact_scan.hpp"
 #include "taut/kernels/contact_search.hpp"
 #include "taut/kernels/contact_sort.hpp"
 #include "taut/kernels/contact_stray.hpp"
 #include "taut/kernels/contact_wake.hpp"
 #include "taut/kernels/shared/contact_rows.h"
-#include "taut/plan/colliders.hpp"
 #include "taut/plan/contact_patch.hpp"
 #include "taut/plan/contact_scene.hpp"
 #include "taut/plan/contact_tree.hpp"
@@ -39,7 +37,6 @@
 namespace taut {
 namespace {
 
-constexpr std::string_view kContactEffect = "contact";
 /// How much further than the gap the search looks, beside what motion adds: of the gap at most and at least.
 constexpr double kMostSkin = 0.5, kLeastSkin = 0.125;
 /// Of the least radius: how far a vertex may end a substep from where the last search expected it, before
@@ -136,6 +133,9 @@ void add_lists(PlanBuilder& b, ContactBuffers& c)
     c.pair = b.add_buffer(kContactEffect, "pairs", pairs * sizeof(layout::ContactPair<float>));
     c.row = b.add_buffer(kContactEffect, "weights of pairs", pairs * 8 * real);
     c.taken = b.add_buffer(kContactEffect, "multipliers of pairs", pairs * 8 * real);
+    c.known = b.add_buffer(kContactEffect, "pairs of the search before",
+                           pairs * sizeof(layout::ContactPair<float>));
+    c.memory = b.add_buffer(kContactEffect, "friction of the search before", pairs * 8 * real);
     c.impulse = b.add_buffer(kContactEffect, "impulses of pairs", pairs * 4 * real);
     c.corners = b.add_buffer(kContactEffect, "corners at vertices", vertices * word);
     c.placed = b.add_buffer(kContactEffect, "corners placed", vertices * word);
@@ -157,15 +157,6 @@ std::uint32_t capacity_for(const PlanBuilder& b, std::size_t triangles)
     const auto usual =
         std::max<std::uint32_t>(kLeastCapacity, leaves_for(static_cast<std::uint32_t>(2 * triangles)));
     return std::min(asked > 0 ? asked : usual, kMostContactPairs);
-}
-
-/// Adds a pass over as many groups as the control buffer has at `gate`: none where nothing is to be done.
-template <template <typename> typename Bindings>
-void gated(PlanBuilder& b, std::string_view variant, const Bindings<Use>& uses,
-           const typename Bindings<Use>::Params& params, std::uint32_t count, std::uint64_t gate)
-{
-    b.dispatch_indirect(kContactEffect, variant, uses, params, count, b.contact->control,
-                        gate * sizeof(std::uint32_t));
 }
 
 /// m: how far the corners of a body's triangles are from the opposite sides, at rest: a quarter of them less.
@@ -268,6 +259,13 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     fill.pair = {c.pair};
     const kernels::contact_search::Bindings<Use>::Params how = {n,      c.leaves, c.every,
                                                                 c.skin, c.reach,  c.capacity};
+    const kernels::contact_remember::Bindings<Use> remember = {.start = {c.corner_start, 2},
+                                                               .corner = {c.corner, 4},
+                                                               .pair = {c.pair},
+                                                               .side = {c.side, 2},
+                                                               .known = {c.known},
+                                                               .memory = {c.memory, 2}};
+    gated(b, "", remember, {vertices}, vertices, TAUT_CONTACT_GATE_VERTICES);
     const bool guarded = wants_guarantee(b.scene);
     gated(b, guarded ? "guarded" : "", count, how, n, TAUT_CONTACT_GATE_TRIANGLES);
     kernels::contact_scan::Bindings<Use> rows = {
@@ -284,6 +282,14 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                        .side = {c.side},
                                                        .corners = {c.corners, 4}};
     gated(b, "", make, {c.capacity, friction_mix_of(b.scene)}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
+    const kernels::contact_recall::Bindings<Use> recall = {.pair = {c.pair},
+                                                           .control = {c.control, 0},
+                                                           .start = {c.corner_start, 2},
+                                                           .corner = {c.corner, 4},
+                                                           .known = {c.known, 4},
+                                                           .memory = {c.memory, 2},
+                                                           .side = {c.side, 2}};
+    gated(b, "", recall, {c.capacity}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
     const kernels::contact_scan::Bindings<Use> places = {.found = {c.corners, vertices},
                                                          .start = {c.corner_start, vertices}};
     gated(b, "", places, {vertices, 0, vertices}, 1, TAUT_CONTACT_GATE_ONE);
@@ -302,39 +308,6 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
     const kernels::contact_stray::Bindings<Use> keep = {
         .position = {b.plan.position}, .delta = {b.plan.delta}, .place = {c.place, 2}};
     gated(b, "keep", keep, {vertices, c.every, c.stray}, vertices, TAUT_CONTACT_GATE_VERTICES);
-}
-
-/// The `k`th sweep of an iteration, the first of its substep or not.
-void record_sweep(PlanBuilder& b, const ContactBuffers& c, std::uint32_t k, bool first)
-{
-    const kernels::contact_gap::Bindings<Use> gap = {.pair = {c.pair},
-                                                     .position = {b.plan.position, 4},
-                                                     .delta = {b.plan.delta, 4},
-                                                     .step_values = {b.plan.step_values, 0},
-                                                     .control = {c.control, 0},
-                                                     .side = {c.side},
-                                                     .row = {c.row},
-                                                     .acting = {c.active, 4}};
-    gated(b, "", gap, {c.capacity, first}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
-    const kernels::contact_push::Bindings<Use> push = {.pair = {c.pair},
-                                                       .position = {b.plan.position, 4},
-                                                       .control = {c.control, 0},
-                                                       .side = {c.side},
-                                                       .row = {c.row},
-                                                       .acting = {c.active, 4},
-                                                       .taken = {c.taken},
-                                                       .impulse = {c.impulse}};
-    const float momentum =
-        k + 1 < b.scene.contact.sweeps ? static_cast<float>(k) / static_cast<float>(k + 3) : 0.0f;
-    gated(b, "", push, {c.capacity, first, momentum}, c.capacity, TAUT_CONTACT_PAIR_GROUPS);
-    const kernels::contact_move::Bindings<Use> move = {.start = {c.corner_start, 2},
-                                                       .corner = {c.corner},
-                                                       .row = {c.row},
-                                                       .impulse = {c.impulse},
-                                                       .position = {b.plan.position},
-                                                       .delta = {b.plan.delta},
-                                                       .acting = {c.active}};
-    gated(b, "", move, {b.plan.vertex_count}, b.plan.vertex_count, TAUT_CONTACT_VERTEX_GROUPS);
 }
 
 } // namespace
@@ -364,9 +337,10 @@ void prepare_contact(PlanBuilder& b)
     c.reach = static_cast<float>(2 * radius + static_cast<double>(c.skin)) * 1.0001f; // rounded up
     with_real(b.plan.precision, [&](auto zero) { add_surfaces<decltype(zero)>(b, c, leaves); });
     add_lists(b, c);
-    b.plan.contact = {c.control,   c.lost,     c.pair,
-                      c.side,      c.taken,    c.place,
-                      c.triangles, c.capacity, wants_guarantee(b.scene)};
+    b.plan.contact = {c.control,      c.lost,     c.pair,
+                      c.side,         c.taken,    c.place,
+                      c.triangles,    c.capacity, wants_guarantee(b.scene),
+                      c.corner_start, c.corner};
 }
 
 void record_contact_search(PlanBuilder& b, const Moment&)
@@ -375,17 +349,6 @@ void record_contact_search(PlanBuilder& b, const Moment&)
     record_wake(b, *b.contact);
     record_refit(b, *b.contact);
     record_lists(b, *b.contact);
-}
-
-void record_contact(PlanBuilder& b, const Moment& moment)
-{
-    for (std::uint32_t k = 0; k < b.scene.contact.sweeps; ++k)
-    {
-        const bool first = moment.iteration == 0 && k == 0;
-        record_sweep(b, *b.contact, k, first);
-        if (k + 1 < b.scene.contact.sweeps) // the last push is that of Stage::contact
-            record_colliders(b, moment, {first, false, 1});
-    }
 }
 
 } // namespace taut

@@ -15,6 +15,7 @@ struct ContactBuffers
                   lost = kNoBuffer;
     // Of pairs.
     std::uint32_t pair = kNoBuffer, side = kNoBuffer, row = kNoBuffer, taken = kNoBuffer, impulse = kNoBuffer;
+    std::uint32_t known = kNoBuffer, memory = kNoBuffer; ///< of the list before (contact_remember)
     // Of the corners of pairs at each vertex.
     std::uint32_t corners = kNoBuffer, placed = kNoBuffer, corner_start = kNoBuffer, corner = kNoBuffer,
                   active = kNoBuffer;
@@ -25,6 +26,17 @@ struct ContactBuffers
     std::uint32_t every = 1;              ///< substeps that a search looks ahead
     float skin = 0, reach = 0, stray = 0; ///< m
 };
+
+inline constexpr std::string_view kContactEffect = "contact";
+
+/// Adds a pass over as many groups as the control buffer has at `gate`: none where nothing is to be done.
+template <template <typename> typename Bindings>
+void gated(PlanBuilder& b, std::string_view variant, const Bindings<Use>& uses,
+           const typename Bindings<Use>::Params& params, std::uint32_t count, std::uint64_t gate)
+{
+    b.dispatch_indirect(kContactEffect, variant, uses, params, count, b.contact->control,
+                        gate * sizeof(std::uint32_t));
+}
 
 void prepare_contact(PlanBuilder& builder);
 /// The search, where vertices are not where the last one expected them.

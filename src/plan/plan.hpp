@@ -132,6 +132,8 @@ struct PlanContact
     std::uint32_t place = kNoBuffer;   ///< rvec4, two a vertex: place and displacement at the last search
     std::uint32_t triangles = 0, capacity = 0;
     bool guarded = false; ///< the guarantee's counters stand behind those of `lost`
+    std::uint32_t corner_start = kNoBuffer; ///< uint32: of each vertex among `corner`, and the end
+    std::uint32_t corner = kNoBuffer;       ///< uint32: 4 pair + corner
 };
 
 /// A pinned vertex that moves.

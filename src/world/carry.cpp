@@ -1,5 +1,6 @@
 #include "taut/world/carry.hpp"
 
+#include "taut/world/held_pairs.hpp"
 #include "taut/world/moved.hpp"
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 
 namespace taut {
 namespace {
+
+constexpr std::uint32_t kNowhere = 0xffffffff; ///< for renumbered(): the number of no vertex
 
 std::array<std::vector<std::byte>*, kCarriedArrays> arrays_of(WorldState& s)
 {
@@ -42,6 +45,15 @@ void collect(const World& world, const std::vector<std::uint32_t>& vertices, std
     }
     out.clock = state.clock;
     out.step = state.step;
+    // Pairs with what was not in this world stay.
+    std::vector<std::uint32_t> own(total, kNowhere);
+    for (std::uint32_t v = 0; v < vertices.size(); ++v)
+        own[vertices[v]] = v;
+    std::erase_if(out.held, [&](const HeldPair& pair) {
+        return std::ranges::all_of(pair.vertex, [&](std::uint32_t v) { return own[v] != kNowhere; });
+    });
+    const std::vector<HeldPair> held = renumbered(state.held, own);
+    out.held.insert(out.held.end(), held.begin(), held.end());
 }
 
 void deliver(World& world, const std::vector<std::uint32_t>& vertices,
@@ -58,6 +70,7 @@ void deliver(World& world, const std::vector<std::uint32_t>& vertices,
     state.clock = from.clock;
     state.step = from.step;
     state.moved = part_of(from.moved, bodies);
+    state.held = renumbered(from.held, vertices);
     world.restore(state);
 }
 

@@ -10,13 +10,14 @@ namespace taut {
 
 inline constexpr std::size_t kCarriedArrays = 7;
 
-/// Per vertex of a whole scene what a world carries on: the arrays of WorldState.
+/// Of a whole scene what a world carries on: the arrays of WorldState, per vertex, and what friction holds.
 struct CarriedState
 {
     std::array<std::vector<std::byte>, kCarriedArrays> arrays;
     Clock clock;
     std::uint64_t step = 0;
     ProgramMotion moved; ///< bodies as in the whole scene; whoever carries sees to it
+    std::vector<HeldPair> held; ///< with the numbers of the whole scene
 };
 
 /// Scene-wide vertex of each plan vertex of a world that has only `bodies` of the scene. `first` is the

@@ -2,6 +2,7 @@
 
 #include "taut/kernels/shared/contact_rows.h"
 #include "taut/plan/contact_scene.hpp"
+#include "taut/world/held_pairs.hpp"
 #include "taut/world/planned.hpp"
 #include "taut/world/world_impl.hpp"
 
@@ -61,12 +62,15 @@ ContactLists World::Impl::contact_lists() const
 {
     if (plan.contact.control == kNoBuffer)
         return {};
-    return {raw(plan.contact.control), raw(plan.contact.lost), raw(plan.contact.pair), raw(plan.contact.side),
-            raw(plan.contact.taken)};
+    return {raw(plan.contact.control), raw(plan.contact.lost),
+            raw(plan.contact.pair),    raw(plan.contact.side),
+            raw(plan.contact.taken),   raw(plan.contact.corner_start),
+            raw(plan.contact.corner),  held_pairs()};
 }
 
-/// Pairs only where vertices have kept their numbers.
-void World::Impl::carry_contacts(const ContactLists& before, bool same_vertices)
+/// Lists only where vertices have kept their numbers; else what friction holds.
+void World::Impl::carry_contacts(const ContactLists& before, const std::vector<std::uint32_t>& from,
+                                 bool same_vertices)
 {
     if (plan.contact.control == kNoBuffer || before.control.empty())
         return;
@@ -76,9 +80,14 @@ void World::Impl::carry_contacts(const ContactLists& before, bool same_vertices)
         device->write(buffers[plan.contact.pair], 0, before.pair);
         device->write(buffers[plan.contact.side], 0, before.side);
         device->write(buffers[plan.contact.taken], 0, before.taken);
+        device->write(buffers[plan.contact.corner_start], 0, before.corner_start);
+        device->write(buffers[plan.contact.corner], 0, before.corner);
     }
     else
+    {
         std::fill_n(control.begin() + TAUT_CONTACT_LISTED * 4, 4, std::byte{0});
+        put_held_pairs(renumbered(before.held, from));
+    }
     device->write(buffers[plan.contact.control], 0, control);
     device->write(buffers[plan.contact.lost], 0, before.lost);
 }

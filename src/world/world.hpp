@@ -46,6 +46,16 @@ struct GivenUp
     std::uint64_t tried_until = 0; ///< step before which it is not tried again to take it apart
 };
 
+/// A pair of surfaces that friction holds: what it has slipped (kernels/contact/contact_gap.comp).
+struct HeldPair
+{
+    std::array<std::uint32_t, 4> vertex = {};
+    std::uint32_t kind = 0; ///< TAUT_CONTACT_VERTEX or TAUT_CONTACT_EDGES
+    glm::dvec3 slipped{0};  ///< m: less sum weight (x - x_first)
+    glm::dvec3 weight{0};   ///< of the second to the fourth
+    bool operator==(const HeldPair&) const = default;
+};
+
 /// Everything that a continuation needs, as values: bitwise equal states continue bitwise equally (G09).
 /// Vertices are in the plan's order; `hi + lo` is the position.
 struct WorldState
@@ -56,6 +66,7 @@ struct WorldState
     std::vector<std::vector<std::byte>> kept = {}; ///< of Plan::kept, in its order
     std::vector<std::byte> coasting = {}; ///< of Plan::coasting; nothing follows from it but velocities()
     std::vector<std::byte> owed = {};     ///< of Plan::owed, a vertex; missing: nothing is owed
+    std::vector<HeldPair> held = {};      ///< no pair twice
     ProgramMotion moved = {}; ///< orders that wait for the next step among it; empty: nothing was moved
     std::uint32_t contact_capacity = 0; ///< pairs that lists of contact hold; 0: as the world has them
     double push = 0, kick = 0;          ///< as WorldDrive has them

@@ -15,7 +15,8 @@ namespace taut {
 /// What lists of surfaces that meet hold, as bytes; empty without contact.
 struct ContactLists
 {
-    std::vector<std::byte> control, lost, pair, side, taken;
+    std::vector<std::byte> control, lost, pair, side, taken, corner_start, corner;
+    std::vector<HeldPair> held;
 };
 
 /// Places that wait for the next step, as position and low have them, in the plan's order.
@@ -80,7 +81,11 @@ struct World::Impl
     void after_step();
     void replace_scene(const TornScene& next);
     ContactLists contact_lists() const;
-    void carry_contacts(const ContactLists& before, bool same_vertices);
+    /// `from`: of each vertex the one that it was in `before`.
+    void carry_contacts(const ContactLists& before, const std::vector<std::uint32_t>& from,
+                        bool same_vertices);
+    std::vector<HeldPair> held_pairs() const;
+    void put_held_pairs(std::vector<HeldPair> held);
     void grow_contacts();
     void hold_contacts(std::uint32_t capacity);
     std::vector<InputWrite> before_step() const;

@@ -2,6 +2,7 @@
 
 #include "taut/linear/cg_state.hpp"
 #include "taut/plan/contact_scene.hpp"
+#include "taut/world/held_pairs.hpp"
 #include "taut/world/world_impl.hpp"
 
 #include <glm/geometric.hpp>
@@ -84,7 +85,7 @@ void World::Impl::replace_scene(const TornScene& next)
         device->write(buffers[plan.solvers[k].log], 0, logs[k]);
     for (std::size_t k = 0; next.splits == 0 && k < plan.kept.size(); ++k)
         device->write(buffers[plan.kept[k]], 0, carried[k]);
-    carry_contacts(contacts, next.splits == 0);
+    carry_contacts(contacts, from, next.splits == 0);
     if (plan.force != kNoBuffer)
     {
         keep_forces(spread(force, from, element));
@@ -108,6 +109,7 @@ WorldState World::state() const
         out.kept.push_back(impl_->raw(buffer));
     out.coasting = impl_->raw(plan.coasting);
     out.owed = impl_->raw(plan.owed);
+    out.held = impl_->held_pairs();
     out.moved = impl_->program.values();
     out.contact_capacity = plan.contact.capacity;
     out.push = impl_->push;
@@ -174,6 +176,7 @@ void World::restore(const WorldState& state)
         throw Error(ErrorCode::bad_input, "restore: contact_capacity is " +
                                               std::to_string(state.contact_capacity) +
                                               "; it must be at most " + std::to_string(kMostContactPairs));
+    check_held(state.held, plan.vertex_count);
     // Pairs that a shorter list would miss are part of how it goes on.
     if (plan.contact.control != kNoBuffer && state.contact_capacity > plan.contact.capacity)
         impl_->hold_contacts(state.contact_capacity);
@@ -197,6 +200,7 @@ void World::restore(const WorldState& state)
                                  : std::vector<std::byte>(plan.buffers[plan.owed].bytes));
     if (plan.contact.place != kNoBuffer)
     {
+        impl_->put_held_pairs(state.held);
         const InputWrite forgotten = impl_->lists_forgotten();
         impl_->device->write(impl_->buffers[forgotten.buffer], 0, forgotten.bytes);
     }

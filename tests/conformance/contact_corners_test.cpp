@@ -17,19 +17,7 @@ TEMPLATE_TEST_CASE("contact_corners and contact_sort list the corners of pairs a
     const auto net = contact_net<Real>(60, random, 0);
     const auto pairs = some_pairs(net, count + 2, random);
     const auto vertices = static_cast<std::uint32_t>(net.position.size());
-    std::vector<std::vector<std::uint32_t>> at(vertices);
-    for (std::uint32_t k = 0; k < count; ++k)
-    {
-        const std::uint32_t ids[] = {pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d};
-        for (std::uint32_t corner = 0; corner < 4; ++corner)
-            at[ids[corner]].push_back(4 * k + corner);
-    }
-    std::vector<std::uint32_t> start = {0}, corner;
-    for (const auto& row : at)
-    {
-        corner.insert(corner.end(), row.begin(), row.end());
-        start.push_back(static_cast<std::uint32_t>(corner.size()));
-    }
+    auto [start, corner] = CornerLists(std::vector(pairs.begin(), pairs.begin() + count), vertices);
     const std::vector<std::uint32_t> none(vertices, 0);
     std::vector<std::uint32_t> unset(corner.size() + 8, 9);
     Case c;

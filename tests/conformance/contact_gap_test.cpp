@@ -2,6 +2,9 @@
 
 #include "support/contact_net.hpp"
 
+#include <array>
+#include <bit>
+
 using namespace taut;
 using namespace taut::conformance;
 
@@ -12,9 +15,9 @@ constexpr double kWayOut = 0.004;
 /// What contact_gap must leave of one pair, from its written rules.
 struct Gap
 {
-    glm::dvec3 normal{0}, slip{0};
+    glm::dvec3 normal{0}, slip{0}, slipped{0};
     double allowed = 0, value = 0;
-    std::array<double, 4> weight{};
+    std::array<double, 4> weight{}, nearest{}; ///< of those that act, of all
     bool clear = true; ///< no flag hangs by a rounding
 };
 
@@ -55,14 +58,27 @@ Gap gap_of(const ContactNet<Real>& net, const layout::ContactPair<Real>& p,
     const double gap = through ? -now.distance() : now.distance();
     out.normal = now.way / gap;
     double masses = 0;
+    const double was[] = {0, static_cast<double>(s.weight_b), static_cast<double>(s.weight_c),
+                          static_cast<double>(s.weight_d)};
+    glm::dvec3 carried(s.slipped_x, s.slipped_y, s.slipped_z), here(0);
     for (std::size_t k = 0; k < 4; ++k)
     {
+        carried += was[k] * (net.x(ids[k]) - net.x(p.a));
+        here += now.weight[k] * (net.x(ids[k]) - net.x(p.a));
         out.slip += now.weight[k] * net.d(ids[k]);
         masses += static_cast<double>(net.position[ids[k]].w) * now.weight[k] * now.weight[k];
     }
     const double rest = static_cast<double>(s.rest_gap), before = gap - glm::dot(out.normal, out.slip);
     out.allowed = first ? std::min(rest, before + kWayOut) : static_cast<double>(s.allowed);
     out.value = gap - out.allowed;
+    if (first)
+    {
+        carried = s.sticks > 0 ? carried - out.normal * glm::dot(out.normal, carried) : glm::dvec3(0);
+        carried *= std::min(1.0, kWayOut / 64 / std::max(glm::length(carried), 1e-9));
+    }
+    out.slip += carried;
+    out.slipped = carried - here;
+    out.nearest = now.weight;
     const bool pushes = !first && ahead > 0;
     out.clear = out.clear && (pushes || std::abs(out.value) > 1e-4);
     const bool acts = (out.value < 0 || pushes) && masses > 0 && (!edges || inside);
@@ -93,8 +109,21 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         const auto now = nearest_of(p, [&](std::uint32_t v) { return net.x(v) + net.d(v); });
         const glm::dvec3 n = random.chance(0.3) ? -now.way / now.distance() : now.way / now.distance();
         const auto gap = static_cast<Real>(now.distance() * random.uniform(0.5, 1.5));
-        sides.push_back({static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), gap, gap,
-                         Real(0.4), Real(0), Real(0)});
+        const auto was = random.vec4<Real>(1, Real(0));
+        const glm::dvec3 a = net.x(p.a);
+        const glm::dvec3 slipped = glm::dvec3(random.vec4<double>(kWayOut / 64, 0)) - // some carry too much
+                                   static_cast<double>(was.x) * (net.x(p.b) - a) -
+                                   static_cast<double>(was.y) * (net.x(p.c) - a) -
+                                   static_cast<double>(was.z) * (net.x(p.d) - a);
+        Side& s = sides.emplace_back();
+        s.normal_x = static_cast<Real>(n.x), s.normal_y = static_cast<Real>(n.y);
+        s.normal_z = static_cast<Real>(n.z);
+        s.allowed = s.rest_gap = gap;
+        s.friction = Real(0.4);
+        s.slipped_x = static_cast<Real>(slipped.x), s.slipped_y = static_cast<Real>(slipped.y);
+        s.slipped_z = static_cast<Real>(slipped.z);
+        s.weight_b = was.x, s.weight_c = was.y, s.weight_d = was.z;
+        s.sticks = random.chance(0.5) ? Real(1) : Real(0);
     }
     std::vector<Vec> left(2 * (count + 2), Vec(3)); // of the sweep before: w of the second, its push ahead
     for (std::uint32_t k = 0; k < count; ++k)
@@ -120,8 +149,7 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         Field &side = c.expected["side"], &row = c.expected["row"];
         if (k >= count)
         {
-            for (const Real v : {sides[k].normal_x, sides[k].normal_y, sides[k].normal_z, sides[k].allowed,
-                                 sides[k].rest_gap, sides[k].friction, sides[k].unused_x, sides[k].unused_y})
+            for (const Real v : std::bit_cast<std::array<Real, 16>>(sides[k]))
                 side.add(static_cast<double>(v), 0);
             for (int j = 0; j < 8; ++j)
                 row.add(3, 0);
@@ -136,11 +164,17 @@ TEMPLATE_TEST_CASE("contact_gap says how near pairs are, on their own side, and 
         side.add(static_cast<double>(sides[k].friction), 0);
         for (int unused = 0; unused < 2; ++unused)
             side.add(0, 0);
+        for (int axis = 0; axis < 3; ++axis)
+            side.add(want.slipped[axis], want.clear ? 200 : kAnyFinite);
+        side.add(static_cast<double>(sides[k].sticks), 0);
+        for (std::size_t corner = 1; corner < 4; ++corner)
+            side.add(want.nearest[corner], want.clear ? 200 : kAnyFinite);
+        side.add(0, 0);
         // Weights of triangles of 0.1 m, of a net of metres: some hundred roundings.
         for (const double w : want.weight)
             row.add(w, want.clear ? 200 : kAnyFinite);
         for (int axis = 0; axis < 3; ++axis)
-            row.add(want.slip[axis], want.clear ? 8 : kAnyFinite);
+            row.add(want.slip[axis], want.clear ? 8 + blur : kAnyFinite);
         row.add(want.value, want.clear ? 4 : kAnyFinite);
         const std::uint32_t ids[] = {pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d};
         for (std::size_t j = 0; j < 4; ++j)

@@ -2,6 +2,9 @@
 
 #include "support/contact_net.hpp"
 
+#include <array>
+#include <bit>
+
 using namespace taut;
 using namespace taut::conformance;
 
@@ -26,9 +29,15 @@ TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and fricti
     for (std::uint32_t k = 0; k < count + 2; ++k)
     {
         const glm::dvec3 n = glm::normalize(glm::dvec3(random.vec4<double>(1, 0)));
-        sides.push_back({static_cast<Real>(n.x), static_cast<Real>(n.y), static_cast<Real>(n.z), Real(0.01),
-                         Real(0.01), static_cast<Real>(random.chance(0.2) ? 0 : random.uniform(0, 1)),
-                         Real(0), Real(0)});
+        Side side{};
+        side.normal_x = static_cast<Real>(n.x);
+        side.normal_y = static_cast<Real>(n.y);
+        side.normal_z = static_cast<Real>(n.z);
+        side.allowed = side.rest_gap = Real(0.01);
+        side.friction = static_cast<Real>(random.chance(0.2) ? 0 : random.uniform(0, 1));
+        side.slipped_x = random.uniform<Real>(0, 1);
+        side.sticks = Real(3);
+        sides.push_back(side);
         const Real u = random.uniform<Real>(0, 1);
         const bool idle = random.chance(0.2);
         const Real least = random.chance(0.2) ? Real(0.05) : Real(1); // as beside corners that are held
@@ -53,12 +62,16 @@ TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and fricti
     std::size_t slides = 0, sticks = 0, held_back = 0, restarts = 0, goes_on = 0, let_go = 0;
     for (std::uint32_t k = 0; k < count + 2; ++k)
     {
-        Field &now = c.expected["taken"], &impulse = c.expected["impulse"], &rows = c.expected["row"];
+        Field &now = c.expected["taken"], &impulse = c.expected["impulse"], &rows = c.expected["row"],
+              &side = c.expected["side"];
+        auto told = std::bit_cast<std::array<Real, 16>>(sides[k]);
         for (int j = 0; j < 7; ++j)
             rows.add(static_cast<double>(row[2 * k + j / 4][j % 4]), 0);
         if (k >= count)
         {
             rows.add(static_cast<double>(row[2 * k + 1].w), 0);
+            for (const Real v : told)
+                side.add(static_cast<double>(v), 0);
             for (int j = 0; j < 8; ++j)
                 now.add(static_cast<double>(taken[2 * k + j / 4][j % 4]), 0);
             for (int j = 0; j < 4; ++j)
@@ -82,6 +95,7 @@ TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and fricti
         const glm::dvec3 n(sides[k].normal_x, sides[k].normal_y, sides[k].normal_z), slip(met);
         double size = glm::length(glm::dvec3(ahead)) + ahead.w + glm::length(glm::dvec3(before)) + before.w;
         bool clear = true; // no restart hangs by a rounding
+        bool holds = false, surely = true;
         if (weight > 0)
         {
             after.w = std::max(0.0, ahead.w - met.w / weight);
@@ -92,6 +106,8 @@ TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and fricti
             clear = std::abs(glm::length(tangent) - limit) > 1e-5 * size;
             slides += beyond && limit > 0 ? 1 : 0;
             sticks += !beyond ? 1 : 0;
+            holds = after.w > 0 && !beyond;
+            surely = clear && std::abs(ahead.w - met.w / weight) > 1e-5 * size;
             if (beyond)
                 tangent *= limit / glm::length(tangent);
             after = glm::dvec4(tangent, after.w);
@@ -108,6 +124,9 @@ TEMPLATE_TEST_CASE("contact_push gives pairs their share of the push, and fricti
             let_go += along > 0 && after.w > 0 && reach <= 0 ? 1 : 0;
             next = reach > 0 ? glm::dvec4(tangent + turn * across, reach) : glm::dvec4(0);
         }
+        told[11] = holds ? Real(1) : Real(0);
+        for (std::size_t j = 0; j < 16; ++j)
+            side.add(static_cast<double>(told[j]), j == 11 && !surely ? kAnyFinite : 0);
         const double blur = clear || momentum == 0 ? size : kAnyFinite;
         for (int j = 0; j < 4; ++j)
             now.add(after[j], size);

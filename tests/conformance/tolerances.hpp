@@ -108,6 +108,8 @@ inline constexpr Tolerance kTolerances[] = {
     {"contact_search", 0, "pairs, which are there or not"},
     {"contact_scan", 0, "integers"},
     {"contact_make", 4, "differences, cross products, dot products, a quotient, a root, another quotient"},
+    {"contact_remember", 0, "copies"},
+    {"contact_recall", 0, "copies"},
     {"contact_corners", 0, "integers"},
     {"contact_sort", 0, "integers"},
     {"contact_stray", 0, "what is far, or not; counters"},

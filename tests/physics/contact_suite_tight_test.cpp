@@ -97,8 +97,12 @@ TEST_CASE("suite 36: cloth between walls that close is clean until it is pinched
     CHECK(run.world.contacts().pinched == 0);
     run.run(2.5);
     CHECK(run.world.contacts().pinched > 0);
-    for (const glm::dvec3& x : run.body(3))
-        CHECK(glm::length(x) < 1); // nothing was thrown out
+    // Nothing was thrown out: no vertex has more energy than the highest one of the start.
+    const auto cloth = run.body(3);
+    const auto velocities = run.world.velocities();
+    const std::size_t first = run.world.plan().body_start[3];
+    for (std::size_t v = 0; v < cloth.size(); ++v)
+        CHECK(0.5 * glm::dot(velocities[first + v], velocities[first + v]) + 9.81 * cloth[v].y < 9.81 * 0.4);
 }
 
 TEST_CASE("suite 38: a sleeve that limbs pinch again and again crosses nothing a second after they open")
@@ -120,7 +124,7 @@ TEST_CASE("suite 38: a sleeve that limbs pinch again and again crosses nothing a
         CHECK(run.intersected == open);
         CHECK(run.verdict.intersecting == 0);
     }
-    CHECK(run.world.contacts().untangled > 0);
+    CHECK((method != "xpbd" || run.world.contacts().untangled > 0)); // the other leaves nothing crossed
     CHECK(run.world.events().non_finite == 0);
 }
 

@@ -8,6 +8,7 @@
 
 #include "taut/kernels/shared/contact_rows.h"
 
+#include <array>
 #include <set>
 
 namespace taut::conformance {
@@ -122,6 +123,40 @@ inline std::vector<std::uint32_t> control_of(std::uint32_t listed)
     std::vector<std::uint32_t> control(TAUT_CONTACT_WORDS, 0);
     control[TAUT_CONTACT_LISTED] = listed;
     return control;
+}
+
+/// Corners of pairs at each vertex, as contact_sort leaves them.
+struct CornerLists
+{
+    std::vector<std::uint32_t> start{0}, corner;
+
+    template <typename Real>
+    CornerLists(const std::vector<layout::ContactPair<Real>>& pairs, std::size_t vertices)
+    {
+        std::vector<std::vector<std::uint32_t>> at(vertices);
+        for (std::uint32_t k = 0; k < pairs.size(); ++k)
+        {
+            const std::uint32_t ids[] = {pairs[k].a, pairs[k].b, pairs[k].c, pairs[k].d};
+            for (std::uint32_t j = 0; j < 4; ++j)
+                at[ids[j]].push_back(4 * k + j);
+        }
+        for (const auto& row : at)
+        {
+            corner.insert(corner.end(), row.begin(), row.end());
+            start.push_back(static_cast<std::uint32_t>(corner.size()));
+        }
+    }
+};
+
+/// Some pairs of a net, none twice.
+template <typename Real>
+std::vector<layout::ContactPair<Real>> unlike_pairs(const ContactNet<Real>& net, std::uint32_t count,
+                                                    Random& random)
+{
+    auto pairs = some_pairs(net, count, random);
+    std::set<std::array<std::uint32_t, 4>> listed;
+    std::erase_if(pairs, [&](const auto& p) { return !listed.insert({p.a, p.b, p.c, p.d}).second; });
+    return pairs;
 }
 
 } // namespace taut::conformance

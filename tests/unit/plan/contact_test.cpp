@@ -84,7 +84,7 @@ TEST_CASE("contact adds a search that may be made and sweeps, and leaves all oth
     const EffectCost* cost = find_effect(after, "contact");
     REQUIRE(cost != nullptr);
     // 144 triangles: 256 leaves, which 64 lanes refit in a pass, and 4 nodes above them in another.
-    const std::uint64_t looks = 2, refits = 2, lists = 8,
+    const std::uint64_t looks = 2, refits = 2, lists = 10,
                         substeps = 6; // in each of which it looks whether to
     CHECK(cost->dispatches_per_step ==
           substeps * (looks + refits + lists) + substeps * 2 * 3 * scene.contact.sweeps);
