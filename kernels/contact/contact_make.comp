@@ -3,6 +3,8 @@
 //
 //   normal = (x_A - x_B) / |x_A - x_B|, rest gap = r_A + r_B, of one body at most 0.9999 of the distance at
 //   rest,
+//   where they touch: across both; of two bodies towards up if A is of the higher, else away from it;
+//   nearer than rounding tells is touching,
 //   friction = (m + n) / 2, min(m, n), max(m, n), m n or sqrt(m n), m and n those of both.
 //
 // Based on: Mueller. Ten Minute Physics 15, 2022 (a surface thicker than its edges are long does not swell).
@@ -18,6 +20,8 @@ PARAMS
 {
     uint capacity;
     uint rule; // TAUT_CONTACT_MIX_*
+    float blur;             // of a coordinate, relative: what is nearer than rounding touches
+    float up_x, up_y, up_z; // against gravity, of length 1
 };
 
 READ(0, ContactPair, pair);
@@ -48,6 +52,11 @@ real mixed(real m, real n)
     return real(0.5) * (m + n);
 }
 
+rvec3 sizes(rvec3 v)
+{
+    return rvec3(abs(v.x), abs(v.y), abs(v.z));
+}
+
 KERNEL(capacity)
 {
     if (i < control[TAUT_CONTACT_LISTED])
@@ -58,14 +67,26 @@ KERNEL(capacity)
         rvec3 c = rvec3(position[p.c]) - o;
         rvec3 d = rvec3(position[p.d]) - o;
         Closest now = closest_of(p.kind, b, c, d);
-        rvec3 across = p.kind == TAUT_CONTACT_EDGES ? cross(b, d - c) : cross(c - b, d - b);
-        rvec3 normal = now.squared > real(0) ? now.way : across; // they touch: the side is as good as any
-        real size = length(normal);
-        normal = size > real(0) ? normal / size : rvec3(real(0), real(1), real(0));
+        rvec3 one = p.kind == TAUT_CONTACT_EDGES ? b : c - b;
+        rvec3 other = p.kind == TAUT_CONTACT_EDGES ? d - c : d - b;
+        rvec3 across = cross(one, other);
         ContactBody first = body[uint(rest[p.a].w)];
         ContactBody second = body[uint(rest[p.d].w)];
+        rbool same = rest[p.a].w == rest[p.d].w;
+        // All pairs of two sheets that touch must agree, or they hold each other crossed.
+        rvec3 up = rvec3(real(up_x), real(up_y), real(up_z));
+        up = first.height < second.height ? -up : up;
+        real wide = length(across);
+        rbool spans = wide > REAL(1e-4) * length(one) * length(other); // else its direction is of rounding
+        rvec3 normal = spans ? across / wide : up;
+        normal = !same && dot(normal, up) < real(0) ? -normal : normal;
+        // Places are rounded along the normal, and were turned and moved, in double, on the way here.
+        rvec3 extent = sizes(o) + sizes(b) + sizes(c) + sizes(d);
+        real near = real(blur) * dot(sizes(normal), extent) + REAL(4e-15) * (extent.x + extent.y + extent.z);
+        if (now.squared > near * near)
+            normal = now.way / sqrt(now.squared);
         real gap = first.radius + second.radius;
-        if (rest[p.a].w == rest[p.d].w)
+        if (same)
         {
             o = rvec3(rest[p.a]);
             b = rvec3(rest[p.b]) - o;

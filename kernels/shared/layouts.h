@@ -166,6 +166,7 @@ LAYOUT_STRUCT(ContactBody)
     uint self;     // 1: it meets itself
     uint group;    // a bit
     uint meets;    // bits of the groups that it does not pass through
+    uint height;   // of two that touch, the higher is on top at first
 };
 
 /// Four corners of a vertex and a triangle, or of two edges, that come near each other in a step.

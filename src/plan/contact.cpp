@@ -83,6 +83,13 @@ void check_size(const PlanBuilder& b, std::size_t triangles)
                                           " of each can meet so far");
 }
 
+/// Against gravity, of length 1; y where there is none.
+glm::dvec3 upwards(const Scene& scene)
+{
+    const double size = glm::length(scene.gravity);
+    return size > 0 ? -scene.gravity / size : glm::dvec3(0, 1, 0);
+}
+
 /// What the plan knows of triangles, vertices and bodies.
 template <typename Real>
 void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLeaf>& leaves)
@@ -98,11 +105,16 @@ void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLe
     {
         const Body& body = b.scene.bodies[k];
         const GroupBits bits = group_bits(b.scene, body);
+        std::uint32_t height = 0; // of what is held whole
+        for (std::uint32_t v = 0; v < body.mesh.positions.size(); ++v)
+        {
+            rest[b.vertex(k, v)].w = static_cast<Real>(k);
+            if (b.inverse_mass[b.vertex(k, v)] > 0)
+                height = static_cast<std::uint32_t>(k) + 1;
+        }
         bodies.push_back({static_cast<Real>(radius_of(b.scene, body)),
                           static_cast<Real>(friction_of(b.scene, body)), body.contact.self, bits.group,
-                          bits.meets});
-        for (std::uint32_t v = 0; v < body.mesh.positions.size(); ++v)
-            rest[b.vertex(k, v)].w = static_cast<Real>(k);
+                          bits.meets, height});
     }
     c.triangle =
         b.add_buffer<layout::ContactTriangle<Real>>(kContactEffect, "triangles that meet", triangles);
@@ -281,7 +293,10 @@ void record_lists(PlanBuilder& b, const ContactBuffers& c)
                                                        .control = {c.control, 0},
                                                        .side = {c.side},
                                                        .corners = {c.corners, 4}};
-    gated(b, "", make, {c.capacity, friction_mix_of(b.scene)}, c.capacity, TAUT_CONTACT_GATE_PAIRS);
+    const glm::vec3 up(upwards(b.scene));
+    const float blur = b.plan.precision == Precision::float32 ? 0x1p-22f : 0x1p-51f;
+    gated(b, "", make, {c.capacity, friction_mix_of(b.scene), blur, up.x, up.y, up.z}, c.capacity,
+          TAUT_CONTACT_GATE_PAIRS);
     const kernels::contact_recall::Bindings<Use> recall = {.pair = {c.pair},
                                                            .control = {c.control, 0},
                                                            .start = {c.corner_start, 2},

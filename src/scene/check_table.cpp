@@ -20,19 +20,26 @@ bool stands_for_something(const Key& key, double value)
     return !optional && !key.word.empty() && value == key.word_value;
 }
 
+/// The word that may stand in place of a number.
+std::string or_word(const Key& key)
+{
+    return key.word.empty() ? "" : ", or \"" + std::string(key.word) + '"';
+}
+
 void check_number(const Key& key, std::string_view member, double value, const Checker& out)
 {
     if (stands_for_something(key, value) || !out.finite(member, value, key.unit_text, key.error))
         return;
     if (!key.limits.contains(value))
-        out.error(member, "is " + with_unit(value, key) + "; it must be " + limits_text(key), key.error);
+        out.error(member, "is " + with_unit(value, key) + "; it must be " + limits_text(key) + or_word(key),
+                  key.error);
 }
 
 void check_count(const Key& key, std::uint32_t value, const Checker& out)
 {
     if (stands_for_something(key, value) || key.limits.contains(value))
         return;
-    out.error(key.name, "is " + std::to_string(value) + "; it must be " + count_text(key));
+    out.error(key.name, "is " + std::to_string(value) + "; it must be " + count_text(key) + or_word(key));
 }
 
 /// Numbers of one key: each within its limits.

@@ -37,6 +37,7 @@ struct MeshFindings
     std::size_t welded_vertices = 0;
     std::size_t unused_vertices = 0;                              ///< dropped
     std::vector<std::uint32_t> degenerate_triangles;              ///< dropped; index in the file
+    std::vector<std::uint32_t> repeated_triangles;                ///< of an earlier one's corners; likewise
     std::vector<std::array<std::uint32_t, 2>> non_manifold_edges; ///< more than two triangles
     std::size_t boundary_edges = 0;
     std::size_t turned_tetrahedra = 0; ///< left-handed in the file

@@ -50,10 +50,13 @@ void throw_if_any(const std::vector<SceneIssue>& issues, std::vector<SceneIssue>
 void warn_of(const MeshFindings& findings, bool solid, const Checker& out, const char* field = "mesh")
 {
     const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + ' ' + what; };
-    if (!findings.degenerate_triangles.empty())
-        out.warning(field, "had " + count(findings.degenerate_triangles.size(), "triangles without area, ") +
-                               "dropped; the first is number " +
-                               std::to_string(findings.degenerate_triangles.front()) + " of the file");
+    const auto dropped = [&](const std::vector<std::uint32_t>& which, const char* what) {
+        if (!which.empty())
+            out.warning(field, "had " + count(which.size(), what) + ", dropped; the first is number " +
+                                   std::to_string(which.front()) + " of the file");
+    };
+    dropped(findings.degenerate_triangles, "triangles without area");
+    dropped(findings.repeated_triangles, "triangles of the same corners as an earlier one");
     if (findings.unused_vertices > 0)
         out.warning(field, "had " + count(findings.unused_vertices, "vertices of no ") +
                                (solid ? "tetrahedron" : "triangle") + ", dropped");

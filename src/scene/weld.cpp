@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace taut::scene_file {
 
@@ -86,6 +87,23 @@ void count_edges(const Mesh& mesh, MeshFindings& findings)
     }
 }
 
+struct TripleHash
+{
+    std::size_t operator()(const std::array<std::uint32_t, 3>& t) const
+    {
+        return CellHash{}({static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])});
+    }
+};
+
+/// Triangles by their corners in ascending order, whichever way round they are.
+using Triples = std::unordered_set<std::array<std::uint32_t, 3>, TripleHash>;
+
+bool is_new(Triples& known, std::array<std::uint32_t, 3> corners)
+{
+    std::sort(corners.begin(), corners.end());
+    return known.insert(corners).second;
+}
+
 /// A repeated corner, or corners so nearly on a line that rounding leaves no area.
 bool is_degenerate(const std::array<std::uint32_t, 3>& t, std::span<const glm::dvec3> p)
 {
@@ -136,6 +154,8 @@ Mesh clean(const RawMesh& raw, double weld_distance, MeshFindings& findings, std
         findings.welded_vertices += target[v] != v;
 
     Mesh mesh;
+    Triples known;
+    known.reserve(raw.triangles.size());
     std::vector<bool> used(raw.positions.size(), false);
     for (std::uint32_t t = 0; t < raw.triangles.size(); ++t)
     {
@@ -145,6 +165,11 @@ Mesh clean(const RawMesh& raw, double weld_distance, MeshFindings& findings, std
         if (is_degenerate(triangle, raw.positions))
         {
             findings.degenerate_triangles.push_back(t);
+            continue;
+        }
+        if (!is_new(known, triangle)) // its mass and its pushes would count twice
+        {
+            findings.repeated_triangles.push_back(t);
             continue;
         }
         for (const std::uint32_t corner : triangle)

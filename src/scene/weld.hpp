@@ -10,8 +10,8 @@ namespace taut::scene_file {
 /// coordinates; > 0: the first kept position within `distance`; < 0: nothing is welded.
 std::vector<std::uint32_t> weld_targets(std::span<const glm::dvec3> positions, double distance);
 
-/// Welds, drops triangles without area and vertices without triangle, and counts. Keeps file order. `kept`:
-/// the vertex of the file that each vertex of the mesh is.
+/// Welds, drops triangles without area, those that stand twice and vertices without triangle, and counts.
+/// Keeps file order. `kept`: the vertex of the file that each vertex of the mesh is.
 Mesh clean(const RawMesh& raw, double weld_distance, MeshFindings& findings,
            std::vector<std::uint32_t>* kept = nullptr);
 

@@ -47,7 +47,7 @@ TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction
             {"side", bytes_of(std::vector<Real>((count + 3) * sizeof(Side) / sizeof(Real), Real(3)))},
             {"corners", bytes_of(std::vector<std::uint32_t>(net.position.size(), 0))}};
     c.launches = {make_launch(kernels::contact_make::info("", c.precision),
-                              kernels::contact_make::Params{count + 3, rule}, count + 3)};
+                              kernels::contact_make::Params{count + 3, rule, 1e-7f, 0, 1, 0}, count + 3)};
     std::vector<std::uint32_t> corners(net.position.size(), 0);
     Field& field = c.expected["side"];
     std::size_t thin = 0;
@@ -80,32 +80,51 @@ TEMPLATE_TEST_CASE("contact_make gives a pair its side, its gap and its friction
     look_on_every_device(c, [&](const Buffers& out) { CHECK(words_of(out, "corners") == corners); });
 }
 
-TEST_CASE("contact_make takes any side of what touches, and never one that is no number")
+TEST_CASE("contact_make puts the higher of two that touch on top, and takes no side that is no number")
 {
     using Vec = glm::vec<4, float>;
-    const std::vector<Vec> position = {
-        {0.25f, 0, 0.25f, 1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}};
+    const bool higher = GENERATE(true, false);
+    const float up = GENERATE(1.0f, -1.0f), level = GENERATE(0.0f, 3.0f);
+    CAPTURE(higher, up, level);
+    std::vector<Vec> position = {{0.25f, 0, 0.25f, 1}, {0, 0, 0, 1},
+                                 {1, 0, 0, 1},         {0, 0, 1, 1},
+                                 {0, 0, 0, 1},         {0.25f, 1e-17f, 0.25f, 1},
+                                 {0.25f, 0, 0.25f, 1}, {0.25f, -1e-5f, 0.25f, 1}};
+    for (Vec& x : position)
+        x.y += level;
+    position[6].y = std::nextafter(position[6].y, 9.0f); // as rounding leaves it
+    // Vertices in the triangle, one on a triangle without area, edges on top of each other; and a vertex
+    // that is below.
+    const std::vector<layout::ContactPair<float>> pairs = {
+        {0, 1, 2, 3, TAUT_CONTACT_VERTEX}, {0, 2, 1, 3, TAUT_CONTACT_VERTEX},
+        {5, 1, 2, 3, TAUT_CONTACT_VERTEX}, {6, 1, 2, 3, TAUT_CONTACT_VERTEX},
+        {4, 1, 1, 1, TAUT_CONTACT_VERTEX}, {4, 2, 1, 2, TAUT_CONTACT_EDGES},
+        {7, 1, 2, 3, TAUT_CONTACT_VERTEX}};
+    const std::uint32_t count = static_cast<std::uint32_t>(pairs.size());
     std::vector<Vec> rest = position;
-    for (Vec& r : rest)
-        r.w = 0;
-    // A vertex in the triangle, one on a triangle without area, and edges on top of each other.
-    const std::vector<layout::ContactPair<float>> pairs = {{0, 1, 2, 3, TAUT_CONTACT_VERTEX},
-                                                           {4, 1, 1, 1, TAUT_CONTACT_VERTEX},
-                                                           {1, 2, 4, 2, TAUT_CONTACT_EDGES}};
+    for (std::size_t v = 0; v < rest.size(); ++v)
+        rest[v].w = v == 0 || v >= 4 ? 0 : 1; // the first of each pair is of the first body
+    const std::vector<layout::ContactBody<float>> body = {{0.01f, 0, 1, 1, ~0u, higher ? 2u : 0u},
+                                                          {0.01f, 0, 1, 1, ~0u, 1}};
     Case c;
     c.in = {{"pair", bytes_of(pairs)},
             {"position", bytes_of(position)},
             {"rest", bytes_of(rest)},
-            {"body", bytes_of(std::vector<layout::ContactBody<float>>{{0.01f, 0, 1, 1, ~0u}})},
-            {"control", bytes_of(control_of(3))},
-            {"side", bytes_of(std::vector<layout::ContactSide<float>>(3))},
-            {"corners", bytes_of(std::vector<std::uint32_t>(5, 0))}};
+            {"body", bytes_of(body)},
+            {"control", bytes_of(control_of(count))},
+            {"side", bytes_of(std::vector<layout::ContactSide<float>>(count))},
+            {"corners", bytes_of(std::vector<std::uint32_t>(position.size(), 0))}};
     c.launches = {make_launch(kernels::contact_make::info("", Precision::float32),
-                              kernels::contact_make::Params{3, TAUT_CONTACT_MIX_MEAN}, 3)};
+                              kernels::contact_make::Params{count, TAUT_CONTACT_MIX_MEAN, 0x1p-22f, 0, up, 0},
+                              count)};
     look_on_every_device(c, [&](const Buffers& out) {
         const auto sides = values_of<layout::ContactSide<float>>(out.at("side"));
-        CHECK(std::abs(sides[0].normal_y) == 1);
-        for (const auto& s : sides)
-            CHECK(s.normal_x * s.normal_x + s.normal_y * s.normal_y + s.normal_z * s.normal_z == 1);
+        for (std::uint32_t k = 0; k < count; ++k)
+        {
+            CAPTURE(k);
+            CHECK(std::abs(sides[k].normal_x) < 1e-6f);
+            CHECK(sides[k].normal_y == (k + 1 == count ? -1 : higher ? up : -up));
+            CHECK(std::abs(sides[k].normal_z) < 1e-6f);
+        }
     });
 }

@@ -234,7 +234,7 @@ namespace {
 ContactNet<float> sheet(bool folded, std::uint32_t patch)
 {
     ContactNet<float> net;
-    net.body = {{0.01f, 0.2f, 1, 1, ~0u}};
+    net.body = {{0.01f, 0.2f, 1, 1, ~0u, 1}};
     for (std::uint32_t i = 0; i <= 8; ++i)
         for (std::uint32_t j = 0; j <= 4; ++j)
         {

@@ -23,8 +23,8 @@ TEMPLATE_TEST_CASE("guarantee_anchor bounds vertices by their forecast, and hold
     std::vector<Vec> rest;
     for (std::uint32_t v = 0; v < count + 2; ++v)
         rest.push_back(random.vec4<Real>(1, Real(random.below(2))));
-    const std::vector<layout::ContactBody<Real>> body = {{Real(0.01), Real(0), 1, 1, 1},
-                                                            {Real(0.03), Real(0), 1, 1, 1}};
+    const std::vector<layout::ContactBody<Real>> body = {{Real(0.01), Real(0), 1, 1, 1, 1},
+                                                         {Real(0.03), Real(0), 1, 1, 1, 2}};
     std::vector<std::uint32_t> start(count + 1, 0); // of corners of pairs
     for (std::uint32_t v = 0; v < count; ++v)
         start[v + 1] = start[v] + TAUT_CONTACT_CROWD + (v % 10 == 5 ? 1 : 0);

@@ -52,9 +52,9 @@ template <typename Real>
 ContactNet<Real> contact_net(std::uint32_t triangles, Random& random, double motion)
 {
     ContactNet<Real> net;
-    net.body = {{Real(0.01), Real(0.2), 1, 1, ~0u},
-                {Real(0.02), Real(0.6), 0, 2, ~0u},
-                {Real(0.015), Real(0), 1, 4, ~0u}};
+    net.body = {{Real(0.01), Real(0.2), 1, 1, ~0u, 1},
+                {Real(0.02), Real(0.6), 0, 2, ~0u, 2},
+                {Real(0.015), Real(0), 1, 4, ~0u, 0}};
     const double room = 0.12 * std::cbrt(static_cast<double>(triangles));
     glm::dvec3 at(0);
     for (std::uint32_t t = 0; t < triangles; ++t)

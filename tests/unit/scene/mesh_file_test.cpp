@@ -154,6 +154,19 @@ TEST_CASE("triangles without area are dropped and numbered as in the file")
     CHECK(mesh.positions.size() == 3);
 }
 
+TEST_CASE("triangles that stand twice, either way round, are dropped and numbered as in the file")
+{
+    MeshFindings findings;
+    const Mesh mesh = parse(".obj",
+                            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 1 0\n"
+                            "f 1 2 3\nf 2 4 3\nf 2 3 1\nf 3 2 1\nf 5 2 4\n",
+                            0, &findings);
+    CHECK(mesh.triangles.size() == 2);
+    CHECK(findings.repeated_triangles == std::vector<std::uint32_t>{2, 3, 4}); // the last after welding
+    CHECK(findings.non_manifold_edges.empty());
+    CHECK(findings.boundary_edges == 4);
+}
+
 TEST_CASE("degenerate or not does not depend on the unit of length")
 {
     for (const double unit : {1e-25, 1.0, 1e25})

@@ -226,22 +226,24 @@ TEST_CASE("a scene without bodies resolves") { CHECK(resolve(Scene{}).bodies.emp
 TEST_CASE("a mesh file is found beside the scene, checked and reported")
 {
     const Temporary folder;
-    folder.write("m.obj",
-                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 0 0 0\nf 1 2 3\nf 1 1 2\nf 5 3 2\nf 2 3 1\n");
+    folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 0 0 0\nv 0 0 1\nv 0 0 -1\n"
+                          "f 1 2 3\nf 1 1 2\nf 5 6 2\nf 2 7 1\nf 2 3 1\n");
     const std::string head = R"({"taut": 1, "bodies": [{"mesh": "m.obj")";
     std::vector<SceneIssue> warnings;
     const Scene scene = resolve(load_scene(folder.write("s.json", head + "}]}")), &warnings);
-    CHECK(scene.bodies[0].mesh.positions.size() == 3);
+    CHECK(scene.bodies[0].mesh.positions.size() == 5);
     CHECK(scene.bodies[0].mesh.triangles.size() == 3);
-    REQUIRE(warnings.size() == 3);
+    REQUIRE(warnings.size() == 4);
     CHECK_THAT(warnings[0].text, Contains("1 triangles without area") && Contains("number 1 of the file"));
-    CHECK_THAT(warnings[1].text, Contains("1 vertices of no triangle"));
-    CHECK_THAT(warnings[2].text,
-               Contains("3 edges of more than two triangles") && Contains("joins vertices 0 and 1"));
+    CHECK_THAT(warnings[1].text, Contains("1 triangles of the same corners as an earlier one") &&
+                                     Contains("number 4 of the file"));
+    CHECK_THAT(warnings[2].text, Contains("1 vertices of no triangle"));
+    CHECK_THAT(warnings[3].text,
+               Contains("1 edges of more than two triangles") && Contains("joins vertices 0 and 1"));
     // Indices can be checked only now.
     CHECK_THROWS_WITH(
-        resolve(load_scene(folder.write("s.json", head + R"(, "pins": [{"vertices": [3]}]}]})"))),
-        Contains("bodies[0].pins[0].vertices[0] is 3; the body has 3 vertices"));
+        resolve(load_scene(folder.write("s.json", head + R"(, "pins": [{"vertices": [5]}]}]})"))),
+        Contains("bodies[0].pins[0].vertices[0] is 5; the body has 5 vertices"));
 }
 
 TEST_CASE("a missing mesh file is an io error that names the resolved path")
