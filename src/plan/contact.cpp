@@ -83,13 +83,6 @@ void check_size(const PlanBuilder& b, std::size_t triangles)
                                           " of each can meet so far");
 }
 
-/// Against gravity, of length 1; y where there is none.
-glm::dvec3 upwards(const Scene& scene)
-{
-    const double size = glm::length(scene.gravity);
-    return size > 0 ? -scene.gravity / size : glm::dvec3(0, 1, 0);
-}
-
 /// What the plan knows of triangles, vertices and bodies.
 template <typename Real>
 void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLeaf>& leaves)
@@ -105,16 +98,11 @@ void add_surfaces(PlanBuilder& b, ContactBuffers& c, const std::vector<ContactLe
     {
         const Body& body = b.scene.bodies[k];
         const GroupBits bits = group_bits(b.scene, body);
-        std::uint32_t height = 0; // of what is held whole
         for (std::uint32_t v = 0; v < body.mesh.positions.size(); ++v)
-        {
             rest[b.vertex(k, v)].w = static_cast<Real>(k);
-            if (b.inverse_mass[b.vertex(k, v)] > 0)
-                height = static_cast<std::uint32_t>(k) + 1;
-        }
         bodies.push_back({static_cast<Real>(radius_of(b.scene, body)),
                           static_cast<Real>(friction_of(b.scene, body)), body.contact.self, bits.group,
-                          bits.meets, height});
+                          bits.meets, touching_height(b.scene, k)});
     }
     c.triangle =
         b.add_buffer<layout::ContactTriangle<Real>>(kContactEffect, "triangles that meet", triangles);

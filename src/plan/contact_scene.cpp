@@ -6,6 +6,8 @@
 #include "taut/runtime/base/shown.hpp"
 #include "taut/scene/pose.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -118,6 +120,23 @@ std::vector<std::size_t> meeting_parts(const Scene& scene)
             if (part[a] != part[b] && surfaces_meet(scene, a, b))
                 std::replace(part.begin(), part.end(), part[b], part[a]);
     return part;
+}
+
+std::uint32_t touching_height(const Scene& scene, std::size_t b)
+{
+    const Body& body = scene.bodies[b];
+    std::vector<bool> held(body.mesh.positions.size(), body.kinematic.used);
+    for (const Pin& pin : body.pins)
+        for (const std::uint32_t v : pin.vertices)
+            held[v] = true;
+    const bool moves = std::find(held.begin(), held.end(), false) != held.end();
+    return moves ? static_cast<std::uint32_t>(b) + 1 : 0;
+}
+
+glm::dvec3 upwards(const Scene& scene)
+{
+    const double size = glm::length(scene.gravity);
+    return size > 0 ? -scene.gravity / size : glm::dvec3(0, 1, 0);
 }
 
 bool wants_contact(const Scene& scene)

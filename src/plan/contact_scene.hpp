@@ -35,6 +35,12 @@ bool takes_part(const Scene& resolved, const Body& body);
 bool surfaces_meet(const Scene& resolved, std::size_t a, std::size_t b);
 /// Of bodies that meet, directly or by others: which of them one number stands for.
 std::vector<std::size_t> meeting_parts(const Scene& resolved);
+/// Of two bodies that touch exactly, the one of more is on top: 0 of what is held whole, else a number that
+/// grows from body to body.
+std::uint32_t touching_height(const Scene& resolved, std::size_t body);
+/// Against gravity, of length 1; y where there is none.
+glm::dvec3 upwards(const Scene& scene);
+
 /// Whether the surface of any body meets itself or another one.
 bool wants_contact(const Scene& resolved);
 

@@ -1,5 +1,6 @@
 #include "taut/world/separate_start.hpp"
 
+#include "taut/plan/contact_scene.hpp"
 #include "taut/runtime/base/error.hpp"
 #include "taut/world/crossed_start.hpp"
 #include "taut/world/start_moves.hpp"
@@ -50,6 +51,29 @@ void put_starts(Scene& scene, const std::vector<glm::dvec3>& before, const std::
     }
 }
 
+/// Raises vertices of bodies that touch others exactly by a share of the gap that rounding cannot undo, or
+/// their sides would be chance: what is the higher goes up, and what lies on it further.
+void raise_touching(const Scene& scene, const StartSurfaces& surfaces, std::vector<glm::dvec3>& x)
+{
+    constexpr double share = 1e-6;
+    std::vector<std::vector<std::pair<std::size_t, double>>> below(scene.bodies.size()); // with the gap, m
+    for (const NearPair& pair : surfaces.touching(x))
+    {
+        std::size_t a = surfaces.body_of(pair.corner[0]), b = surfaces.body_of(pair.corner[3]);
+        if (touching_height(scene, a) > touching_height(scene, b))
+            std::swap(a, b);
+        below[b].emplace_back(a, pair.gap);
+    }
+    std::vector<double> up(scene.bodies.size(), 0); // m
+    for (std::size_t b = 0; b < up.size(); ++b)     // those held whole stay, the others from low to high
+        for (const auto& [a, gap] : below[b])
+            up[b] = std::max(up[b], up[a] + share * gap);
+    const std::vector<double> w = inverse_masses(scene);
+    for (std::uint32_t v = 0; v < x.size(); ++v)
+        if (w[v] > 0)
+            x[v] += up[surfaces.body_of(v)] * upwards(scene);
+}
+
 /// What make_plan() would refuse is refused before anything is looked at.
 void check_values(const Scene& resolved)
 {
@@ -71,6 +95,7 @@ SeparatedStart separate_start(const Scene& resolved)
     out.near = surfaces.near(x).size();
     if (out.crossed.empty() && out.near == 0)
         return out;
+    raise_touching(resolved, surfaces, x);
     std::vector<double> w = inverse_masses(resolved);
     std::vector<StartLength> lengths = start_lengths(resolved, surfaces);
     const bool rigid = part_whole(surfaces, w, lengths, x);

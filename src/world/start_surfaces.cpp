@@ -34,6 +34,9 @@ bool within(const judging::NearestOfSegments& n)
     return n.along_p > 0 && n.along_p < 1 && n.along_q > 0 && n.along_q < 1;
 }
 
+/// Relative to coordinates: what turning and moving a body in double leaves.
+constexpr double kRounding = 1e-14;
+
 /// With the normal, which is that of the way between the nearest points.
 NearPair finished(NearPair pair, const std::vector<glm::dvec3>& x)
 {
@@ -95,6 +98,26 @@ std::vector<judging::CrossingEdge> StartSurfaces::crossings(const std::vector<gl
 
 std::vector<NearPair> StartSurfaces::near(const std::vector<glm::dvec3>& places) const
 {
+    std::vector<NearPair> out = within_gap(places);
+    std::erase_if(out, [](const NearPair& pair) { return pair.distance == 0; });
+    return out;
+}
+
+std::vector<NearPair> StartSurfaces::touching(const std::vector<glm::dvec3>& places) const
+{
+    std::vector<NearPair> out = within_gap(places);
+    std::erase_if(out, [&](const NearPair& pair) {
+        const std::array<std::uint32_t, 4>& corner = pair.corner;
+        double extent = 0; // m
+        for (const std::uint32_t v : corner)
+            extent = std::max(extent, glm::length(places[v]));
+        return pair.distance > kRounding * extent || body_[corner[0]] == body_[corner[3]];
+    });
+    return out;
+}
+
+std::vector<NearPair> StartSurfaces::within_gap(const std::vector<glm::dvec3>& places) const
+{
     std::vector<NearPair> out;
     if (surface_.triangles.empty())
         return out;
@@ -129,7 +152,7 @@ void StartSurfaces::near_triangles(const std::vector<glm::dvec3>& x, std::vector
                 gap = std::min(
                     gap, kOfRest * judging::nearest_of_triangle(rest_[v], corners_of(c, rest_)).distance);
             const std::array<std::uint32_t, 4> corner{v, c[0], c[1], c[2]};
-            if (now.distance > 0 && now.distance < gap && !held(corner))
+            if (now.distance < gap && !held(corner))
                 out.push_back(finished({.corner = corner,
                                         .weight = {1, -now.shares[0], -now.shares[1], -now.shares[2]},
                                         .distance = now.distance,
@@ -166,7 +189,7 @@ void StartSurfaces::near_edges(const std::vector<glm::dvec3>& x, std::vector<Nea
             if (now.distance < gap && body_[own[0]] == body_[other[0]])
                 gap = std::min(gap, kOfRest * nearest(own, other, rest_).distance);
             const std::array<std::uint32_t, 4> corner{own[0], own[1], other[0], other[1]};
-            if (now.distance > 0 && now.distance < gap && within(now) && !held(corner))
+            if (now.distance < gap && within(now) && !held(corner))
                 out.push_back(
                     finished({.corner = corner,
                               .weight = {1 - now.along_p, now.along_p, now.along_q - 1, -now.along_q},

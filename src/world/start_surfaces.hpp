@@ -39,6 +39,9 @@ public:
     /// between them at rest) of which a corner can move; those that touch are crossings and none of these.
     std::vector<NearPair> near(const std::vector<glm::dvec3>& places) const;
 
+    /// Pairs of two bodies that touch as exactly as rounding tells, of which a corner can move.
+    std::vector<NearPair> touching(const std::vector<glm::dvec3>& places) const;
+
     /// "12 pairs of triangles, the first triangle 3 of bodies[0] and triangle 5 of bodies[1] ("cloth")";
     /// empty where nothing crosses.
     std::string crossed(const std::vector<glm::dvec3>& places) const;
@@ -47,6 +50,8 @@ private:
     bool meets(std::uint32_t a, std::uint32_t b) const { return meet_[body_[a]][body_[b]]; }
     double gap_of(std::uint32_t a, std::uint32_t b) const { return radius_[body_[a]] + radius_[body_[b]]; }
     bool held(const std::array<std::uint32_t, 4>& corner) const;
+    /// Those of near(), and those that touch, whose normal is 0.
+    std::vector<NearPair> within_gap(const std::vector<glm::dvec3>& places) const;
     void near_triangles(const std::vector<glm::dvec3>& places, std::vector<NearPair>& out) const;
     void near_edges(const std::vector<glm::dvec3>& places, std::vector<NearPair>& out) const;
     std::string name_of(std::uint32_t triangle) const;

@@ -54,6 +54,37 @@ TEST_CASE("a sheet that stands in another one, a tenth of it through, is taken o
     CHECK(run.judge.look(run.before).intersecting > 0);
 }
 
+TEST_CASE("sheets that touch but for rounding are taken apart with the later one on top, and what moves on "
+          "what is held")
+{
+    const bool held = GENERATE(false, true), held_first = GENERATE(false, true);
+    const double turn = GENERATE(-90.0, 90.0, -63.0), shift = GENERATE(0.0, 0.007);
+    CAPTURE(held, held_first, turn, shift);
+    Scene scene = two_sheets(0);
+    scene.bodies[1].transform.translate.z = shift;
+    for (Body& body : scene.bodies)
+    {
+        body.transform.rotate_degrees = turn;
+        if (std::abs(turn) != 90) // in one plane
+            body.transform.translate = {body.transform.translate.x + 0.3, 1, 2};
+    }
+    if (held)
+        scene.bodies[held_first ? 0 : 1].kinematic.used = true;
+    scene.contact.start = ContactStart::separate;
+    scene.gravity = {0, -9.81, 0};
+    const Scene parted = separate_start(resolve(scene)).scene;
+    const auto height = [&](std::size_t b) {
+        double sum = 0;
+        const std::vector<glm::dvec3> x = start_of(parted.bodies[b]);
+        for (const glm::dvec3& place : x)
+            sum += place.y;
+        return sum / static_cast<double>(x.size());
+    };
+    const double least = 0.9 * kGap * std::abs(std::sin(glm::radians(turn)));
+    const std::size_t low = held && !held_first ? 1 : 0;
+    CHECK(height(1 - low) > height(low) + least);
+}
+
 TEST_CASE("a ball that is sunk into a sheet is taken out of it, so that the curve where they cross closes up")
 {
     const Scene scene = suite("49_sunk_ball");
