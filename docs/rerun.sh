@@ -41,6 +41,10 @@ figure()
     sh "$scratch/docs/$1/update.sh" "$program" "$2" > "$scratch/log" 2>&1 || { cat "$scratch/log" >&2; exit 1; }
     holds "docs/$1/$2.csv" "$scratch/docs/$1/$2.csv"
 }
+# The scene of docs/results/gpu.md as it is shipped.
+"$program" plan examples/scenes/drape.json | grep '^a step: 4321 dispatches' > "$scratch/log" ||
+    { echo "docs/results/gpu.md: examples/scenes/drape.json has another number of dispatches" >&2; bad=1; }
+
 figure cloth methods
 figure solids methods
 exit $bad

@@ -23,5 +23,8 @@ contains README.md head.md
 contains solids.md head_solids.md
 contains solids.md words_solids.md
 contains effects.md head_effects.md
+awk -f ../table.awk -f ../claims.awk effects.csv > "$scratch/tables"
+grep '^|' effects.md | sed 2d | diff "$scratch/tables" - >&2 ||
+    { echo "effects.md: its table is not effects.csv" >&2; exit 1; }
 cat head.md head_solids.md words_solids.md head_effects.md > "$scratch/hand-written.md"
 awk -v whole=1 -f claims.awk -f ../claims.awk "$scratch/hand-written.md" *_cost.csv
